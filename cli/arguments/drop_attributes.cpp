@@ -5,16 +5,25 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "engine/base/counted.h"
 #include "surface/edit/drop_attributes.h"
 #include "surface/edit/normals.h"
+#include "surface/model/labels.h"
 
 namespace arete {
 namespace {
 
 bool areSeveral(const std::vector<std::uint32_t>& parts) {
   return std::ranges::any_of(parts, [&](std::uint32_t part) { return part != parts.front(); });
+}
+
+bool hasSeveralValues(const Attribute& attribute) {
+  const std::size_t size = attribute.elementBytes();
+  for (std::size_t i = size; i + size <= attribute.values.size(); i += size)
+    if (std::memcmp(&attribute.values[i], attribute.values.data(), size) != 0) return true;
+  return false;
 }
 
 }  // namespace
@@ -41,6 +50,11 @@ std::string seamsOf(const SurfaceMesh& mesh) {
     sentences.push_back(fmt::format("\"{}\" differs at {}", seam.name, grouped(seam.edges, "edge", "edges")));
     names.push_back(seam.name);
   }
+  for (const Attribute& attribute : mesh.triangleAttributes)
+    if (isLabel(attribute) && hasSeveralValues(attribute)) {
+      sentences.push_back(fmt::format("\"{}\" differs from face to face", attribute.name));
+      names.push_back(attribute.name);
+    }
   for (const auto& [of, name] :
        {std::pair{&mesh.objectOf, kObjectsName}, std::pair{&mesh.materialOf, kMaterialsName}})
     if (areSeveral(*of)) {

@@ -44,6 +44,13 @@ void warnOf(const ConvertedMesh& converted, const std::string& input, std::strin
     session.warn(fmt::format("{} cannot hold {}", format, fmt::join(converted.lost, ", or ")));
 }
 
+std::string doublesText(double movedByFloats) {
+  return fmt::format(
+      "  doubles    coordinates take twice the bytes of the source's floats, which would move them by up to "
+      "{:.2g}\n",
+      movedByFloats);
+}
+
 std::string writtenText(const std::string& output, const ConvertedMesh& converted) {
   std::string text =
       fmt::format("{}: {}, {}\n", output, grouped(converted.triangles, "triangle", "triangles"),
@@ -52,6 +59,7 @@ std::string writtenText(const std::string& output, const ConvertedMesh& converte
     text += fmt::format("  {} joined at reading\n",
                         grouped(converted.joinedVertices, "vertex at the position of another was",
                                 "vertices at the positions of others were"));
+  if (converted.movedByFloats > 0) text += doublesText(converted.movedByFloats);
   for (const std::filesystem::path& file : converted.filesBeside)
     text += fmt::format("  beside it: {}\n", file.string());
   return text;
@@ -70,6 +78,8 @@ Json writtenJson(const std::string& input, const std::string& output, std::strin
           {"joinedVertices", converted.joinedVertices},
           {"crs", crsName(converted.crsWkt)},
           {"verticalUnit", converted.verticalUnit},
+
+          {"movedByFloats", converted.movedByFloats},
           {"rounding", {r.x, r.y, r.z}},
           {"lost", converted.lost},
           {"filesBeside", std::move(beside)}};

@@ -26,6 +26,7 @@ void warnOf(const ConvertedMesh& converted, const std::string& input, std::strin
             const Session& session);
 
 /// The text of a mesh that was written: "part.obj: 12 triangles, 8 vertices", and the files beside it.
+std::string doublesText(double movedByFloats);
 std::string writtenText(const std::string& output, const ConvertedMesh& converted);
 
 /// What a command answers of a mesh that it wrote.

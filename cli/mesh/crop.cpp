@@ -60,16 +60,19 @@ Status runCrop(const CropArguments& arguments, Session& session) {
   if (!mesh) return tl::unexpected(mesh.error());
   Result<CroppedMesh> cropped = crop(mesh->mesh, *box, arguments.options, session.context());
   if (!cropped) return tl::unexpected(cropped.error());
+  const bool isOfFloats = movedByFloats(mesh->mesh) == 0;
   mesh->mesh = std::move(cropped->mesh);
   if (!mesh->triangleErrors.empty()) {
     std::vector<float> errors;
     for (const std::uint32_t t : cropped->triangleOf) errors.push_back(mesh->triangleErrors[t]);
     mesh->triangleErrors = std::move(errors);
   }
-  const Result<ConvertedMesh> converted = convertMesh(
-      std::move(*mesh), target->path,
-      {.format = arguments.output.format, .existing = arguments.existing, .placing = arguments.placing},
-      session.context());
+  const Result<ConvertedMesh> converted = convertMesh(std::move(*mesh), target->path,
+                                                      {.format = arguments.output.format,
+                                                       .existing = arguments.existing,
+                                                       .placing = arguments.placing,
+                                                       .isOfFloats = isOfFloats},
+                                                      session.context());
   if (!converted) return tl::unexpected(converted.error());
   warnOf(*converted, arguments.input, target->format.name, session);
   session.say(writtenText(target->path, *converted) +

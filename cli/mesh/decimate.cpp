@@ -84,6 +84,7 @@ struct Outcome {
   std::optional<double> maxError = {};  ///< the tolerance that was stated
   bool isComplete = true;               ///< false: the budget ended it before the tolerance was reached
   bool dropsFlatNormals = false;
+  std::string seams = {};  ///< seamsOf() where they keep most of the mesh from being smaller
 };
 
 Status checkArguments(const DecimateArguments& a) {
@@ -169,6 +170,8 @@ Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
     outcome.sourceCrossings = *ofSource;
   }
   outcome.isComplete = cut->isComplete;
+  if (2 * model->mt.rootTriangleCount() > model->mt.finestTriangleCount())
+    outcome.seams = seamsOf(finestSurfaceOf(*model).mesh);
   outcome.maxError = maxError;
   outcome.dropsFlatNormals = model->mending.dropsFlatNormals;
   return outcome;
@@ -237,6 +240,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
   if (file.mesh.triangles.empty())
     return failure(ErrorCode::invalidData, "has no faces to be decimated", arguments.input);
   const std::size_t facesBefore = file.mesh.triangles.size();
+  const bool isOfFloats = movedByFloats(file.mesh) == 0;
   if (Status dropped = dropNamed(file.mesh, arguments.dropAttributes); !dropped) return dropped;
 
   SmallComponents dropped;
@@ -278,10 +282,12 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
     result.warnings.emplace_back("normals of corners are left out: they are those of flat faces");
   for (const std::string& lost : outcome->lost)
     result.warnings.push_back(fmt::format("{} cannot carry {}: left out", arguments.method, lost));
-  const Result<ConvertedMesh> converted = convertMesh(
-      std::move(result), target->path,
-      {.format = arguments.output.format, .existing = arguments.existing, .placing = arguments.placing},
-      session.context());
+  const Result<ConvertedMesh> converted = convertMesh(std::move(result), target->path,
+                                                      {.format = arguments.output.format,
+                                                       .existing = arguments.existing,
+                                                       .placing = arguments.placing,
+                                                       .isOfFloats = isOfFloats},
+                                                      session.context());
   if (!converted) return tl::unexpected(converted.error());
   if (!converted->triangleOf.empty()) {
     std::vector<std::uint32_t> placeOf(converted->triangleOf.size());
@@ -306,6 +312,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
     text += fmt::format("  distance   no point of the source{} farther than {}\n",
                         dropped.components > 0 ? " but what is left out" : "",
                         withShare(outcome->fit->distance, diagonal));
+  if (outcome->seams.size() > 2) text += fmt::format("  seams      {}\n", outcome->seams.substr(2));
   if (hasBoth)
     text += fmt::format("  ended by   {}\n", outcome->isComplete ? "--max-error" : "--max-triangles");
   if (outcome->sourceCrossings)

@@ -191,6 +191,7 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
   if (!target) return tl::unexpected(target.error());
   Result<MeshInput> input = readMeshInput(arguments.input, session.context());
   if (!input) return tl::unexpected(input.error());
+  const bool isOfFloats = movedByFloats(input->file.mesh) == 0;
   session.warn(input->file.warnings, arguments.input);
   std::optional<Welded> welded;
   if (!arguments.weld.empty()) {
@@ -226,10 +227,12 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
                           .rounding = input->rounding},
                          session.context());
   if (!diagnosis) return tl::unexpected(diagnosis.error());
-  const Result<ConvertedMesh> converted = convertMesh(
-      std::move(input->file), target->path,
-      {.format = arguments.output.format, .existing = arguments.existing, .placing = arguments.placing},
-      session.context());
+  const Result<ConvertedMesh> converted = convertMesh(std::move(input->file), target->path,
+                                                      {.format = arguments.output.format,
+                                                       .existing = arguments.existing,
+                                                       .placing = arguments.placing,
+                                                       .isOfFloats = isOfFloats},
+                                                      session.context());
   if (!converted) return tl::unexpected(converted.error());
   warnOf(*converted, arguments.input, target->format.name, session);
   const MeshNumbers numbers{

@@ -41,7 +41,7 @@ void report(const SurfaceBuildArguments& arguments, std::uint64_t faces, std::ui
       grouped(model.levels, "level", "levels"));
   text += mendedText(model.mending, "  mended     ");
   // Seams that keep most of the surface from being coarser.
-  if (model.hasWedges() && 2 * mt.rootTriangleCount() > mt.finestTriangleCount())
+  if (2 * mt.rootTriangleCount() > mt.finestTriangleCount())
     if (const std::string seams = seamsOf(finestSurfaceOf(model).mesh); seams.size() > 2)
       text += fmt::format("  seams      {}\n", seams.substr(2));
   if (model.mending.dropsFlatNormals)

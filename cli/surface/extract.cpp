@@ -13,6 +13,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/drop_attributes.h"
+#include "cli/arguments/mesh_options.h"
 #include "cli/mesh/tolerance.h"
 #include "cli/surface/criterion.h"
 #include "engine/base/counted.h"
@@ -97,6 +98,14 @@ Status checkOutputs(const SurfaceExtractArguments& arguments, const std::vector<
   return {};
 }
 
+/// seamsOf() a model, whose build can leave attributes out.
+std::string seamsOfModel(const SurfaceModel& model) {
+  std::string seams = seamsOf(finestSurfaceOf(model).mesh);
+  if (const std::size_t option = seams.find("--drop-attributes"); option != std::string::npos)
+    seams.insert(option, "arete build with ");
+  return seams;
+}
+
 /// What keeps the root from having fewer triangles.
 std::string whyNotFewer(const SurfaceModel& model, const DroppedComponents* dropped,
                         const RunContext& context) {
@@ -123,11 +132,7 @@ std::string whyNotFewer(const SurfaceModel& model, const DroppedComponents* drop
     why += ", edges between materials or objects";
   for (const Attribute& attribute : model.attributes.triangleAttributes)
     if (isLabel(attribute)) why += fmt::format(", edges between values of {}", attribute.name);
-  // They were left out by the build, if at all.
-  std::string seams = seamsOf(finestSurfaceOf(model).mesh);
-  if (const std::size_t option = seams.find("--drop-attributes"); option != std::string::npos)
-    seams.insert(option, "arete build with ");
-  return why + seams;
+  return why + seamsOfModel(model);
 }
 
 /// @param criterion the engine's for what is asked
@@ -349,6 +354,10 @@ class Extraction {
       text +=
           "  lines      not bounded: an earlier version built the file, whose errors are distances to "
           "anything\n";
+    // They keep most of the surface from being coarser.
+    if (2 * model_.mt.rootTriangleCount() > model_.mt.finestTriangleCount())
+      if (const std::string seams = seamsOfModel(model_); seams.size() > 2)
+        text += fmt::format("  seams      {}\n", seams.substr(2));
     if (found.fit)
       text += fmt::format("  fit        RMS {:.4g} % of the diagonal instead of {:.4g} %{}\n",
                           100 * found.fit->rmsAfter / model_.diagonal,
@@ -370,6 +379,11 @@ class Extraction {
     if (found.crossings > 0)
       text += fmt::format("  crossings  {} of triangles; the source has {}\n",
                           grouped(found.crossings, "pair", "pairs"), grouped(*sourceCrossings_));
+    const Result<MeshFormat> format = meshFormatOf(request.output, arguments_.format);
+    const bool mayDouble =
+        format && format->extension == ".ply" && model_.up != "z" && model_.mt.vertices().places64.empty();
+    const double moved = mayDouble ? movedByFloats(front.mesh) : 0;
+    if (moved > 0) text += doublesText(moved);
     for (const fs::path& beside : written.filesBeside)
       text += fmt::format("  beside     {}\n", beside.string());
     if (!request.map.empty()) text += fmt::format("  map        {}\n", request.map);
@@ -384,6 +398,7 @@ class Extraction {
                  {"complete", cut.isComplete && found.leftByRounding == 0},
                  {"displaced", !found.fit && isDisplaced()},
                  {"selfIntersections", found.crossings},
+                 {"movedByFloats", moved},
                  {"lost", written.lost}};
     if (dropped_)
       json["dropped"] = {{"components", dropped_->count},

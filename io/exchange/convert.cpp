@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -67,12 +68,21 @@ std::vector<Vec3> usedPositions(const TriangleMesh& mesh) {
 
 }  // namespace
 
+double movedByFloats(const TriangleMesh& mesh) {
+  double farthest = 0;
+  for (const Vec3& p : mesh.positions)
+    for (const double number : {p.x, p.y, p.z})
+      farthest = std::max(farthest, std::abs(number - double{static_cast<float>(number)}));
+  return farthest;
+}
+
 Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& path,
                                   const ConvertOptions& options, const RunContext& context) {
   const Result<MeshFormat> format = meshFormatOf(path, options.format);
   if (!format) return tl::unexpected(format.error());
   ConvertedMesh converted;
   converted.warnings = std::move(mesh.warnings);
+  const bool ofFloats = options.isOfFloats ? *options.isOfFloats : movedByFloats(mesh.mesh) == 0;
   if (Status placed = place(mesh, options, *format); !placed) return tl::unexpected(placed.error());
   if (const Status ok = stateCrs(mesh, options.crs, converted.warnings); !ok)
     return tl::unexpected(ok.error());
@@ -107,6 +117,8 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   lose(format->holds.holdsCrs, !mesh.crsWkt.empty(), "the CRS");
   lose(format->holds.holdsVerticalUnit, !mesh.verticalUnit.empty(), "the unit of the heights");
   lose(format->holds.holdsErrors, !mesh.triangleErrors.empty(), "the error of each triangle");
+  if (ofFloats && format->extension == ".ply" && mesh.up != MeshUp::z)
+    converted.movedByFloats = movedByFloats(mesh.mesh);
   const Vec3& r = converted.frame.rounding;
   const bool wasExact = mesh.frame.rounding == Vec3{};
   // Of terrain, whose numbers were rounded before; any other mesh is what its file says.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct ConvertOptions {
   /// What happens to the other layers of a GeoPackage that exists.
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   MeshPlacing placing = {};  ///< what the file does not say of its axes and its unit
+  /// Whether the coordinates of the source are floats; empty: if those of the mesh are.
+  std::optional<bool> isOfFloats = {};
 };
 
 /// The result of a conversion.
@@ -31,7 +34,13 @@ struct ConvertedMesh {
   std::uint64_t joinedVertices = 0;                ///< MeshFile::joinedVertices
   std::vector<std::uint32_t> triangleOf;           ///< trianglesOfFile()
   std::vector<std::string> warnings;
+  /// Of a PLY with doubles of a source with floats, which so takes twice the bytes for its coordinates: how
+  /// far floats would have moved one; otherwise 0.
+  double movedByFloats = 0;
 };
+
+/// How far the farthest coordinate of a mesh lies from the nearest float of 32 bits. O(vertices).
+double movedByFloats(const TriangleMesh& mesh);
 
 /// Writes a mesh in the format that options.format or the extension of `path` names, with its CRS, unit and
 /// errors as far as the format can hold them. A mesh is turned and scaled only where options.placing says so

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cli/mesh_fixture.h"
 #include "io/dem/raster_reader.h"
@@ -160,6 +161,84 @@ TEST_F(Percent, OfTheDiagonalAndOfTheFinestIsAnsweredForSurfaces) {
   EXPECT_NEAR(near["maxErrorPercent"].get<double>(), 2, 1e-9);
   EXPECT_NEAR(near["maxError"].get<double>(), near["diagonal"].get<double>() / 50, 1e-9 * diagonal);
   EXPECT_NEAR(near["errorPercent"].get<double>(), 100 * near["error"].get<double>() / diagonal, 1e-6);
+}
+
+TEST_F(Percent, AreNotReachedWhereEveryFaceHasALabelOfItsOwnAndTheAttributeIsNamed) {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 100\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face 162\nproperty list uchar int vertex_indices\nproperty int id\nend_header\n";
+  for (int i = 0; i < 100; ++i) text += fmt::format("{} {} {}\n", i / 10, i % 10, i * 7 % 5);
+  int id = 0;
+  for (int i = 0; i < 90; ++i)
+    if (i % 10 < 9) {
+      text += fmt::format("3 {} {} {} {}\n", i, i + 10, i + 11, id++);
+      text += fmt::format("3 {} {} {} {}\n", i, i + 11, i + 1, id++);
+    }
+  write("ids.ply", text);
+  const std::string named = "\"id\" differs from face to face: ",
+                    option = "--drop-attributes id leaves it out";
+  for (const char* method : {"measured", "qem", "lindstrom-turk", "half-edge", "face"}) {
+    const Outcome outcome =
+        run({"mesh", "decimate", "ids.ply", "-o", "d.ply", "--max-triangles", "50", "--operator", method});
+    EXPECT_EQ(outcome.code, 2) << method;
+    EXPECT_TRUE(says(outcome, named + option)) << method << ": " << outcome.err;
+  }
+  EXPECT_TRUE(says(run({"mesh", "decimate", "ids.ply", "-o", "d.ply", "--max-error", "5%"}), named + option));
+  EXPECT_TRUE(says(run({"build", "ids.ply", "-o", "ids.amt"}), named + option));
+  for (const auto& [limit, value] : {std::pair{"--max-error", "5%"}, {"--max-triangles", "50"}})
+    EXPECT_TRUE(
+        says(run({"extract", "ids.amt", "-o", "e.ply", limit, value}), named + "arete build with " + option))
+        << limit;
+  const Outcome without = run({"build", "ids.ply", "-o", "none.amt", "--drop-attributes", "id"});
+  EXPECT_FALSE(says(without, "differs from face to face")) << without.out;
+  EXPECT_EQ(run({"extract", "none.amt", "-o", "e.ply", "--max-triangles", "50", "-q"}).code, 0);
+  EXPECT_EQ(run({"mesh", "decimate", "ids.ply", "-o", "d.ply", "--max-triangles", "50", "--drop-attributes",
+                 "id", "-q"})
+                .code,
+            0);
+}
+
+TEST_F(Percent, BesideThemAPlyOfDoublesSaysWhatItsFloatsWouldMove) {
+  // A ball of floats, whose fitted vertices are doubles; one whose vertices stay is of floats.
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 114\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face 224\nproperty list uchar int vertex_indices\nend_header\n0 0 1\n";
+  for (int i = 1; i < 8; ++i)
+    for (int k = 0; k < 16; ++k)
+      text += fmt::format("{} {} {}\n", float(std::sin(0.3926990817 * i) * std::cos(0.3926990817 * k)),
+                          float(std::sin(0.3926990817 * i) * std::sin(0.3926990817 * k)),
+                          float(std::cos(0.3926990817 * i)));
+  text += "0 0 -1\n";
+  for (int k = 0; k < 16; ++k) {
+    const int next = (k + 1) % 16;
+    text += fmt::format("3 0 {} {}\n3 113 {} {}\n", 1 + k, 1 + next, 97 + next, 97 + k);
+    for (int i = 0; i < 6; ++i)
+      text += fmt::format("3 {0} {1} {2}\n3 {0} {2} {3}\n", 1 + 16 * i + k, 17 + 16 * i + k,
+                          17 + 16 * i + next, 1 + 16 * i + next);
+  }
+  write("ball.ply", text);
+  for (const char* method : {"measured", "qem", "half-edge"}) {
+    const std::vector<std::string> words = {"mesh",       "decimate", "ball.ply",        "-o", "small.ply",
+                                            "--operator", method,     "--max-triangles", "100"};
+    const Outcome said = run(words);
+    ASSERT_EQ(said.code, 0) << said.err;
+    const bool hasDoubles = read("small.ply").find("property double x") != std::string::npos;
+    EXPECT_EQ(hasDoubles, std::string_view(method) != "half-edge") << method;
+    EXPECT_EQ(says(said, "coordinates take twice the bytes"), hasDoubles) << said.out;
+    std::vector<std::string> more = words;
+    more.push_back("--json");
+    const Json json = run(more).json();
+    EXPECT_EQ(json["movedByFloats"].get<double>() > 0, hasDoubles) << method;
+    EXPECT_LT(json["movedByFloats"].get<double>(), 1e-7);
+  }
+  ASSERT_EQ(run({"build", "ball.ply", "-o", "ball.amt", "-q"}).code, 0);
+  EXPECT_FALSE(
+      says(run({"extract", "ball.amt", "-o", "a.ply", "--max-triangles", "100"}), "twice the bytes"));
+  EXPECT_TRUE(says(run({"extract", "ball.amt", "-o", "b.ply", "--max-triangles", "100", "--fit", "rms"}),
+                   "twice the bytes"));
+  EXPECT_FALSE(says(run({"extract", "ball.amt", "-o", "b.stl", "--max-triangles", "100", "--fit", "rms"}),
+                    "twice the bytes"));
+  EXPECT_FALSE(says(run({"convert", "ball.ply", "-o", "c.ply"}), "twice the bytes"));
 }
 
 TEST_F(Percent, OfTheReliefAreThePersistenceOfFeatures) {
