@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "cli/mesh_fixture.h"
 #include "io/dem/raster_reader.h"
@@ -201,20 +202,32 @@ TEST_F(Percent, AreNotReachedWhereEveryFaceHasALabelOfItsOwnAndTheAttributeIsNam
 TEST_F(Percent, BesideThemAPlyOfDoublesSaysWhatItsFloatsWouldMove) {
   // A ball of floats, whose fitted vertices are doubles; one whose vertices stay is of floats.
   std::string text =
-      "ply\nformat ascii 1.0\nelement vertex 114\nproperty float x\nproperty float y\nproperty float "
-      "z\nelement face 224\nproperty list uchar int vertex_indices\nend_header\n0 0 1\n";
+      "ply\nformat binary_little_endian 1.0\nelement vertex 114\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 224\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto put = [&](auto value) { text.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  const auto putVertex = [&](double x, double y, double z) {
+    for (const double number : {x, y, z}) put(float(number));
+  };
+  const auto putFace = [&](int i, int j, int k) {
+    put(std::uint8_t{3});
+    for (const int corner : {i, j, k}) put(std::int32_t(corner));
+  };
+  constexpr double kStep = 0.3926990817;
+  putVertex(0, 0, 1);
   for (int i = 1; i < 8; ++i)
     for (int k = 0; k < 16; ++k)
-      text += fmt::format("{} {} {}\n", float(std::sin(0.3926990817 * i) * std::cos(0.3926990817 * k)),
-                          float(std::sin(0.3926990817 * i) * std::sin(0.3926990817 * k)),
-                          float(std::cos(0.3926990817 * i)));
-  text += "0 0 -1\n";
+      putVertex(std::sin(kStep * i) * std::cos(kStep * k), std::sin(kStep * i) * std::sin(kStep * k),
+                std::cos(kStep * i));
+  putVertex(0, 0, -1);
   for (int k = 0; k < 16; ++k) {
     const int next = (k + 1) % 16;
-    text += fmt::format("3 0 {} {}\n3 113 {} {}\n", 1 + k, 1 + next, 97 + next, 97 + k);
-    for (int i = 0; i < 6; ++i)
-      text += fmt::format("3 {0} {1} {2}\n3 {0} {2} {3}\n", 1 + 16 * i + k, 17 + 16 * i + k,
-                          17 + 16 * i + next, 1 + 16 * i + next);
+    putFace(0, 1 + k, 1 + next);
+    putFace(113, 97 + next, 97 + k);
+    for (int i = 0; i < 6; ++i) {
+      const int at = 1 + 16 * i;
+      putFace(at + k, at + 16 + k, at + 16 + next);
+      putFace(at + k, at + 16 + next, at + next);
+    }
   }
   write("ball.ply", text);
   for (const char* method : {"measured", "qem", "half-edge"}) {
