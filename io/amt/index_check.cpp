@@ -27,6 +27,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/base/counted.h"
 #include "engine/mt/hole_limit.h"
 #include "engine/mt/node_blocks.h"
 #include "engine/parallel/first_bad.h"
@@ -183,8 +184,9 @@ class MtIndexCheck {
       count(here);
     });
     if (removed == a_.floor.size()) return {};
-    return refuse(amt_tag::kRemover, fmt::format("triangles removed: {}; in the floors of nodes: {}",
-                                                 removed.load(), a_.floor.size()));
+    return refuse(amt_tag::kRemover, fmt::format("{} removed and {} in the floors of nodes",
+                                                 counted(removed.load(), "triangle is", "triangles are"),
+                                                 counted(a_.floor.size(), "is", "are")));
   }
 
   /// Checks what makes the front of every cut conforming: the vertices of a link are corners of the floor, so
