@@ -67,11 +67,7 @@ ChartsOfCut chartsOfCut(const SurfaceModel& model, const Cut& source, const Cut&
 
 Result<double> distanceByChart(const TriangleMesh& source, const TriangleMesh& mesh,
                                const ChartsOfCut& charts, const RunContext& context) {
-  if (charts.ofSource.empty()) {
-    const auto report = measureDistance(source, mesh, {}, context);
-    if (!report) return tl::unexpected(report.error());
-    return report->forward.atMost;
-  }
+  if (charts.ofSource.empty()) return farthestDistance(source, mesh, context);
   double atMost = 0;
   ByChart ofSource(source, charts.ofSource), ofMesh(mesh, charts.ofCut);
   while (!ofSource.isDone()) {
@@ -82,11 +78,11 @@ Result<double> distanceByChart(const TriangleMesh& source, const TriangleMesh& m
     constexpr std::uint64_t kSamples = 200'000;
     const std::uint64_t triangles = std::max(from.triangles.size(), to.triangles.size());
     const std::uint64_t samples = std::max(10 * triangles, kSamples * triangles / source.triangles.size());
-    const auto report = measureDistance(from, to, {.samples = samples}, context);
-    if (!report && report.error().code == ErrorCode::degenerate)
+    const Result<double> distance = farthestDistance(from, to, context, samples);
+    if (!distance && distance.error().code == ErrorCode::degenerate)
       return std::numeric_limits<double>::infinity();
-    if (!report) return tl::unexpected(report.error());
-    atMost = std::max(atMost, report->forward.atMost);
+    if (!distance) return distance;
+    atMost = std::max(atMost, *distance);
   }
   return atMost;
 }

@@ -20,8 +20,8 @@ struct ChartsOfCut {
 ChartsOfCut chartsOfCut(const SurfaceModel& model, const Cut& source, const Cut& cut);
 
 /// No point of the source is farther than this from a triangle of the same chart; without charts, from the
-/// mesh (measureDistance()). Infinite if a chart has no triangle with area. Errors: those of
-/// measureDistance().
+/// mesh (farthestDistance()). Infinite if a chart has no triangle with area. Errors: those of
+/// farthestDistance().
 Result<double> distanceByChart(const TriangleMesh& source, const TriangleMesh& mesh,
                                const ChartsOfCut& charts, const RunContext& context);
 

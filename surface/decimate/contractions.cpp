@@ -11,25 +11,24 @@
 // At borders the face operator contracts edges: a triangle that takes three vertices of a border along would
 // eat the border away where nothing better is left.
 //
-// A vertex that goes hands its quadric to the one that stays. Edges of borders, and of lines between classes
-// of corners, add the plane that stands on their triangle, so that they stay where they are.
+// A vertex that goes hands its quadric to the one that stays.
 #include "surface/decimate/contractions.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <queue>
 #include <tuple>
 
-#include "engine/base/box3.h"
 #include "surface/decimate/contraction_mesh.h"
 #include "surface/decimate/corner_attributes.h"
 #include "surface/decimate/crossing_guard.h"
 #include "surface/decimate/few.h"
+#include "surface/decimate/mesh_quadrics.h"
+#include "surface/decimate/near_pairs.h"
 #include "surface/decimate/quadric.h"
 #include "surface/model/charts.h"
 #include "surface/topology/edges.h"
@@ -38,8 +37,6 @@ namespace arete {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-/// Pairs without an edge are nearer than this share of the diagonal.
-constexpr double kPairDistance = 0.005;
 /// Vertices with more triangles are no end of a contraction as long as another one is left; the second, none.
 constexpr std::size_t kMostAround = 256;
 constexpr std::size_t kMostAroundAtLast = 4096;
@@ -66,14 +63,16 @@ class Contractions {
         context_(context),
         mesh_(mesh.shape, mesh.rounding),
         attributes_(mesh.source),
-        quadrics_(mesh.shape.positions.size()),
-        isOnBorder_(mesh.shape.positions.size(), 0),
         isOffLines_(mesh.shape.positions.size(), 0),
         takesFaces_(options.method == DecimateOperator::face),
         candidatesOf_(mesh.shape.positions.size()),
         waitingAt_(mesh.shape.positions.size()) {
     result_.joinedTo.resize(mesh.shape.positions.size());
     std::iota(result_.joinedTo.begin(), result_.joinedTo.end(), 0u);
+    MeshQuadrics quadrics = quadricsOf(mesh.source, mesh.shape, attributes_.partOf(), options.weighsByArea);
+    quadrics_ = std::move(quadrics.ofVertex);
+    isOnBorder_ = std::move(quadrics.isOnBorder);
+    hasBorders_ = std::ranges::find(isOnBorder_, 1) != isOnBorder_.end();
     if (options.method == DecimateOperator::vertexPair) return;
     chartOf_ = chartsOf(mesh.source);
     leftOf_.assign(chartOf_.size(), 0);
@@ -85,7 +84,6 @@ class Contractions {
   Result<FramedResult> run(std::size_t mostAround = 0) {
     isForWide_ = mostAround > 0;
     if (isForWide_) mostAround_ = mostAround;
-    addQuadrics();
     addCandidates();
     if (options_.forbidsCrossings) crossings_.emplace(mesh_);
     if (const Status contracted = contractAll(); !contracted) return tl::unexpected(contracted.error());
@@ -137,54 +135,6 @@ class Contractions {
     return {};
   }
 
-  void addQuadrics() {
-    const auto& triangles = shape_.triangles;
-    const auto& at = shape_.positions;
-    std::vector<Vec3> normals(triangles.size(), Vec3{0, 0, 0});
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-      const auto& [i, j, k] = triangles[t];
-      const Vec3 n = cross(at[j] - at[i], at[k] - at[i]);
-      const double size = norm(n);
-      if (!(size > 0)) continue;
-      normals[t] = n / size;
-      const Quadric quadric = Quadric::ofPlane(at[i], normals[t], options_.weighsByArea ? size / 2 : 1);
-      for (const std::uint32_t v : triangles[t]) quadrics_[v] += quadric;
-    }
-    const MeshEdges edges(triangles, at.size());
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      const MeshEdges::Edge edge = edges[e];
-      const std::uint32_t a = edge.low.index(), b = edge.high.index();
-      if (edge.isBorder()) isOnBorder_[a] = isOnBorder_[b] = 1;
-      hasBorders_ = hasBorders_ || edge.isBorder();
-      if (!edge.isBorder() && !isLine(edge)) continue;
-      const Vec3 along = at[b] - at[a];
-      for (const CornerId side : edge.sides) {
-        const Vec3 across = cross(along, normals[triangleOf(side).index()]);
-        if (!(norm(across) > 0)) continue;
-        const Quadric quadric =
-            Quadric::ofPlane(at[a], unit(across), options_.weighsByArea ? dot(along, along) : 1);
-        quadrics_[a] += quadric;
-        quadrics_[b] += quadric;
-      }
-    }
-  }
-  /// Whether wedges or parts differ across an edge.
-  bool isLine(const MeshEdges::Edge& edge) const {
-    if (edge.sides.size() != 2) return false;
-    const std::uint32_t s = triangleOf(edge.sides[0]).index(), t = triangleOf(edge.sides[1]).index();
-    const std::vector<std::uint32_t>& parts = attributes_.partOf();
-    if (!parts.empty() && parts[s] != parts[t]) return true;
-    if (!source_.hasWedges()) return false;
-    for (const std::uint32_t v : {edge.low.index(), edge.high.index()}) {
-      const auto wedgeAt = [&](std::uint32_t of) {
-        const auto& corners = source_.triangles[of];
-        return source_.wedges[of][static_cast<std::size_t>(std::ranges::find(corners, v) - corners.begin())];
-      };
-      if (wedgeAt(s) != wedgeAt(t)) return true;
-    }
-    return false;
-  }
-
   void addCandidates() {
     if (takesFaces_)
       for (std::uint32_t t = 0; t < source_.triangles.size(); ++t)
@@ -195,7 +145,8 @@ class Contractions {
         if (mesh_.isThere(t)) triangles.push_back(mesh_.corners(t));
       const MeshEdges edges(triangles, source_.positions.size());
       for (std::size_t e = 0; e < edges.size(); ++e) add({edges[e].low.index(), edges[e].high.index()});
-      if (options_.method == DecimateOperator::vertexPair) addPairs();
+      if (options_.method == DecimateOperator::vertexPair)
+        for (const auto& pair : nearPairs(mesh_)) add(pair);
     }
     for (std::uint32_t id = 0; id < candidates_.size(); ++id)
       if (!candidates_[id].isGone) price(id);
@@ -204,36 +155,6 @@ class Contractions {
     const auto id = static_cast<std::uint32_t>(candidates_.size());
     candidates_.push_back({.ends = ends});
     for (const std::uint32_t v : ends) candidatesOf_[v].push_back(id);
-  }
-  /// Pairs of near vertices without an edge, by cells as wide as the distance.
-  void addPairs() {
-    const auto& at = shape_.positions;
-    if (at.empty()) return;
-    Box3 box = Box3::empty();
-    for (const Vec3& p : at) box.include(p);
-    const double reach = kPairDistance * box.diagonal();
-    if (!(reach > 0)) return;
-    using Cell = std::array<std::int64_t, 3>;
-    const auto cellOf = [&](const Vec3& p) {
-      return Cell{static_cast<std::int64_t>((p.x - box.low.x) / reach),
-                  static_cast<std::int64_t>((p.y - box.low.y) / reach),
-                  static_cast<std::int64_t>((p.z - box.low.z) / reach)};
-    };
-    std::map<Cell, std::vector<std::uint32_t>> cells;
-    for (std::uint32_t v = 0; v < at.size(); ++v)
-      if (!mesh_.trianglesOf(v).empty()) cells[cellOf(at[v])].push_back(v);
-    ContractionMesh::Neighbours neighbours;
-    for (const auto& [cell, vertices] : cells)
-      for (const std::uint32_t v : vertices) {
-        mesh_.neighboursOf(v, neighbours);
-        for (std::int64_t i = 0; i < 27; ++i) {
-          const auto found = cells.find({cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i / 9 - 1});
-          if (found == cells.end()) continue;
-          for (const std::uint32_t w : found->second)
-            if (w > v && norm(at[w] - at[v]) < reach && !std::ranges::binary_search(neighbours, w))
-              add({v, w});
-        }
-      }
   }
 
   Few<std::uint32_t> verticesOf(const Candidate& candidate) const {

@@ -306,11 +306,12 @@ std::uint64_t usualSamples(const TriangleMesh& first, const TriangleMesh& second
 }  // namespace
 
 Result<double> farthestDistance(const TriangleMesh& first, const TriangleMesh& second,
-                                const RunContext& context) try {
+                                const RunContext& context, std::uint64_t samples) try {
   const Result<Pair> pair = pairOf(first, second);
   if (!pair) return tl::unexpected(pair.error());
   const MeshDistanceOptions options;
-  OneWay way(pair->surfaces[0], pair->surfaces[1], options, usualSamples(first, second), context);
+  OneWay way(pair->surfaces[0], pair->surfaces[1], options,
+             samples > 0 ? samples : usualSamples(first, second), context);
   const Result<DistanceOneWay> found = way.measure("from the first to the second", nullptr, false);
   if (!found) return tl::unexpected(found.error());
   return found->atMost;

@@ -88,8 +88,9 @@ Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const Tria
 /// measureDistance() one way, without samples. Within a thousandth of the largest distance, or below a
 /// hundred-thousandth of the diagonal, unless the search ends early on a large triangle. The result is the
 /// same, to the bit, for any number of threads. O(n log n). Errors: as measureDistance().
+/// @param samples  that let the search end early: MeshDistanceOptions::samples
 Result<double> farthestDistance(const TriangleMesh& first, const TriangleMesh& second,
-                                const RunContext& context = {});
+                                const RunContext& context = {}, std::uint64_t samples = 0);
 
 /// Which distances a promise is about.
 enum class PromisedWay {

@@ -4,46 +4,12 @@
 #include <map>
 #include <sstream>
 
-#include "cli/cli_fixture.h"
+#include "cli/ball_fixture.h"
 
 namespace arete::cli_test {
 namespace {
 
-class SurfaceCommands : public Cli {
- protected:
-  void SetUp() override {
-    Cli::SetUp();
-    write("ball.obj", ball(24, 14));
-  }
-  /// A sphere of radius 1 with a texture whose seam runs from pole to pole.
-  static std::string ball(int around, int rings) {
-    std::ostringstream text;
-    text << "mtllib ball.mtl\nv 0 0 1\nv 0 0 -1\nusemtl skin\n";
-    for (int r = 0; r < rings; ++r)
-      for (int c = 0; c < around; ++c) {
-        const double u = 2 * M_PI * c / around, v = M_PI * (r + 1) / (rings + 1);
-        text << "v " << std::sin(v) * std::cos(u) << ' ' << std::sin(v) * std::sin(u) << ' ' << std::cos(v)
-             << '\n';
-      }
-    for (int r = 0; r < rings; ++r)
-      for (int c = 0; c <= around; ++c)
-        text << "vt " << double(c) / around << ' ' << double(r) / rings << '\n';
-    text << "vt 0.5 0\nvt 0.5 1\n";
-    const auto corner = [&](int r, int c) {
-      return std::to_string(3 + r * around + c % around) + "/" + std::to_string(1 + r * (around + 1) + c);
-    };
-    const std::string north = "1/" + std::to_string(rings * (around + 1) + 1),
-                      south = "2/" + std::to_string(rings * (around + 1) + 2);
-    for (int c = 0; c < around; ++c) {
-      text << "f " << north << ' ' << corner(0, c) << ' ' << corner(0, c + 1) << '\n';
-      text << "f " << south << ' ' << corner(rings - 1, c + 1) << ' ' << corner(rings - 1, c) << '\n';
-      for (int r = 0; r + 1 < rings; ++r)
-        text << "f " << corner(r, c) << ' ' << corner(r + 1, c) << ' ' << corner(r + 1, c + 1) << ' '
-             << corner(r, c + 1) << '\n';
-    }
-    return text.str();
-  }
-};
+class SurfaceCommands : public Balls {};
 
 TEST_F(SurfaceCommands, BuildInfoValidateAndExtract) {
   write("ball.mtl", "newmtl skin\nKd 1 0.5 0.25\nmap_Kd skin.png\n");
@@ -424,56 +390,6 @@ TEST_F(SurfaceCommands, AreDrawnWithoutAScreen) {
   EXPECT_EQ(few.code, 2);
   EXPECT_NE(few.err.find("--max-triangles 2"), std::string::npos) << few.err;
   EXPECT_FALSE(exists("no.png"));
-}
-
-TEST_F(SurfaceCommands, DecimateTakesEveryOperatorAndSaysWhatItDid) {
-  std::map<std::string, double> rms;
-  for (const std::string method :
-       {"measured", "qem", "lindstrom-turk", "half-edge", "vertex-pair", "face", "cluster"}) {
-    SCOPED_TRACE(method);
-    const Outcome small = run({"mesh", "decimate", "ball.obj", "-o", "small.ply", "--max-triangles", "30%",
-                               "--operator", method, "--map", "map.csv", "--json"});
-    ASSERT_EQ(small.code, 0) << small.err;
-    EXPECT_LE(small.json()["triangles"].get<std::size_t>(), 24u * 14 * 2 * 3 / 10);
-    EXPECT_EQ(small.json()["operator"], method);
-    EXPECT_EQ(read("map.csv").substr(0, 18), "what,output,input\n");
-    rms[method] =
-        run({"measure", "small.ply", "ball.obj", "--samples", "20000", "--json"}).json()["fromSecond"]["rms"];
-  }
-  EXPECT_LT(rms["measured"], rms["half-edge"]);
-  EXPECT_LT(rms["qem"], rms["half-edge"]);
-  EXPECT_LT(rms["half-edge"], 0.1);
-}
-
-TEST_F(SurfaceCommands, DecimateKeepsADistanceAndNamesTheLeastCount) {
-  const Outcome kept = run({"mesh", "decimate", "ball.obj", "-o", "kept.ply", "--max-error", "1%", "--json"});
-  ASSERT_EQ(kept.code, 0) << kept.err;
-  const double error = kept.json()["error"];
-  EXPECT_LE(error, 0.01 * 2 * std::sqrt(3.0));
-  EXPECT_LE(run({"measure", "kept.ply", "ball.obj", "--samples", "20000", "--json"})
-                .json()["fromSecond"]["maximum"]
-                .get<double>(),
-            error);
-  for (const std::string method : {"measured", "qem", "half-edge", "face"}) {
-    const Outcome refused =
-        run({"mesh", "decimate", "ball.obj", "-o", "no.ply", "--max-triangles", "2", "--operator", method});
-    EXPECT_EQ(refused.code, 2) << method;
-    EXPECT_NE(refused.err.find("the least that " + method + " reaches"), std::string::npos) << refused.err;
-    EXPECT_FALSE(exists("no.ply"));
-  }
-  const auto refused = [&](std::vector<std::string> words, const std::string& because) {
-    words.insert(words.begin(), {"mesh", "decimate", "ball.obj", "-o", "no.ply"});
-    const Outcome outcome = run(words);
-    EXPECT_EQ(outcome.code, 2) << because;
-    EXPECT_NE(outcome.err.find(because), std::string::npos) << outcome.err;
-  };
-  refused({}, "one of --max-triangles and --max-error");
-  refused({"--max-error", "1", "--operator", "qem"}, "--max-error");
-  refused({"--max-triangles", "9", "--queue", "greedy"}, "--queue");
-  refused({"--max-triangles", "9", "--no-crossings"}, "--no-crossings");
-  refused({"--max-triangles", "9.5"}, "--max-triangles");
-  refused({"--max-triangles", "0%"}, "--max-triangles");
-  refused({"--max-triangles", "9", "--drop-parts", "99"}, "leaves nothing");
 }
 
 TEST_F(SurfaceCommands, WhatIsForTerrainIsRefusedByName) {
