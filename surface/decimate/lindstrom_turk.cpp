@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CGAL's edge collapse with the memoryless cost and placement of Lindstrom and Turk [CGAL]. Its placement
-// keeps the volume, and flings a vertex far where a long wall loses volume that a narrow rim has to give
-// back. So along the normal of each triangle around the edge, and of the planes that stand on its borders, a
-// place lies between the ends of the edge, or beyond them by as much as the edge bridges of planes that face
-// alike and run along it: on a curved surface that is its rise, on a flat rim it is nothing. Instead of a
-// place farther away, the best of the ends and of their middle is taken.
+// CGAL's edge collapse with the memoryless cost and placement of Lindstrom and Turk [CGAL]. Places that fling
+// a vertex far (surface/decimate/edge_star.h) are replaced by the best of the ends and of their middle. The
+// cost is found here, because CGAL's collects the triangles once more.
 //
 // CGAL's cost of an edge takes time by the triangles of its ends, and is found anew for all of them after
 // each step. Vertices of very many triangles get fewer before (narrowWideVertices()).
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Constrained_placement.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <fmt/format.h>
@@ -28,6 +23,7 @@
 
 #include "surface/decimate/carried.h"
 #include "surface/decimate/contractions.h"
+#include "surface/decimate/edge_star.h"
 #include "surface/decimate/part_lines.h"
 #include "surface/decimate/standing.h"
 #include "surface/model/parts.h"
@@ -63,111 +59,55 @@ struct Constrained {
   friend bool get(const Constrained& map, Edge e) { return map.keepsBorders && map.mesh->is_border(e); }
 };
 
-using Vector = Kernel::Vector_3;
+Vec3 placeOf(const Point& p) {
+  return {p.x(), p.y(), p.z()};
+}
 
-/// What the triangles of an edge's surroundings that stay, and borders, say of a place.
-class Planes {
- public:
-  template <class Profile>
-  explicit Planes(const Profile& profile) {
-    const Mesh& mesh = profile.surface_mesh();
-    for (const auto& t : profile.triangles()) {
-      const bool isOfEdge = holds(t, profile.v0()) && holds(t, profile.v1());
-      const Vector normal =
-          CGAL::cross_product(mesh.point(t.v1) - mesh.point(t.v0), mesh.point(t.v2) - mesh.point(t.v0));
-      if (!isOfEdge) add(mesh.point(t.v0), normal, profile);
-      for (const auto& [from, to] : {std::pair{t.v0, t.v1}, std::pair{t.v1, t.v2}, std::pair{t.v2, t.v0}}) {
-        const auto h = mesh.halfedge(from, to);
-        const bool isEdge = isOfEdge && (from == profile.v0() || from == profile.v1()) &&
-                            (to == profile.v0() || to == profile.v1());
-        if (isEdge || h == Mesh::null_halfedge() || !mesh.is_border(mesh.edge(h))) continue;
-        add(mesh.point(from), CGAL::cross_product(mesh.point(to) - mesh.point(from), normal), profile);
-      }
-    }
-  }
-  bool allow(const Point& place) const {
-    for (const Plane& plane : planes_) {
-      // Rounding of a place by what it is solved of.
-      const double is = (place - plane.through) * plane.normal, rounding = kRounding * reach_;
-      const double beyond = std::max(plane.least - is, is - plane.most) - rounding;
-      if (beyond <= 0) continue;
-      if (std::ranges::none_of(planes_, [&](const Plane& other) {
-            return beyond <= other.bridged * std::max(0.0, plane.normal * other.normal);
-          }))
-        return false;
-    }
-    return true;
-  }
-
- private:
-  static constexpr double kRounding = 1e-9;
-  struct Plane {
-    Point through;
-    Vector normal;
-    double least, most;  // of the ends of the edge and 0, along the normal
-    double bridged;      // the rise of an edge that runs along the plane
-  };
-  template <class Triangle, class Vertex>
-  static bool holds(const Triangle& t, Vertex v) {
-    return t.v0 == v || t.v1 == v || t.v2 == v;
-  }
-  template <class Profile>
-  void add(const Point& through, const Vector& along, const Profile& profile) {
-    const double length = std::sqrt(along.squared_length());
-    if (!(length > 0)) return;
-    const Vector normal = along / length, edge = profile.p1() - profile.p0();
-    const double first = (profile.p0() - through) * normal, second = (profile.p1() - through) * normal;
-    const double squared = edge.squared_length(), across = edge * normal;
-    const double alongEdge = squared > 0 ? 1 - across * across / squared : 0;
-    planes_.push_back({through, normal, std::min({0.0, first, second}), std::max({0.0, first, second}),
-                       std::max(std::fabs(first), std::fabs(second)) * std::pow(alongEdge, 4)});
-    reach_ = std::max(reach_, std::sqrt(CGAL::squared_distance(profile.p0(), through)));
-  }
-
-  std::vector<Plane> planes_;
-  double reach_ = 0;
-};
-
+/// CGAL's placement, or one on the edge where it is too far away. Nothing where a triangle would turn over.
 struct Guarded {
   PartLines<Mesh> lines;
   sms::LindstromTurk_placement<Mesh> inner = {};
-  sms::LindstromTurk_cost<Mesh> cost = {};
 
   template <class Profile>
   boost::optional<Point> operator()(const Profile& profile) const {
+    const EdgeStar<Mesh> star(profile.surface_mesh(), profile.v0(), profile.v1());
+    const std::optional<Vec3> place = placeFor(profile, star);
+    if (!place || star.turns(*place)) return boost::none;
+    return Point(place->x, place->y, place->z);
+  }
+
+ private:
+  template <class Profile>
+  std::optional<Vec3> placeFor(const Profile& profile, const EdgeStar<Mesh>& star) const {
     if (lines.areAt(profile.v0_v1())) {
       const auto end = lines.chooseEnd(profile.v0_v1());
-      return end ? boost::optional<Point>(profile.surface_mesh().point(*end)) : boost::none;
+      return end ? std::optional(placeOf(profile.surface_mesh().point(*end))) : std::nullopt;
     }
-    const auto place = inner(profile);
-    if (!place) return boost::none;
-    if (Planes(profile).allow(*place)) return boost::optional<Point>(*place);
-    boost::optional<Point> best;
-    boost::optional<double> least;
-    for (const Point& p : {CGAL::midpoint(profile.p0(), profile.p1()), profile.p0(), profile.p1()}) {
-      const auto its = cost(profile, boost::optional<Point>(p));
-      if (!its || (least && !(double(*its) < *least))) continue;
-      best = p;
-      least = double(*its);
-    }
-    return best;
+    const boost::optional<Point> place = inner(profile);
+    if (!place) return std::nullopt;
+    return star.allows(placeOf(*place)) ? placeOf(*place) : star.leastPlace();
   }
 };
 
 /// That of Lindstrom and Turk; what a line loses counts as what a border loses.
 struct Cost {
   PartLines<Mesh> lines;
-  sms::LindstromTurk_cost<Mesh> inner = {};
 
-  template <class Profile, class Place>
-  auto operator()(const Profile& profile, const Place& place) const {
-    auto cost = inner(profile, place);
-    if (!cost || !place || !lines.areAt(profile.v0_v1())) return cost;
-    const bool isFirst = *place == profile.p0();
-    const double loss = isFirst ? lines.squaredLoss(profile.v1(), profile.v0())
-                                : lines.squaredLoss(profile.v0(), profile.v1());
-    *cost += 0.5 * loss / 4 * CGAL::squared_distance(profile.p0(), profile.p1());
-    return cost;
+  template <class Profile>
+  boost::optional<double> operator()(const Profile& profile, const boost::optional<Point>& place) const {
+    if (!place) return boost::none;
+    const Mesh& mesh = profile.surface_mesh();
+    double cost = EdgeStar<Mesh>(mesh, profile.v0(), profile.v1()).volumeCost(placeOf(*place));
+    double loss = 0;  // four times the squared areas
+    for (const auto border : profile.border_edges())
+      loss += CGAL::cross_product(mesh.point(mesh.source(border)) - *place,
+                                  mesh.point(mesh.target(border)) - *place)
+                  .squared_length();
+    if (lines.areAt(profile.v0_v1()))
+      loss += *place == profile.p0() ? lines.squaredLoss(profile.v1(), profile.v0())
+                                     : lines.squaredLoss(profile.v0(), profile.v1());
+    cost += 0.5 * loss / 4 * CGAL::squared_distance(profile.p0(), profile.p1());
+    return std::isfinite(cost) ? boost::optional<double>(cost) : boost::none;
   }
 };
 
@@ -223,9 +163,7 @@ Result<FramedResult> collapse(const FramedMesh& framed, const DecimateOptions& o
   const auto steps = sms::edge_collapse(
       mesh, Stop{options.maxTriangles, context},
       CGAL::parameters::get_cost(Cost{lines})
-          .get_placement(
-              sms::Constrained_placement<sms::Bounded_normal_change_placement<Guarded>, Constrained>(
-                  constrained, sms::Bounded_normal_change_placement<Guarded>(Guarded{lines})))
+          .get_placement(sms::Constrained_placement<Guarded, Constrained>(constrained, Guarded{lines}))
           .edge_is_constrained_map(constrained)
           .visitor(joins));
   if (context.cancelled()) return failure(ErrorCode::interrupted, "decimation was interrupted");

@@ -6,6 +6,9 @@
 // above [GutheBorodinKlein2005], [TangLeeKim2009]. So does the distance itself, which has the Lipschitz
 // constant 1: every point of a part is within 1 / sqrt(3) of its longest side from a corner. The target
 // triangle that gave a part its bound is tried for its halves too.
+//
+// A part that lies across an edge of the target is cut there rather than in the middle, so that each half has
+// a triangle of its own: where the meshes coincide, no number of halves in the middle would settle it.
 #include "terrain/measure/farthest_point.h"
 
 #include <algorithm>
@@ -18,12 +21,19 @@ namespace arete {
 namespace {
 
 constexpr std::uint64_t kPointsPerStopCheck = 256;
+/// Cuts at edges of the target before the next one in the middle, without which long parts would not end.
+constexpr std::uint8_t kMostCuts = 4;
+/// A cut so near to a corner would leave the part as it is, but for rounding.
+constexpr double kLeastShare = 1e-6;
+/// Larger parts, beside the target's triangle, are cut in the middle.
+constexpr double kLargest = 4;
 
 struct Part {
   SpaceTriangle corners;
   std::array<NearestOnMesh::Answer, 3> answers;
   std::uint32_t guide = 0;  // the target's triangle that gave the least bound
   double atMost = 0;
+  std::uint8_t cuts = 0;  // at edges, since the last one in the middle
 
   bool operator<(const Part& other) const { return atMost < other.atMost; }
 };
@@ -69,6 +79,45 @@ void bound(Part& part, const TriangleMesh& target) {
   part.atMost = std::max(part.atMost, farthest);
 }
 
+/// Where a part is cut: between two of its corners, at a share of the way from the first to the second.
+struct Split {
+  int from = 0, to = 0;
+  double share = 0.5;
+  bool isMiddle = true;
+};
+
+/// On a side of a part that leads to the corner farthest from the triangle that gave the bound, where it
+/// crosses the plane that stands on a side of that triangle; in the middle of the longest side where there is
+/// no such place.
+Split splitOf(const Part& part, const TriangleMesh& target) {
+  const int longest = longestSide(part.corners);
+  const Split middle{longest, (longest + 1) % 3};
+  if (part.cuts == kMostCuts) return middle;
+  const auto& v = target.triangles[part.guide];
+  const SpaceTriangle triangle{target.positions[v[0]], target.positions[v[1]], target.positions[v[2]]};
+  const int side = longestSide(triangle);
+  if (squaredDistance(part.corners[middle.from], part.corners[middle.to]) >
+      kLargest * kLargest * squaredDistance(triangle[side], triangle[(side + 1) % 3]))
+    return middle;
+  std::array<double, 3> distances{};
+  for (int i = 0; i < 3; ++i) distances[i] = distanceToTriangle(part.corners[i], triangle);
+  const auto to = static_cast<int>(std::ranges::max_element(distances) - distances.begin());
+  const Vec3 normal = areaNormal(triangle);
+  Split best = middle;
+  for (const int from : {(to + 1) % 3, (to + 2) % 3}) {
+    double share = 1;  // at the first plane that the way crosses outwards
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 inward = cross(normal, triangle[(i + 1) % 3] - triangle[i]);
+      const double inside = dot(inward, part.corners[from] - triangle[i]),
+                   outside = dot(inward, part.corners[to] - triangle[i]);
+      if (inside > 0 && outside < 0) share = std::min(share, inside / (inside - outside));
+    }
+    if (share > kLeastShare && share < 1 - kLeastShare && (best.isMiddle || share > best.share))
+      best = {from, to, share, false};
+  }
+  return best;
+}
+
 }  // namespace
 
 FarthestPoint farthestPoint(const SpaceTriangle& triangle, std::span<const NearestOnMesh::Answer, 3> answers,
@@ -112,13 +161,15 @@ FarthestPoint farthestPoint(const SpaceTriangle& triangle, std::span<const Neare
     if (queries % kPointsPerStopCheck == 0 && options.shouldStop && options.shouldStop()) break;
     const Part part = open.top();
     open.pop();
-    const int side = longestSide(part.corners), other = (side + 1) % 3;
-    const Vec3 middle = part.corners[side] + 0.5 * (part.corners[other] - part.corners[side]);
-    const NearestOnMesh::Answer answer = to.nearest(middle);
-    take(middle, answer);
-    for (const int replaced : {side, other}) {
+    const Split split = splitOf(part, target);
+    const Vec3 between =
+        part.corners[split.from] + split.share * (part.corners[split.to] - part.corners[split.from]);
+    const NearestOnMesh::Answer answer = to.nearest(between);
+    take(between, answer);
+    for (const int replaced : {split.from, split.to}) {
       Part half = part;
-      half.corners[replaced] = middle;
+      half.cuts = split.isMiddle ? 0 : static_cast<std::uint8_t>(part.cuts + 1);
+      half.corners[replaced] = between;
       half.answers[replaced] = answer;
       bound(half, target);
       half.atMost = std::min(half.atMost, part.atMost);
