@@ -379,8 +379,8 @@ void addMeshDecimateCommand(CLI::App& mesh, Session& session) {
   command
       ->add_option(
           "--operator", arguments->method,
-          "measured: the multitriangulation's cut, fitted (default, the closest; four to eight times the "
-          "time\n"
+          "measured: the multitriangulation's cut, fitted (default, the closest; two to seven times the "
+          "processor time\n"
           "of qem); qem: edges, at the least of their quadric; lindstrom-turk: edges, memoryless (CGAL); "
           "half-edge: vertices go to a\n"
           "neighbour; vertex-pair: edges and near vertices; face: triangles become a vertex; cluster:\n"

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/base/nearest_on_triangle.h"
+#include "engine/base/triangle_bvh.h"
 #include "engine/base/vec.h"
 
 namespace arete {
@@ -24,8 +25,8 @@ namespace arete {
 /// ends of the edge, or beyond them by as much as the edge bridges of planes that face alike and run along
 /// it: on a curved surface that is its rise, on a flat rim it is nothing.
 ///
-/// And it stands off the triangles by at most half as far again as the edge's ends are left behind by the
-/// worst of the places on the edge: by no more than the error that is made anyway, about.
+/// And it stands off the triangles by no more than the ends are left behind by the worst of the places on the
+/// edge, its ends and its middle: by no more than the error that is made anyway, about.
 template <class Mesh>
 class EdgeStar {
  public:
@@ -81,8 +82,6 @@ class EdgeStar {
  private:
   /// Of places by what they are solved of.
   static constexpr double kRounding = 1e-9;
-  /// Of the square of what the ends are left behind by.
-  static constexpr double kStandOff = 2.25;
 
   struct Triangle {
     Vec3 before, end, after;
@@ -103,19 +102,21 @@ class EdgeStar {
     return {p.x(), p.y(), p.z()};
   }
 
+  static double squaredFrom(const Vec3& p, const SpaceTriangle& triangle) {
+    return squaredDistance(p, nearestWithShares(p, triangle).place);
+  }
+
   bool isNear(const Vec3& place) const {
     const double at =
         squaredLength_ > 0 ? std::clamp(dot(place - ends_[0], edge_) / squaredLength_, 0.0, 1.0) : 0;
     const double rounding = kRounding * kRounding * squaredLength_;
-    const double fromEdge = squaredDistance(place, ends_[0] + at * edge_);
-    const std::array<Vec3, 3> onEdge{ends_[0], ends_[1], middle()};
-    const double enough = (fromEdge - rounding) / kStandOff;
-    if (std::ranges::any_of(onEdge, [&](const Vec3& p) { return leaves(p, enough); })) return true;
-    double left = 0, off = fromEdge;
-    for (const Vec3& p : onEdge) left = std::max(left, squaredLeft(p));
-    for (const Triangle& t : triangles_)
-      off = std::min(off, squaredDistance(place, nearestOnTriangle(place, t.places(t.end))));
-    return off <= kStandOff * left + rounding;
+    double off = squaredDistance(place, ends_[0] + at * edge_);
+    for (const Triangle& t : triangles_) {
+      if (off <= rounding) return true;
+      off = std::min(off, squaredFrom(place, t.places(t.end)));
+    }
+    const double enough = off - rounding;
+    return leaves(ends_[0], enough) || leaves(ends_[1], enough) || leaves(middle(), enough);
   }
   /// Whether squaredLeft() is this much; of most triangles their planes are far enough.
   bool leaves(const Vec3& place, double squared) const {
@@ -125,7 +126,7 @@ class EdgeStar {
                const Vec3 normal = cross(t.before - place, t.after - place);
                const double height = dot(normal, end - place);
                return height * height > squared * dot(normal, normal) ||
-                      squaredDistance(end, nearestOnTriangle(end, t.places(place))) >= squared;
+                      squaredFrom(end, t.places(place)) >= squared;
              });
     });
   }
@@ -136,8 +137,7 @@ class EdgeStar {
       if (end == place) continue;
       double least = std::numeric_limits<double>::infinity();
       for (const Triangle& t : triangles_)
-        if (!t.isOfEdge)
-          least = std::min(least, squaredDistance(end, nearestOnTriangle(end, t.places(place))));
+        if (!t.isOfEdge) least = std::min(least, squaredFrom(end, t.places(place)));
       if (least < std::numeric_limits<double>::infinity()) most = std::max(most, least);
     }
     return most;

@@ -27,7 +27,8 @@ struct FarthestPointOptions {
 
 /// The point of a triangle that is farthest from a mesh (one side of the Hausdorff distance), by branch and
 /// bound [GutheBorodinKlein2005], [TangLeeKim2009]: the part of the triangle with the largest upper bound is
-/// bisected until the options end the search. O(budget log n) time; at most 200 bytes per query.
+/// cut in two, at an edge of the target or in the middle, until the options end the search. O(budget log n)
+/// time; at most 200 bytes per query.
 /// @param answers  to.nearest() of the three corners
 /// @param target  the mesh of `to`
 FarthestPoint farthestPoint(const SpaceTriangle& triangle, std::span<const NearestOnMesh::Answer, 3> answers,

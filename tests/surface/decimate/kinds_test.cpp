@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "engine/base/box3.h"
 #include "surface/decimate/decimate.h"
 #include "surface/families.h"
 
@@ -97,6 +98,45 @@ TEST(DecimateBorders, DiscsAnnuliAndCardsKeepTheirArea) {
     }
     keeps(fmt::format("{} cards", cards), all, cards * 7);
   }
+}
+
+/// How far the vertices of a mesh are outside of the box of another, and the diagonal of that.
+std::pair<double, double> beyondBox(const SurfaceMesh& mesh, const TriangleMesh& source) {
+  Box3 box = Box3::empty();
+  for (const Vec3& p : source.positions) box.include(p);
+  double beyond = 0;
+  for (const Vec3& p : mesh.positions)
+    beyond = std::max({beyond, box.low.x - p.x, box.low.y - p.y, box.low.z - p.z, p.x - box.high.x,
+                       p.y - box.high.y, p.z - box.high.z});
+  return {beyond, box.diagonal()};
+}
+
+// Lindstrom's and Turk's placement alone leaves the box of these by up to half of its diagonal.
+TEST(DecimateThin, LindstromTurkFlingsNoVertexOffThinWalls) {
+  int sum = 0, flung = 0;  // beyond a twentieth of the diagonal
+  for (const double wall : {0.1, 0.02, 0.001})
+    for (const std::uint32_t n : {12u, 24u})
+      for (const bool isCone : {false, true})
+        for (const std::uint32_t rows : {1u, 3u})
+          for (const double share : {0.5, 0.2}) {
+            std::vector<std::pair<double, double>> profile;
+            const auto radius = [&](double z) { return isCone ? 1 - 0.2 * z : 1; };
+            for (std::uint32_t k = 0; k <= rows; ++k)
+              profile.push_back({radius(3.0 * k / rows), 3.0 * k / rows});
+            for (std::uint32_t k = rows + 1; k-- > 0;)
+              profile.push_back({(1 - wall) * radius(3.0 * k / rows), 3.0 * k / rows});
+            const TriangleMesh tube = rings(n, profile, true);
+            const auto [beyond, diagonal] =
+                beyondBox(decimated(tube, DecimateOperator::lindstromTurk,
+                                    static_cast<std::size_t>(share * double(tube.triangles.size())))
+                              .mesh,
+                          tube);
+            EXPECT_LT(beyond, 0.1 * diagonal) << "wall " << wall << ", n " << n << ", cone " << isCone
+                                              << ", rows " << rows << ", share " << share;
+            ++sum;
+            flung += beyond > 0.05 * diagonal ? 1 : 0;
+          }
+  EXPECT_LE(flung, sum / 8);
 }
 
 TEST(DecimateMap, EveryFaceOfTheSourceHasATriangleNearIt) {

@@ -54,6 +54,44 @@ TEST(MeshDistance, OfAMeshToItselfIsZero) {
   EXPECT_TRUE(checkDistance(report, 0));
 }
 
+// Triangles of the one lie across hundreds of edges of the other. Halves in the middle settle no such part
+// before the search ends early; cuts at the edges do.
+TEST(FarthestDistance, IsProvenWhereTriangulationsOfOneSurfaceDiffer) {
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u}) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    std::mt19937_64 random(seed);
+    const auto angle = [&] { return double(random() % 6283) / 1000; };
+    const double first = angle(), second = angle(), rise = double(random() % 3);
+    // A roof whose ridge is on edges of both, turned.
+    const auto roof = [&](std::uint32_t n) {
+      return sheet(n, [&](double u, double v) {
+        const Vec3 p{u, v, rise * std::min(u, 1 - u)};
+        const Vec3 turned{std::cos(first) * p.x - std::sin(first) * p.y,
+                          std::sin(first) * p.x + std::cos(first) * p.y, p.z};
+        return Vec3{turned.x, std::cos(second) * turned.y - std::sin(second) * turned.z,
+                    std::sin(second) * turned.y + std::cos(second) * turned.z};
+      });
+    };
+    const TriangleMesh coarse = roof(4), fine = roof(14);
+    for (const auto& [from, to] : {std::pair{&coarse, &fine}, std::pair{&fine, &coarse}}) {
+      const Result<double> distance = farthestDistance(*from, *to, {}, 8000);
+      ASSERT_TRUE(distance);
+      // The diagonal of the box of what is turned is longer, by the root of 3 at most.
+      EXPECT_LE(*distance, 1e-5 * std::sqrt(3 * (2 + rise * rise / 4)));
+    }
+    // One corner of the fine one stands off the roof by 1.
+    TriangleMesh dented = fine;
+    const auto dent = static_cast<std::size_t>(random() % fine.positions.size());
+    const Vec3 up{0, -std::sin(second), std::cos(second)};
+    dented.positions[dent] = dented.positions[dent] + up;
+    const Result<double> distance = farthestDistance(dented, coarse, {}, 8000);
+    ASSERT_TRUE(distance);
+    const auto most = double(distanceTo(dented.positions[dent], coarse));
+    EXPECT_GE(*distance, most * (1 - 1e-12));
+    EXPECT_LE(*distance, most * 1.001);
+  }
+}
+
 TEST(MeshDistance, OfParallelPlanesIsTheirGapEverywhere) {
   // Different triangulations of one square, far from the origin of a projected CRS.
   const Vec3 utm{432100.25, 5123456.5, 812.125};
