@@ -74,7 +74,8 @@ Result<std::uint32_t> triangleBudget(const std::string& text, std::uint64_t face
 struct Outcome {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> vertexOf;  ///< by vertex: of the input
-  /// By face of the input: the triangle that stands for it, or MeshAttributes::kNone.
+  /// By face of the input: the triangle that stands for it, or MeshAttributes::kNone. Of a measured one only
+  /// for --map.
   std::vector<std::uint32_t> triangleFor;
   std::optional<std::uint64_t> crossings = {},
                                sourceCrossings = {};  ///< pairs of triangles; the source's if there are any
@@ -160,7 +161,7 @@ Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
   outcome.mesh = std::move(front.mesh);
   outcome.vertexOf = std::move(front.vertexOf);
   outcome.fit = *fit;
-  outcome.triangleFor = facesOf(*model, *cut);
+  if (!arguments.map.empty()) outcome.triangleFor = facesOf(*model, *cut);
   const Result<std::uint64_t> crossings = crossingsOf(outcome.mesh, session.context());
   if (!crossings) return tl::unexpected(crossings.error());
   outcome.crossings = *crossings;
