@@ -16,6 +16,8 @@ namespace {
 
 constexpr double kLeastGrowth = 0.015, kFirstThreshold = 1e-14;
 constexpr double kLargest = std::numeric_limits<float>::max();
+/// A growth of the threshold in one step before which all costs are brought up to date.
+constexpr double kGap = 2;
 
 SurfaceRoot rootOf(const SurfaceState& s, std::uint32_t levels) {
   SurfaceRoot root;
@@ -90,6 +92,20 @@ IdArray<VertexId, std::vector<std::array<VertexId, 2>>> lineNextOf(const Surface
   return next;
 }
 
+/// Makes every vertex due whose cost may have fallen since it was found, or that was stuck.
+void makeChangedDue(SurfaceState& s) {
+  const std::span<const VertexId> vertices = s.thresholds.vertices();
+  forRanges(LoopThreads::all, vertices.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (const VertexId v : vertices.subspan(begin, end - begin)) {
+      if (!v.isValid()) continue;
+      const RemovalRecord& record = s.records[v];
+      if (record.state == RemovalRecord::State::fixed) continue;
+      if (record.isTouched != 0 || record.state == RemovalRecord::State::stuck)
+        s.thresholds.set(v, ThresholdList::kNow);
+    }
+  });
+}
+
 }  // namespace
 
 Result<SurfaceRoot> simplifySurface(SurfaceState& s, const std::vector<std::uint8_t>& isFixed,
@@ -114,21 +130,30 @@ Result<SurfaceRoot> simplifySurface(SurfaceState& s, const std::vector<std::uint
   SurfaceLevels levels(s);
   std::uint32_t number = 0;
   double threshold = kFirstThreshold;
+  bool hasChanged = false;  // since makeChangedDue()
   while (!s.thresholds.empty() && s.liveTriangles > s.fewEnough) {
     s.thresholds.compact();
     const std::size_t before = s.thresholds.size();
     ++number;
     progress.add(levels.level(threshold, number, {number, 0}));
     if (context.cancelled()) return failure(ErrorCode::interrupted, "the build was interrupted");
-    const double growth = s.thresholdRatio - 1, left = double(s.thresholds.size()) / double(atStart);
+    hasChanged = hasChanged || s.thresholds.size() < before;
+    const double last = threshold, growth = s.thresholdRatio - 1, left = double(s.thresholds.size()) / double(atStart);
     threshold *= 1 + std::max(std::min(growth, kLeastGrowth), growth * left);
     // The threshold at which a fiftieth of the vertices are due: hundreds of smaller steps would remove
     // almost no vertex.
     threshold = std::max(threshold, double(s.thresholds.quantile(0.02)));
     if (s.thresholds.size() == before) {
       const double pending = s.thresholds.least();
-      if (!(pending < std::numeric_limits<double>::infinity())) break;
+      if (!(pending < std::numeric_limits<double>::infinity()) && !hasChanged) break;
       threshold = std::max(threshold, pending);
+    }
+    // Of vertices whose neighbours went, costs are known late. Where costs have a gap (flat parts end, and what
+    // is bent begins), what became cheap goes before anything that is dearer.
+    if (hasChanged && threshold > kGap * last) {
+      makeChangedDue(s);
+      threshold = last;
+      hasChanged = false;
     }
     threshold = std::min(threshold, kLargest);
     if (s.liveTriangles < s.mesh.triangles.size() / 2) compact(s);
