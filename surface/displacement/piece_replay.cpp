@@ -89,8 +89,7 @@ StarLine PieceReplay::lineOf(NodeId n) const {
 
 Status PieceReplay::run(CoarseTriangleVisitor& visitor, const char* stage, const RunContext& context) const {
   std::vector<PieceList> pieces(mt_.triangleIdCount());
-  tbb::enumerable_thread_specific<PieceDivision> divisions(
-      [&] { return PieceDivision(original_, parts_.hasLines()); });
+  tbb::enumerable_thread_specific<PieceDivision> divisions([&] { return PieceDivision(original_); });
   std::vector<std::size_t> firstOf;
   for (std::size_t h = 0; h + 1 < heightBegins_.size(); ++h)
     for (std::size_t begin = heightBegins_[h]; begin < heightBegins_[h + 1]; begin += kBatch) {

@@ -81,7 +81,7 @@ void PieceDivision::joinParts() {
     if (end - i == 1) continue;
     Part hull = parts_[i];
     const bool isFilled = join(std::span(parts_).subspan(i, end - i), hull);
-    if (isFilled || !cutsFurther_ || end - i > kMostApart) {
+    if (isFilled || end - i > kMostApart) {
       parts_[first] = hull;
       continue;
     }
@@ -110,7 +110,7 @@ bool PieceDivision::join(std::span<const Part> some, Part& into) {
   std::uint32_t cuts = 0;
   std::int64_t apart = 0;
   for (const Part& part : some) {
-    if (cutsFurther_) apart += twiceArea(polygonOf(part));
+    apart += twiceArea(polygonOf(part));
     hull_.insert(hull_.end(), points_.begin() + part.begin, points_.begin() + part.end);
     cuts = std::max(cuts, part.cuts);
   }
@@ -121,7 +121,7 @@ bool PieceDivision::join(std::span<const Part> some, Part& into) {
   points_.insert(points_.end(), hull_.begin(), hull_.end());
   into.end = static_cast<std::uint32_t>(points_.size());
   // But for what rounding has moved corners by.
-  return cutsFurther_ && twiceArea(hull_) <= apart + std::int64_t{FacePoint::kOne} * (cuts + 4);
+  return twiceArea(hull_) <= apart + std::int64_t{FacePoint::kOne} * (cuts + 4);
 }
 
 PieceDivision::Whole PieceDivision::bestWhole(const SpaceTriangle& face, std::span<const FacePoint> polygon,
@@ -189,13 +189,20 @@ void PieceDivision::cutAlong(int node, std::size_t depth, const SpaceTriangle& f
   const Cut plane = tree_[static_cast<std::size_t>(node)];
   Halves& halves = halves_[depth];
   const auto [low, high] = heightsOver(plane, polygon, face, halves.heights);
+  bool isBelow = low < 0;
   if (low < 0 && high > 0) {
     cut(polygon, halves.heights, halves.below, halves.above);
-    if (!halves.below.empty()) cutAlong(plane.below, depth + 1, face, halves.below, cuts + 1);
-    if (!halves.above.empty()) cutAlong(plane.above, depth + 1, face, halves.above, cuts + 1);
-  } else {
-    cutAlong(low < 0 ? plane.below : plane.above, depth + 1, face, polygon, cuts);
+    // A half without area is what rounding leaves of a polygon that only touches the plane. Elsewhere than
+    // the rest it would count as if it were far from there.
+    const bool hasBelow = twiceArea(halves.below) > 0, hasAbove = twiceArea(halves.above) > 0;
+    if (hasBelow && hasAbove) {
+      cutAlong(plane.below, depth + 1, face, halves.below, cuts + 1);
+      cutAlong(plane.above, depth + 1, face, halves.above, cuts + 1);
+      return;
+    }
+    isBelow = hasBelow || (!hasAbove && -low > high);
   }
+  cutAlong(isBelow ? plane.below : plane.above, depth + 1, face, polygon, cuts);
 }
 
 /// @param enough the squared distance below which a leaf is not cut
@@ -215,7 +222,7 @@ void PieceDivision::cutFurther(std::size_t at, const SpaceTriangle& face, double
     const auto [low, high] = heightsOver(plane, polygon, face, halves.heights);
     if (!(low < 0 && high > 0)) continue;
     cut(polygon, halves.heights, halves.below, halves.above);
-    if (halves.below.empty() || halves.above.empty()) continue;
+    if (!(twiceArea(halves.below) > 0 && twiceArea(halves.above) > 0)) continue;
     const Whole one = bestWhole(face, halves.below, nullptr), other = bestWhole(face, halves.above, nullptr);
     const double worst = std::max(one.squared, other.squared);
     const bool isFirst = !isCut && worst <= least && std::min(one.squared, other.squared) <= enough;
@@ -314,9 +321,8 @@ void PieceDivision::divide(std::span<const Vec3> corners, const HoleTriangulatio
     leafCount_ = 0;
     hull_.assign(polygonOf(part).begin(), polygonOf(part).end());
     cutAlong(root, 0, face, hull_, part.cuts);
-    if (cutsFurther_)
-      for (std::size_t i = 0, count = leafCount_; i < count; ++i)
-        cutFurther(i, face, kNearEnough * kNearEnough * anyway, 0);
+    for (std::size_t i = 0, count = leafCount_; i < count; ++i)
+      cutFurther(i, face, kNearEnough * kNearEnough * anyway, 0);
     double worst = 0;
     const std::span<const Leaf> leaves(leaves_.data(), leafCount_);
     for (const Leaf& leaf : leaves) worst = std::max(worst, leaf.whole.squared);

@@ -30,18 +30,16 @@ inline double roundingOf(const OriginalSurface& original, const SpaceTriangle& f
 ///
 /// The distance to a triangle is a convex function, so its maximum over a piece, a convex polygon, is at a
 /// corner. A piece that belongs to one triangle as a whole is bounded exactly by its corners. A piece that
-/// lies across an edge of the floor is cut there, if keeping it whole would make the bound larger.
+/// lies across an edge of the floor is cut there, if keeping it whole would make the bound larger. Flat parts
+/// stay exact, but for rounding.
 class PieceDivision {
  public:
-  /// @param cutsFurther parts that the tree of cuts leaves too far are cut again, where other cuts bring them
-  ///        nearer, and no hull is taken across a gap: where there are lines, so that flat parts stay exact
-  explicit PieceDivision(const OriginalSurface& original, bool cutsFurther = false)
-      : original_(original), cutsFurther_(cutsFurther) {}
+  explicit PieceDivision(const OriginalSurface& original) : original_(original) {}
 
   /// Starts with no pieces.
   void clear();
-  /// Adds the pieces of a triangle of the star. Those of one face are joined: their convex hull takes their
-  /// place, which has no other corners than theirs; beside lines only where they fill it.
+  /// Adds the pieces of a triangle of the star. Those of one face are joined where they fill their convex
+  /// hull, which has no other corners than theirs; where they are very many, in any case.
   void add(const PieceList& pieces);
   /// Adds a whole face.
   void add(std::uint32_t face);
@@ -101,8 +99,7 @@ class PieceDivision {
     return std::span(points_).subspan(part.begin, part.end - part.begin);
   }
   void joinParts();
-  /// Makes the convex hull of pieces of one face. @return whether they fill it; not known without
-  /// cutsFurther_.
+  /// Makes the convex hull of pieces of one face. @return whether they fill it.
   bool join(std::span<const Part> some, Part& into);
   /// @param least receives a bound from below of what any division reaches; may be null.
   Whole bestWhole(const SpaceTriangle& face, std::span<const FacePoint> polygon, double* least) const;
@@ -116,7 +113,6 @@ class PieceDivision {
               const SpaceTriangle& place, const Whole& whole);
 
   const OriginalSurface& original_;
-  bool cutsFurther_;
   std::vector<Part> parts_;
   FacePolygon points_, hull_;
   FloorDistance floor_;  // of the members

@@ -14,8 +14,7 @@ namespace arete {
 /// Removes vertices, on one thread.
 class SurfaceRemover {
  public:
-  explicit SurfaceRemover(SurfaceState& state)
-      : s_(state), division_(state.original, state.parts.hasLines()) {}
+  explicit SurfaceRemover(SurfaceState& state) : s_(state), division_(state.original) {}
 
   /// Removes v, whose cost is known exactly: fills the hole with the fan of its record, divides the pieces,
   /// records the modification, rewrites the star, updates the records of its link.

@@ -138,7 +138,8 @@ Result<SurfaceRoot> simplifySurface(SurfaceState& s, const std::vector<std::uint
     progress.add(levels.level(threshold, number, {number, 0}));
     if (context.cancelled()) return failure(ErrorCode::interrupted, "the build was interrupted");
     hasChanged = hasChanged || s.thresholds.size() < before;
-    const double last = threshold, growth = s.thresholdRatio - 1, left = double(s.thresholds.size()) / double(atStart);
+    const double last = threshold, growth = s.thresholdRatio - 1,
+                 left = double(s.thresholds.size()) / double(atStart);
     threshold *= 1 + std::max(std::min(growth, kLeastGrowth), growth * left);
     // The threshold at which a fiftieth of the vertices are due: hundreds of smaller steps would remove
     // almost no vertex.
@@ -148,8 +149,8 @@ Result<SurfaceRoot> simplifySurface(SurfaceState& s, const std::vector<std::uint
       if (!(pending < std::numeric_limits<double>::infinity()) && !hasChanged) break;
       threshold = std::max(threshold, pending);
     }
-    // Of vertices whose neighbours went, costs are known late. Where costs have a gap (flat parts end, and what
-    // is bent begins), what became cheap goes before anything that is dearer.
+    // Of vertices whose neighbours went, costs are known late. Where costs have a gap (flat parts end, and
+    // what is bent begins), what became cheap goes before anything that is dearer.
     if (hasChanged && threshold > kGap * last) {
       makeChangedDue(s);
       threshold = last;
