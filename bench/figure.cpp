@@ -126,11 +126,10 @@ Result<Report> readReport(const std::string& path) {
 }
 
 Status writeReport(const Report& report, const std::string& path) {
-  Result<FileWriter> writer = FileWriter::create(path);
-  if (!writer) return tl::unexpected(writer.error());
-  writer->write(toJson(report).dump(1));
-  writer->write("\n");
-  return writer->finish();
+  ARETE_TRY(FileWriter writer, FileWriter::create(path));
+  writer.write(toJson(report).dump(1));
+  writer.write("\n");
+  return writer.finish();
 }
 
 }  // namespace arete::bench

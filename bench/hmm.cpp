@@ -115,20 +115,19 @@ Result<HmmRun> runHmm(const std::string& hmm, const HmmInput& input, double tole
   if (access(hmm.c_str(), X_OK) != 0)
     return failure(ErrorCode::notFound, "there is no program that can be run", hmm);
   const Stopwatch watch;
-  const Result<Ended> ended =
-      runProgram({hmm, "-z", fmt::format("{}", kWhite * input.unit), "-e",
-                  fmt::format("{}", tolerance / (kWhite * input.unit)), input.png, "/dev/null"});
-  if (!ended) return tl::unexpected(ended.error());
+  ARETE_TRY(const Ended ended,
+            runProgram({hmm, "-z", fmt::format("{}", kWhite * input.unit), "-e",
+                        fmt::format("{}", tolerance / (kWhite * input.unit)), input.png, "/dev/null"}));
   HmmRun run;
   run.seconds = watch.seconds();
-  run.processorSeconds = secondsOf(ended->usage.ru_utime) + secondsOf(ended->usage.ru_stime);
-  run.triangulateSeconds = numberBehind(ended->said, "triangulating... ");
-  run.triangles = numberBehind(ended->said, "  triangles = ");
-  run.peakBytes = 1024.0 * double(ended->usage.ru_maxrss);
-  if (!WIFEXITED(ended->status) || WEXITSTATUS(ended->status) != 0)
+  run.processorSeconds = secondsOf(ended.usage.ru_utime) + secondsOf(ended.usage.ru_stime);
+  run.triangulateSeconds = numberBehind(ended.said, "triangulating... ");
+  run.triangles = numberBehind(ended.said, "  triangles = ");
+  run.peakBytes = 1024.0 * double(ended.usage.ru_maxrss);
+  if (!WIFEXITED(ended.status) || WEXITSTATUS(ended.status) != 0)
     return failure(ErrorCode::unreadable, "the rival failed on " + input.png, hmm);
   if (run.triangulateSeconds < 0 || run.triangles < 0)
-    return failure(ErrorCode::unreadable, "the rival's words cannot be understood: " + ended->said, hmm);
+    return failure(ErrorCode::unreadable, "the rival's words cannot be understood: " + ended.said, hmm);
   return run;
 }
 

@@ -128,18 +128,16 @@ Status generateDem(const DemSource& source) {
   TerrainOptions options;
   options.columns = options.rows = source.side;
   options.lake = source.hasLake;
-  const Result<RasterHeightfield> field = generateTerrain(options);
-  if (!field) return tl::unexpected(field.error());
-  if (source.isScattered) return writeScattered(source.path, *field);
-  return writeGeoTiff(source.path, field->columns, field->rows, field->heights, field->georeference);
+  ARETE_TRY(const RasterHeightfield field, generateTerrain(options));
+  if (source.isScattered) return writeScattered(source.path, field);
+  return writeGeoTiff(source.path, field.columns, field.rows, field.heights, field.georeference);
 }
 
 Result<RasterHeightfield> readField(const DemSource& source) {
-  Result<DemRead> dem = readDem(source.path);
-  if (!dem) return tl::unexpected(dem.error());
-  if (!std::holds_alternative<RasterHeightfield>(dem->heightfield))
+  ARETE_TRY(DemRead dem, readDem(source.path));
+  if (!std::holds_alternative<RasterHeightfield>(dem.heightfield))
     return failure(ErrorCode::unsupported, "not a raster", source.path);
-  return std::move(std::get<RasterHeightfield>(dem->heightfield));
+  return std::move(std::get<RasterHeightfield>(dem.heightfield));
 }
 
 Result<TerrainModel> loadModel(const std::string& path) {

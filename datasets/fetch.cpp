@@ -76,12 +76,11 @@ Status fetchPublicDem(const PublicDem& dem, const Box2& degrees, std::string_vie
   registerGdal();
   // No listing of remote folders: publishers' buckets have thousands of files in one.
   CPLSetConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");
-  const Result<std::vector<std::string>> paths = rasterPaths(dem, degrees, mirror);
-  if (!paths) return tl::unexpected(paths.error());
+  ARETE_TRY(const std::vector<std::string> paths, rasterPaths(dem, degrees, mirror));
 
   std::vector<GdalDatasetPtr> tiles;
   std::string cause;
-  for (const std::string& path : *paths) {
+  for (const std::string& path : paths) {
     if (context.cancelled()) return failure(ErrorCode::interrupted, "fetching was interrupted");
     GdalErrors errors;
     if (GdalDatasetPtr tile = openGdal(path, GDAL_OF_RASTER)) {
@@ -96,7 +95,7 @@ Status fetchPublicDem(const PublicDem& dem, const Box2& degrees, std::string_vie
     return failure(
         ErrorCode::notFound,
         fmt::format("none of the {} rasters of this box could be read; is there a network, and land? {}",
-                    paths->size(), cause),
+                    paths.size(), cause),
         std::string(dem.name));
 
   namespace fs = std::filesystem;

@@ -211,10 +211,9 @@ Result<RasterHeightfield> generateTerrain(const TerrainOptions& options, const R
   const Plan plan = {options.columns + 2 * margin, options.rows + 2 * margin, margin, options.pixelMetres};
   const int threads = tbb::info::default_concurrency();
   tbb::task_arena arena(context.threads > 0 ? std::min(context.threads, threads) : threads);
-  Result<ReliefGrid> grid = arena.execute([&] { return shape(plan, options, context); });
-  if (!grid) return tl::unexpected(grid.error());
-  RasterHeightfield field = cut(*grid, plan, options);
-  *grid = {};
+  ARETE_TRY(ReliefGrid grid, arena.execute([&] { return shape(plan, options, context); }));
+  RasterHeightfield field = cut(grid, plan, options);
+  grid = {};
   if (options.lake) floodLake(field, options.pixelMetres);
 
   Georeference& georeference = field.georeference;

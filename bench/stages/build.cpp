@@ -34,21 +34,20 @@ auto inStage(StageClock& clock, const char* stage, const Work& work) {
 template <class Heightfield, class... Finest>
 Result<TerrainModel> buildFrom(const Heightfield& field, HoleShape shape, const RunContext& context,
                                Finest... finest) {
-  const Result<FixedVertices> fixed =
-      inStage(*context.clock, "features", [&] { return chooseFixedVertices(field, finest..., {}, context); });
-  if (!fixed) return tl::unexpected(fixed.error());
+  ARETE_TRY(const FixedVertices fixed, inStage(*context.clock, "features", [&] {
+              return chooseFixedVertices(field, finest..., {}, context);
+            }));
   BuildOptions options;
   options.shape = shape;
-  options.fixedVertices = fixed->vertices;
+  options.fixedVertices = fixed.vertices;
   return build(field, std::move(finest)..., options, context);
 }
 
 Result<TerrainModel> buildOf(const DemHeightfield& dem, HoleShape shape, const RunContext& context) {
   if (const auto* raster = std::get_if<RasterHeightfield>(&dem)) return buildFrom(*raster, shape, context);
   const auto& points = std::get<PointHeightfield>(dem);
-  Result<FinestPoints> finest = finestPoints(points, context);
-  if (!finest) return tl::unexpected(finest.error());
-  return buildFrom(points, shape, context, std::move(*finest));
+  ARETE_TRY(FinestPoints finest, finestPoints(points, context));
+  return buildFrom(points, shape, context, std::move(finest));
 }
 
 }  // namespace
@@ -60,9 +59,8 @@ Result<Figures> readStage(const DemSource& source, const Plan& plan) {
     figures.push_back({source.name, "read", what, name, value, unit, better});
   };
   // Warm first: what reading needs of GDAL is then in memory, and cold is the file alone.
-  const Result<RasterHeightfield> field = readField(source);
-  if (!field) return tl::unexpected(field.error());
-  const double samples = double(field->size());
+  ARETE_TRY(const RasterHeightfield field, readField(source));
+  const double samples = double(field.size());
   const double seconds = medianSeconds(plan.repetition, [&] { return readField(source); });
   add("samples", samples, "", Better::neither);
   add("time", seconds, "s", Better::lower);
@@ -70,11 +68,10 @@ Result<Figures> readStage(const DemSource& source, const Plan& plan) {
   std::vector<double> cold;
   double left = 0;
   for (int i = 0; i < plan.repetition.most && left < kColdFraction; ++i) {
-    const Result<double> dropped = dropFromCache(source.path);
-    if (!dropped) return tl::unexpected(dropped.error());
-    left = std::max(left, *dropped);
+    ARETE_TRY(const double dropped, dropFromCache(source.path));
+    left = std::max(left, dropped);
     const Stopwatch watch;
-    if (const auto again = readField(source); !again) return tl::unexpected(again.error());
+    ARETE_CHECK(readField(source));
     cold.push_back(watch.seconds());
   }
   add("left in the cache", 100 * left, "%", Better::neither);
@@ -87,16 +84,13 @@ Result<Figures> buildOnce(const DemSource& source, HoleShape shape, int threads,
   StageClock clock;
   RunContext context = onThreads(threads);
   context.clock = &clock;
-  Result<DemRead> dem = inStage(clock, "read", [&] { return readDem(source.path); });
-  if (!dem) return tl::unexpected(dem.error());
-  const double samples = std::visit([](const auto& field) { return double(field.size()); }, dem->heightfield);
+  ARETE_TRY(DemRead dem, inStage(clock, "read", [&] { return readDem(source.path); }));
+  const double samples = std::visit([](const auto& field) { return double(field.size()); }, dem.heightfield);
 
   const Stopwatch whole;
-  const Result<TerrainModel> built = buildOf(dem->heightfield, shape, context);
-  if (!built) return tl::unexpected(built.error());
+  ARETE_TRY(const TerrainModel built, buildOf(dem.heightfield, shape, context));
   const double seconds = whole.seconds(), peak = peakBytes();
-  const Status written = inStage(clock, "write", [&] { return writeAmt(model, *built, onThreads(threads)); });
-  if (!written) return tl::unexpected(written.error());
+  ARETE_CHECK(inStage(clock, "write", [&] { return writeAmt(model, built, onThreads(threads)); }));
 
   Figures figures;
   const auto add = [&](const char* stage, const std::string& name, double value, const char* unit,

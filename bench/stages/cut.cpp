@@ -50,28 +50,24 @@ class CutStage {
         saturated(fmt::format("saturated, {:g}, {}", e, threadsText(threads)), e);
       saturated(fmt::format("saturated, finest, {}", threadsText(threads)), 0);
     }
-    for (const std::size_t triangles : kUniformTriangles)
-      if (const Status s = uniform(triangles); !s) return tl::unexpected(s.error());
+    for (const std::size_t triangles : kUniformTriangles) ARETE_CHECK(uniform(triangles));
     for (const double e : source_.tolerances)
-      if (const Status s = general(fmt::format("minimal, {:g}", e), UniformError(e), {}); !s)
-        return tl::unexpected(s.error());
+      ARETE_CHECK(general(fmt::format("minimal, {:g}", e), UniformError(e), {}));
     const double inside = source_.tolerances.front(), outside = source_.tolerances.back();
     const RegionError region(middle(model_), model_.mt.arrays().metric, inside, outside);
     for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
       const char* name = method == CutMethod::minimal ? "minimal" : "saturated";
       const std::string variant =
           fmt::format("{}, region of a tenth, {:g} and {:g} outside", name, inside, outside);
-      if (const Status s = general(variant, region, {.method = method}); !s) return tl::unexpected(s.error());
+      ARETE_CHECK(general(variant, region, {.method = method}));
     }
-    if (const Status s = view(); !s) return tl::unexpected(s.error());
+    ARETE_CHECK(view());
     const std::uint32_t budget =
         std::max(model_.mt.rootTriangleCount(), model_.mt.finestTriangleCount() / 100);
     for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
       const char* name = method == CutMethod::minimal ? "minimal" : "saturated";
-      if (const Status s = general(fmt::format("{}, budget of 1 %", name), UniformError(0),
-                                   {.method = method, .maxTriangles = budget});
-          !s)
-        return tl::unexpected(s.error());
+      ARETE_CHECK(general(fmt::format("{}, budget of 1 %", name), UniformError(0),
+                          {.method = method, .maxTriangles = budget}));
     }
     return std::move(figures_);
   }
@@ -102,7 +98,7 @@ class CutStage {
     for (const CutMethod method : {CutMethod::saturated, CutMethod::minimal}) {
       const char* const name = method == CutMethod::saturated ? "saturated" : "minimal";
       const std::string variant = fmt::format("{}, {} triangles", name, triangles);
-      if (Status s = ofSize(variant, triangles, {.method = method}, 1e-6, 1e6, within); !s) return s;
+      ARETE_CHECK(ofSize(variant, triangles, {.method = method}, 1e-6, 1e6, within));
     }
     return {};
   }
@@ -113,10 +109,9 @@ class CutStage {
     Camera camera{.xy = model_.toSource(middleOf), .azimuthDegrees = 30, .pitchDegrees = -8};
     const auto ground = SurfaceHeights(model_).at(camera.xy);
     camera.height = (ground ? ground->height : 0) + 300 / model_.georeference.verticalUnitMetres;
-    const Result<View> seen = viewOf(camera, model_);
-    if (!seen) return tl::unexpected(seen.error());
+    ARETE_TRY(const View seen, viewOf(camera, model_));
     const auto withPixels = [&](double pixels) {
-      return ViewError({.view = *seen, .pixels = pixels}, model_.mt.arrays().metric);
+      return ViewError({.view = seen, .pixels = pixels}, model_.mt.arrays().metric);
     };
     return ofSize("saturated, view", kViewTriangles, {.method = CutMethod::saturated}, 1e-3, 1e3, withPixels);
   }
@@ -128,31 +123,28 @@ class CutStage {
                 double coarse, const CriterionOf& criterionOf) {
     for (int step = 0; step < 30; ++step) {
       const double bound = std::sqrt(fine * coarse);
-      const Result<Cut> cut = takeCut(model_.mt, criterionOf(bound), options);
-      if (!cut) return tl::unexpected(cut.error());
-      (cut->triangles.size() > triangles ? fine : coarse) = bound;
+      ARETE_TRY(const Cut cut, takeCut(model_.mt, criterionOf(bound), options));
+      (cut.triangles.size() > triangles ? fine : coarse) = bound;
     }
     const auto criterion = criterionOf(coarse);
-    const Result<Cut> cut = takeCut(model_.mt, criterion, options);
-    if (!cut) return tl::unexpected(cut.error());
+    ARETE_TRY(const Cut cut, takeCut(model_.mt, criterion, options));
     for (const int threads : {1, 0}) {
       const auto limit = limitTo(threads);
       const double seconds = medianSeconds(kShort, [&] { return takeCut(model_.mt, criterion, options); });
       const std::string byThreads = fmt::format("{}, {}", variant, threadsText(threads));
-      add(byThreads, "triangles", double(cut->triangles.size()), "", Better::neither);
+      add(byThreads, "triangles", double(cut.triangles.size()), "", Better::neither);
       add(byThreads, "time", seconds * 1e3, "ms", Better::lower);
     }
     return {};
   }
 
   Status general(const std::string& variant, const Criterion& criterion, const CutOptions& options) {
-    const Result<Cut> cut = takeCut(model_.mt, criterion, options);
-    if (!cut) return tl::unexpected(cut.error());
+    ARETE_TRY(const Cut cut, takeCut(model_.mt, criterion, options));
     const double seconds =
         medianSeconds(plan_.repetition, [&] { return takeCut(model_.mt, criterion, options); });
-    add(variant, "triangles", double(cut->triangles.size()), "", Better::neither);
+    add(variant, "triangles", double(cut.triangles.size()), "", Better::neither);
     add(variant, "time", seconds * 1e3, "ms", Better::lower);
-    if (options.maxTriangles) add(variant, "achieved error", cut->achievedError, "", Better::lower);
+    if (options.maxTriangles) add(variant, "achieved error", cut.achievedError, "", Better::lower);
     return {};
   }
 
@@ -165,24 +157,21 @@ class CutStage {
 }  // namespace
 
 Result<Figures> cutStage(const DemSource& source, const std::string& path, const Plan& plan) {
-  const Result<TerrainModel> model = loadModel(path);
-  if (!model) return tl::unexpected(model.error());
-  return CutStage(source, *model, plan).run();
+  ARETE_TRY(const TerrainModel model, loadModel(path));
+  return CutStage(source, model, plan).run();
 }
 
 Result<Figures> exportStage(const DemSource& source, const std::string& path, const Plan& plan) {
-  const Result<TerrainModel> model = loadModel(path);
-  if (!model) return tl::unexpected(model.error());
+  ARETE_TRY(const TerrainModel model, loadModel(path));
   const double tolerance = source.tolerances.front();
-  const Result<Cut> cut = takeCut(model->mt, UniformError(tolerance));
-  if (!cut) return tl::unexpected(cut.error());
+  ARETE_TRY(const Cut cut, takeCut(model.mt, UniformError(tolerance)));
   const std::string file = path + ".ply";
   Status status;
   const double seconds = medianSeconds(plan.repetition, [&] {
-    const TinExport tin = exportTin(*model, *cut).value();
+    const TinExport tin = exportTin(model, cut).value();
     MeshWriteOptions options;
     options.triangleErrors = tin.errors;
-    options.crsWkt = model->georeference.crsWkt;
+    options.crsWkt = model.georeference.crsWkt;
     const auto written = writeMesh(tin.mesh, file, options);
     status = written ? Status() : Status(tl::unexpected(written.error()));
     return status.has_value();
@@ -191,7 +180,7 @@ Result<Figures> exportStage(const DemSource& source, const std::string& path, co
   std::error_code ignored;
   const double bytes = double(fs::file_size(file, ignored));
   fs::remove(file, ignored);
-  const double triangles = double(cut->triangles.size());
+  const double triangles = double(cut.triangles.size());
   const std::string variant = fmt::format("PLY, {:g}", tolerance);
   return Figures{{source.name, "export", variant, "triangles", triangles, "", Better::neither},
                  {source.name, "export", variant, "time", seconds, "s", Better::lower},
@@ -199,25 +188,21 @@ Result<Figures> exportStage(const DemSource& source, const std::string& path, co
 }
 
 Result<Figures> measureStage(const DemSource& source, const std::string& path, const Plan& plan) {
-  const Result<TerrainModel> model = loadModel(path);
-  if (!model) return tl::unexpected(model.error());
-  const Result<RasterHeightfield> field = readField(source);
-  if (!field) return tl::unexpected(field.error());
+  ARETE_TRY(const TerrainModel model, loadModel(path));
+  ARETE_TRY(const RasterHeightfield field, readField(source));
   const double tolerance = source.tolerances[source.tolerances.size() / 2];
-  const Result<Cut> cut = takeCut(model->mt, UniformError(tolerance));
-  if (!cut) return tl::unexpected(cut.error());
-  const TinExport tin = exportTin(*model, *cut).value();
-  const Result<MeasureReport> report = measure(tin.mesh, *field);
-  if (!report) return tl::unexpected(report.error());
-  if (const Status kept = checkPromise(*report, tolerance); !kept) return tl::unexpected(kept.error());
+  ARETE_TRY(const Cut cut, takeCut(model.mt, UniformError(tolerance)));
+  const TinExport tin = exportTin(model, cut).value();
+  ARETE_TRY(const MeasureReport report, measure(tin.mesh, field));
+  ARETE_CHECK(checkPromise(report, tolerance));
   Figures figures;
   for (const int threads : {1, 0}) {
     const auto limit = limitTo(threads);
     const double seconds =
-        medianSeconds(plan.repetition, [&] { return measure(tin.mesh, *field, {}, onThreads(threads)); });
+        medianSeconds(plan.repetition, [&] { return measure(tin.mesh, field, {}, onThreads(threads)); });
     const std::string variant = fmt::format("{:g}, {}", tolerance, threadsText(threads));
     figures.push_back({source.name, "measure", variant, "time", seconds, "s", Better::lower});
-    figures.push_back({source.name, "measure", variant, "rate", double(report->valid) / seconds, "samples/s",
+    figures.push_back({source.name, "measure", variant, "rate", double(report.valid) / seconds, "samples/s",
                        Better::higher});
   }
   return figures;
@@ -225,8 +210,7 @@ Result<Figures> measureStage(const DemSource& source, const std::string& path, c
 
 Result<Figures> trianglesStage(const DemSource& source, const std::string& delaunay,
                                const std::string& fidelity, const std::vector<GreedyBaseline>& baselines) {
-  const Result<RasterHeightfield> field = readField(source);
-  if (!field) return tl::unexpected(field.error());
+  ARETE_TRY(const RasterHeightfield field, readField(source));
   const Result<TerrainModel> models[] = {loadModel(delaunay), loadModel(fidelity)};
   const char* names[] = {"Delaunay", "fidelity"};
   Figures figures;
@@ -238,14 +222,11 @@ Result<Figures> trianglesStage(const DemSource& source, const std::string& delau
     add("best greedy insertion", baseline.triangles, Better::neither);
     for (std::size_t i = 0; i < 2; ++i) {
       if (!models[i]) return tl::unexpected(models[i].error());
-      const Result<Cut> cut = takeCut(models[i]->mt, UniformError(baseline.tolerance));
-      if (!cut) return tl::unexpected(cut.error());
+      ARETE_TRY(const Cut cut, takeCut(models[i]->mt, UniformError(baseline.tolerance)));
       // A count that does not keep its tolerance is worth nothing.
-      const Result<MeasureReport> report = measure(exportTin(*models[i], *cut)->mesh, *field);
-      if (!report) return tl::unexpected(report.error());
-      if (const Status kept = checkPromise(*report, baseline.tolerance); !kept)
-        return tl::unexpected(kept.error());
-      const double count = double(cut->triangles.size());
+      ARETE_TRY(const MeasureReport report, measure(exportTin(*models[i], cut)->mesh, field));
+      ARETE_CHECK(checkPromise(report, baseline.tolerance));
+      const double count = double(cut.triangles.size());
       add(names[i], count, Better::lower);
       add(fmt::format("ratio, {}", names[i]), count / baseline.triangles, Better::lower);
     }

@@ -48,36 +48,32 @@ struct ColdTimes {
 Result<ColdTimes> timeCold(const std::string& model, double tolerance, const Repetition& repetition) {
   ColdTimes times;
   const auto drop = [&]() -> Status {
-    const Result<double> left = dropFromCache(model);
-    if (!left) return tl::unexpected(left.error());
-    times.left = std::max(times.left, *left);
+    ARETE_TRY(const double left, dropFromCache(model));
+    times.left = std::max(times.left, left);
     return {};
   };
   AmtLoadOptions trusted;
   trusted.verify = AmtVerify::none;
   const Stopwatch all;
   do {
-    if (const Status dropped = drop(); !dropped) return tl::unexpected(dropped.error());
+    ARETE_CHECK(drop());
     if (!times.isCold()) return times;
     {
       const Stopwatch watch;
-      if (const auto file = openAmt(model); !file) return tl::unexpected(file.error());
+      ARETE_CHECK(openAmt(model));
       times.open.push_back(watch.seconds());
     }
-    if (const Status dropped = drop(); !dropped) return tl::unexpected(dropped.error());
+    ARETE_CHECK(drop());
     {
       const Stopwatch watch;
-      const auto loaded = loadAmt(model);
-      if (!loaded) return tl::unexpected(loaded.error());
+      ARETE_CHECK(loadAmt(model));
       times.load.push_back(watch.seconds());
     }
-    if (const Status dropped = drop(); !dropped) return tl::unexpected(dropped.error());
+    ARETE_CHECK(drop());
     {
       const Stopwatch watch;
-      const auto loaded = loadAmt(model, trusted);
-      if (!loaded) return tl::unexpected(loaded.error());
-      const auto cut = takeCut(loaded->mt, UniformError(tolerance), {.method = CutMethod::saturated});
-      if (!cut) return tl::unexpected(cut.error());
+      ARETE_TRY(const auto loaded, loadAmt(model, trusted));
+      ARETE_CHECK(takeCut(loaded.mt, UniformError(tolerance), {.method = CutMethod::saturated}));
       times.cut.push_back(watch.seconds());
     }
   } while (int(times.load.size()) < repetition.most && all.seconds() < repetition.enoughSeconds);
@@ -132,12 +128,10 @@ Result<Figures> timePacked(const DemSource& source, HoleShape shape, const std::
   const std::string packed = model + ".packed";
   double samples = 0;
   {
-    const auto loaded = loadModel(model);
-    if (!loaded) return tl::unexpected(loaded.error());
-    samples = samplesOf(*loaded);
+    ARETE_TRY(const auto loaded, loadModel(model));
+    samples = samplesOf(loaded);
     const Stopwatch watch;
-    if (const Status written = writeAmt(packed, *loaded, {}, {.isPacked = true}); !written)
-      return tl::unexpected(written.error());
+    ARETE_CHECK(writeAmt(packed, loaded, {}, {.isPacked = true}));
     figures.push_back({source.name, "file", fmt::format("{}, packed", toString(shape)), "pack and write",
                        watch.seconds(), "s", Better::lower});
   }
@@ -166,8 +160,7 @@ Result<Figures> fileStage(const DemSource& source, HoleShape shape, const std::s
     figures.push_back({source.name, "file", std::string(toString(shape)), name, value, unit, better});
   };
   const double tolerance = source.tolerances[source.tolerances.size() / 2];
-  const Result<ColdTimes> cold = timeCold(model, tolerance, plan.repetition);
-  if (!cold) return tl::unexpected(cold.error());
+  ARETE_TRY(const ColdTimes cold, timeCold(model, tolerance, plan.repetition));
 
   double samples = 0;
   {
@@ -175,9 +168,8 @@ Result<Figures> fileStage(const DemSource& source, HoleShape shape, const std::s
     const auto loaded = loadAmt(model);  // its checks touch every byte
     if (!loaded) return tl::unexpected(loaded.error());
     samples = samplesOf(*loaded);
-    const Result<AmtFile> file = openAmt(model);
-    if (!file) return tl::unexpected(file.error());
-    add("size", double(file->bytes().size()) / samples, "bytes/sample");
+    ARETE_TRY(const AmtFile file, openAmt(model));
+    add("size", double(file.bytes().size()) / samples, "bytes/sample");
     add("in memory, all touched", (residentBytes() - before) / samples, "bytes/sample");
   }
   // Opening takes microseconds: one run is a thousand.
@@ -199,11 +191,11 @@ Result<Figures> fileStage(const DemSource& source, HoleShape shape, const std::s
   trusted.verify = AmtVerify::none;
   add("open and cut", openAndCutMilliseconds(model, trusted, tolerance, plan.repetition), "ms");
   timeQuestions(source, model, tolerance, plan.repetition, add);
-  add("left in the cache", 100 * cold->left, "%", Better::neither);
-  if (cold->isCold()) {
-    add("open, cold", 1e6 * medianOf(cold->open), "us");
-    add("load with checks, cold", medianOf(cold->load), "s");
-    add("open and cut, cold", 1000 * medianOf(cold->cut), "ms");
+  add("left in the cache", 100 * cold.left, "%", Better::neither);
+  if (cold.isCold()) {
+    add("open, cold", 1e6 * medianOf(cold.open), "us");
+    add("load with checks, cold", medianOf(cold.load), "s");
+    add("open and cut, cold", 1000 * medianOf(cold.cut), "ms");
   }
   Result<Figures> packed = timePacked(source, shape, model, tolerance, plan);
   if (!packed) return packed;

@@ -37,12 +37,10 @@ Result<std::vector<View>> viewsOfFlight(const TerrainModel& model) {
     Camera camera{.xy = model.toSource(plan), .azimuthDegrees = azimuth, .pitchDegrees = -8};
     if (const auto surface = heights.at(camera.xy)) ground = surface->height;
     camera.height = ground + kAboveGround / model.georeference.verticalUnitMetres;
-    const Result<View> view = viewOf(camera, model);
-    if (!view) return tl::unexpected(view.error());
-    views.push_back(*view);
-    const double step = kMetresPerSecond / kFramesPerSecond / std::hypot(view->forward.x, view->forward.y);
-    plan = {plan.x + step * view->forward.x / metric.scale.x,
-            plan.y + step * view->forward.y / metric.scale.y};
+    ARETE_TRY(const View view, viewOf(camera, model));
+    views.push_back(view);
+    const double step = kMetresPerSecond / kFramesPerSecond / std::hypot(view.forward.x, view.forward.y);
+    plan = {plan.x + step * view.forward.x / metric.scale.x, plan.y + step * view.forward.y / metric.scale.y};
     const bool isInside = plan.x > 0.1 * model.columns && plan.x < 0.9 * model.columns &&
                           plan.y > 0.1 * model.rows && plan.y < 0.9 * model.rows;
     azimuth += turn;
@@ -133,11 +131,10 @@ class FollowStage {
     std::vector<double> triangles, steps;
     int incomplete = 0;
     time(variant, [&](const ViewError& criterion) -> Status {
-      const auto update = cut.update(criterion, options());
-      if (!update) return tl::unexpected(update.error());
+      ARETE_TRY(const auto update, cut.update(criterion, options()));
       triangles.push_back(double(cut.triangles().size()));
       steps.push_back(double(cut.lastSteps().size()));
-      incomplete += update->isComplete ? 0 : 1;
+      incomplete += update.isComplete ? 0 : 1;
       return {};
     });
     add(variant, "triangles", quantile(triangles, 0.5), "", Better::neither);
@@ -170,12 +167,10 @@ class FollowStage {
 }  // namespace
 
 Result<Figures> followStage(const DemSource& source, const std::string& path, const Plan&) {
-  const Result<TerrainModel> model = loadModel(path);
-  if (!model) return tl::unexpected(model.error());
-  Result<std::vector<View>> views = viewsOfFlight(*model);
-  if (!views) return tl::unexpected(views.error());
+  ARETE_TRY(const TerrainModel model, loadModel(path));
+  ARETE_TRY(std::vector<View> views, viewsOfFlight(model));
   const auto limit = limitTo(1);
-  return FollowStage(source, model->mt, std::move(*views)).run();
+  return FollowStage(source, model.mt, std::move(views)).run();
 }
 
 }  // namespace arete::bench

@@ -30,20 +30,18 @@ std::vector<Vec2> placesOn(const TerrainModel& model) {
 }  // namespace
 
 Result<Figures> heightStage(const DemSource& source, const std::string& path, const Plan& plan) {
-  const Result<TerrainModel> model = loadModel(path);
-  if (!model) return tl::unexpected(model.error());
-  const SurfaceHeights heights(*model);
-  const std::vector<Vec2> places = placesOn(*model);
+  ARETE_TRY(const TerrainModel model, loadModel(path));
+  const SurfaceHeights heights(model);
+  const std::vector<Vec2> places = placesOn(model);
   Figures figures;
   std::vector<double> tolerances = {0};
   tolerances.insert(tolerances.end(), source.tolerances.begin(), source.tolerances.end());
   for (const double tolerance : tolerances)
     for (const int threads : {1, 0}) {
       const auto limit = limitTo(threads);
-      const auto answers = heights.at(places, tolerance, onThreads(threads));
-      if (!answers) return tl::unexpected(answers.error());
+      ARETE_TRY(const auto answers, heights.at(places, tolerance, onThreads(threads)));
       double visited = 0, found = 0;
-      for (const auto& answer : *answers)
+      for (const auto& answer : answers)
         if (answer) {
           visited += answer->nodesVisited;
           ++found;

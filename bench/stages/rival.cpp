@@ -22,29 +22,27 @@ namespace fs = std::filesystem;
 
 /// Made, the DEM too where it is a generated one, by a process of its own: GDAL may start threads.
 Result<HmmInput> makeInput(const DemSource& source, const std::string& png) {
-  const Result<Json> made = runForked([&]() -> Result<Json> {
-    if (const Status generated = generateDem(source); !generated) return tl::unexpected(generated.error());
-    const Result<DemRead> dem = readDem(source.path);
-    if (!dem) return tl::unexpected(dem.error());
-    const auto* field = std::get_if<RasterHeightfield>(&dem->heightfield);
-    if (field == nullptr) return failure(ErrorCode::unsupported, "not a raster", source.path);
-    const Result<HmmInput> input = writeHmmInput(*field, png);
-    if (!input) return tl::unexpected(input.error());
-    return Json(input->unit);
-  });
-  if (!made) return tl::unexpected(made.error());
-  return HmmInput{png, made->get<double>()};
+  ARETE_TRY(const Json made, runForked([&]() -> Result<Json> {
+              ARETE_CHECK(generateDem(source));
+              const Result<DemRead> dem = readDem(source.path);
+              if (!dem) return tl::unexpected(dem.error());
+              const auto* field = std::get_if<RasterHeightfield>(&dem->heightfield);
+              if (field == nullptr) return failure(ErrorCode::unsupported, "not a raster", source.path);
+              const Result<HmmInput> input = writeHmmInput(*field, png);
+              if (!input) return tl::unexpected(input.error());
+              return Json(input->unit);
+            }));
+  return HmmInput{png, made.get<double>()};
 }
 
 Result<Figures> buildPinned(const DemSource& source, const std::string& model) {
-  const Result<Json> built = runForked([&]() -> Result<Json> {
-    if (const Status pinned = stayOnOneCore(); !pinned) return tl::unexpected(pinned.error());
-    const Result<Figures> figures = buildOnce(source, HoleShape::delaunay, 1, model);
-    if (!figures) return tl::unexpected(figures.error());
-    return toJson(*figures);
-  });
-  if (!built) return tl::unexpected(built.error());
-  return figuresFromJson(*built);
+  ARETE_TRY(const Json built, runForked([&]() -> Result<Json> {
+              ARETE_CHECK(stayOnOneCore());
+              const Result<Figures> figures = buildOnce(source, HoleShape::delaunay, 1, model);
+              if (!figures) return tl::unexpected(figures.error());
+              return toJson(*figures);
+            }));
+  return figuresFromJson(built);
 }
 
 double valueOf(const Figures& figures, const std::string& stage, const std::string& name) {
@@ -60,19 +58,17 @@ struct Round {
 
 Result<Round> oneRound(const DemSource& source, const Plan& plan, const HmmInput& input,
                        const std::string& model) {
-  const Result<HmmRun> hmm = runHmm(plan.hmm, input, source.tolerances.front());
-  if (!hmm) return tl::unexpected(hmm.error());
-  const Result<Figures> built = buildPinned(source, model);
-  if (!built) return tl::unexpected(built.error());
+  ARETE_TRY(const HmmRun hmm, runHmm(plan.hmm, input, source.tolerances.front()));
+  ARETE_TRY(const Figures built, buildPinned(source, model));
   Round round;
-  round.hmm = *hmm;
-  round.samples = valueOf(*built, "build", "samples");
-  round.build = valueOf(*built, "build", "time");
-  round.buildProcessor = valueOf(*built, "build", "processor time");
-  round.peakPerSample = valueOf(*built, "build", "peak memory");
+  round.hmm = hmm;
+  round.samples = valueOf(built, "build", "samples");
+  round.build = valueOf(built, "build", "time");
+  round.buildProcessor = valueOf(built, "build", "processor time");
+  round.peakPerSample = valueOf(built, "build", "peak memory");
   round.fileToFile =
-      round.build + 1e-9 * round.samples *
-                        (valueOf(*built, "build parts", "read") + valueOf(*built, "build parts", "write"));
+      round.build +
+      1e-9 * round.samples * (valueOf(built, "build parts", "read") + valueOf(built, "build parts", "write"));
   return round;
 }
 

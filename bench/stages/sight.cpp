@@ -83,22 +83,21 @@ double profileTime(const Profiles& profiles, const std::vector<SightLine>& lines
 }  // namespace
 
 Result<Figures> sightStage(const DemSource& source, const std::string& path, const Plan& plan) {
-  const Result<TerrainModel> model = loadModel(path);
-  if (!model) return tl::unexpected(model.error());
+  ARETE_TRY(const TerrainModel model, loadModel(path));
   const auto limit = limitTo(1);
-  const auto grid = std::make_shared<const SightGrid>(*model);
+  const auto grid = std::make_shared<const SightGrid>(model);
   const auto pyramid = makeSightPyramid(grid);
-  const double relief = model->mt.largestError();
+  const double relief = model.mt.largestError();
   Figures figures;
   for (const bool isLong : {false, true}) {
-    const std::vector<Ends> ends = endsOn(*model, *grid, isLong ? kLongCells : 0);
+    const std::vector<Ends> ends = endsOn(model, *grid, isLong ? kLongCells : 0);
     if (ends.empty()) continue;
     double low = 0, high = 20 * relief;
     for (int i = 0; i < 12; ++i) {
       const double middle = (low + high) / 2;
-      (clearShare(*pyramid, linesOf(*model, ends, middle)) < kClearShare ? low : high) = middle;
+      (clearShare(*pyramid, linesOf(model, ends, middle)) < kClearShare ? low : high) = middle;
     }
-    const std::vector<SightLine> lines = linesOf(*model, ends, high);
+    const std::vector<SightLine> lines = linesOf(model, ends, high);
     for (const char* what : {"verdict", "first obstruction", "clearance"}) {
       SightOptions options;
       options.wantsClearance = std::string_view(what) == "clearance";
@@ -107,14 +106,13 @@ Result<Figures> sightStage(const DemSource& source, const std::string& path, con
       double scanSeconds = 0;
       for (const SightMethod method :
            {SightMethod::scan, SightMethod::pyramid, SightMethod::descent, SightMethod::embree}) {
-        const auto engine = makeSightEngine(method, *model, grid);
-        if (!engine) return tl::unexpected(engine.error());
+        ARETE_TRY(const auto engine, makeSightEngine(method, model, grid));
         double visited = 0;
         for (const SightLine& line : lines)
-          visited += static_cast<double>((*engine)->answer(line, options).visited);
+          visited += static_cast<double>(engine->answer(line, options).visited);
         const double seconds = medianSeconds(plan.repetition, [&] {
           double sum = 0;
-          for (const SightLine& line : lines) sum += (*engine)->answer(line, options).gapMetres;
+          for (const SightLine& line : lines) sum += engine->answer(line, options).gapMetres;
           return sum;
         });
         if (method == SightMethod::scan) scanSeconds = seconds;
@@ -134,8 +132,8 @@ Result<Figures> sightStage(const DemSource& source, const std::string& path, con
                          fmt::format("{}profile, {}", isLong ? "2000 cells and more, " : "",
                                      overCells ? "cells" : "descent"),
                          "time per 1000 vertices",
-                         profileTime(overCells ? Profiles(*model, grid) : Profiles(*model), lines, plan),
-                         "us", Better::lower});
+                         profileTime(overCells ? Profiles(model, grid) : Profiles(model), lines, plan), "us",
+                         Better::lower});
   }
   return figures;
 }

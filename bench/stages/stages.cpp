@@ -29,9 +29,8 @@ struct BuildVariant {
 
 Result<Figures> inProcess(const std::string& dem, const std::function<Result<Figures>()>& stage) {
   const Result<Json> json = runForked([&]() -> Result<Json> {
-    const Result<Figures> figures = stage();
-    if (!figures) return tl::unexpected(figures.error());
-    return toJson(*figures);
+    ARETE_TRY(const Figures figures, stage());
+    return toJson(figures);
   });
   if (!json) return failure(json.error().code, json.error().message, dem);
   return figuresFromJson(*json);
@@ -67,9 +66,8 @@ class DemRun {
   }
 
   Status add(const std::function<Result<Figures>()>& stage) {
-    Result<Figures> figures = inProcess(source_.name, stage);
-    if (!figures) return tl::unexpected(figures.error());
-    figures_.insert(figures_.end(), figures->begin(), figures->end());
+    ARETE_TRY(Figures figures, inProcess(source_.name, stage));
+    figures_.insert(figures_.end(), figures.begin(), figures.end());
     return {};
   }
 
@@ -78,12 +76,11 @@ class DemRun {
     std::vector<Figures> runs;
     const Stopwatch watch;
     do {
-      Result<Figures> run = inProcess(source_.name, [&] {
-        return buildOnce(source_, variant.shape, variant.threads, modelPath(variant.shape));
-      });
-      if (!run) return tl::unexpected(run.error());
-      for (Figure& f : *run) f.variant = variant.name();
-      runs.push_back(std::move(*run));
+      ARETE_TRY(Figures run, inProcess(source_.name, [&] {
+                  return buildOnce(source_, variant.shape, variant.threads, modelPath(variant.shape));
+                }));
+      for (Figure& f : run) f.variant = variant.name();
+      runs.push_back(std::move(run));
     } while (int(runs.size()) < repeats && watch.seconds() < plan_.repetition.enoughSeconds);
     if (!isMeasured) return {};
     const Figures medians = mediansOf(runs);
@@ -107,7 +104,7 @@ class DemRun {
       variants.push_back({HoleShape::dataDependent, 0});
     for (const BuildVariant& variant : variants) {
       const int repeats = isMeasured ? plan_.repetition.most : 1;
-      if (Status status = build(variant, repeats, isMeasured); !status) return status;
+      ARETE_CHECK(build(variant, repeats, isMeasured));
     }
     return {};
   }
@@ -117,13 +114,12 @@ class DemRun {
                       fidelity = modelPath(HoleShape::dataDependent);
     std::vector<GreedyBaseline> baselines;
     if (plan_.wants("triangles") && source_.side == 0) {
-      const auto all = readBaselines(plan_.baselines);
-      if (!all) return tl::unexpected(all.error());
-      for (const GreedyBaseline& b : *all)
+      ARETE_TRY(const auto all, readBaselines(plan_.baselines));
+      for (const GreedyBaseline& b : all)
         if (b.dem == source_.name) baselines.push_back(b);
     }
     Status status = add([&]() -> Result<Figures> {
-      if (const Status made = generateDem(source_); !made) return tl::unexpected(made.error());
+      ARETE_CHECK(generateDem(source_));
       return plan_.wants("read") && !source_.isScattered ? readStage(source_, plan_) : Figures{};
     });
     if (status) status = buildAll(baselines);
@@ -145,9 +141,8 @@ class DemRun {
     if (status && !baselines.empty())
       status = add([&] { return trianglesStage(source_, delaunay, fidelity, baselines); });
     if (status && plan_.wants("rival") && !plan_.hmm.empty()) {
-      const Result<Figures> figures = rivalStage(source_, plan_);
-      if (!figures) return tl::unexpected(figures.error());
-      figures_.insert(figures_.end(), figures->begin(), figures->end());
+      ARETE_TRY(const Figures figures, rivalStage(source_, plan_));
+      figures_.insert(figures_.end(), figures.begin(), figures.end());
     }
     return finished(status);
   }

@@ -51,10 +51,9 @@ struct Quality {
 Result<Quality> qualityOf(const TriangleMesh& mesh, const TriangleMesh& source) {
   MeshDistanceOptions options;
   options.accuracy = 0.01;
-  const auto report = measureDistance(mesh, source, options);
-  if (!report) return tl::unexpected(report.error());
-  const double percent = 100 / report->second.diagonal;
-  return Quality{percent * report->mean(), percent * report->rms(), percent * report->hausdorff(), 0};
+  ARETE_TRY(const auto report, measureDistance(mesh, source, options));
+  const double percent = 100 / report.second.diagonal;
+  return Quality{percent * report.mean(), percent * report.rms(), percent * report.hausdorff(), 0};
 }
 
 class SurfaceRun {
@@ -68,15 +67,13 @@ class SurfaceRun {
 
   /// Errors: those of the build.
   Status build(const SurfaceMesh& mesh, const Repetition& repetition) {
-    Result<SurfaceModel> model = buildSurface(shapeOf(mesh));
-    if (!model) return tl::unexpected(model.error());
+    ARETE_TRY(SurfaceModel model, buildSurface(shapeOf(mesh)));
     const double seconds = medianSeconds(repetition, [&] { return buildSurface(shapeOf(mesh)); });
-    source_ = finestSurfaceOf(*model).mesh.shape();
-    model_ = std::move(*model);
+    source_ = finestSurfaceOf(model).mesh.shape();
+    model_ = std::move(model);
     const double displacing = medianSeconds(repetition, [&] { return findDisplacement(model_); });
-    Result<SurfaceDisplacement> displacement = findDisplacement(model_);
-    if (!displacement) return tl::unexpected(displacement.error());
-    model_.displacement = std::move(*displacement);
+    ARETE_TRY(SurfaceDisplacement displacement, findDisplacement(model_));
+    model_.displacement = std::move(displacement);
     add("build", "ratio of time of the displacement to the build", displacing / seconds, "", Better::lower);
     add("build", "faces", double(source_.triangles.size()), "", Better::neither);
     add("build", "time, all threads", seconds, "s", Better::lower);
@@ -97,27 +94,25 @@ class SurfaceRun {
       options.order = std::make_shared<LargestSquaresFirst>();
       const Result<Cut> cut = takeCut(model_.mt, UniformError(0), options);
       if (!cut) continue;  // the coarsest surface has more
-      const auto own = qualityOf(surfaceOf(model_, *cut).mesh, source_);
-      if (!own) return tl::unexpected(own.error());
-      add(variant, "mean", own->mean, "%", Better::lower);
-      add(variant, "RMS", own->rms, "%", Better::lower);
-      add(variant, "largest", own->largest, "%", Better::lower);
+      ARETE_TRY(const auto own, qualityOf(surfaceOf(model_, *cut).mesh, source_));
+      add(variant, "mean", own.mean, "%", Better::lower);
+      add(variant, "RMS", own.rms, "%", Better::lower);
+      add(variant, "largest", own.largest, "%", Better::lower);
       add(variant, "bound", 100 * cut->achievedError / model_.diagonal, "%", Better::lower);
       const auto ends = rivalOf(EdgeCollapse::lindstromTurkEnds, wanted);
       if (ends) {
-        add(variant, "ratio of mean to Lindstrom-Turk at ends", own->mean / ends->mean, "", Better::lower);
-        add(variant, "ratio of RMS to Lindstrom-Turk at ends", own->rms / ends->rms, "", Better::lower);
+        add(variant, "ratio of mean to Lindstrom-Turk at ends", own.mean / ends->mean, "", Better::lower);
+        add(variant, "ratio of RMS to Lindstrom-Turk at ends", own.rms / ends->rms, "", Better::lower);
       } else {
         add(variant, "Lindstrom-Turk at ends left out", 1, "", Better::neither);
       }
       const auto quadrics = rivalOf(EdgeCollapse::planeQuadrics, wanted);
       if (quadrics)
-        add(variant, "ratio of largest to plane quadrics", own->largest / quadrics->largest, "",
+        add(variant, "ratio of largest to plane quadrics", own.largest / quadrics->largest, "",
             Better::lower);
       else
         add(variant, "plane quadrics left out", 1, "", Better::neither);
-      if (const Status compared = compareDisplaced(variant, *cut, wanted, quadrics); !compared)
-        return compared;
+      ARETE_CHECK(compareDisplaced(variant, *cut, wanted, quadrics));
     }
     return {};
   }
@@ -141,11 +136,10 @@ class SurfaceRun {
           add(variant, "left out", 1, "", Better::neither);
           continue;
         }
-        const auto quality = qualityOf(result->mesh, source_);
-        if (!quality) return tl::unexpected(quality.error());
-        add(variant, "ratio of mean to CGAL's", quality->mean / theirs->mean, "", Better::lower);
-        add(variant, "ratio of RMS to CGAL's", quality->rms / theirs->rms, "", Better::lower);
-        add(variant, "ratio of largest to CGAL's", quality->largest / theirs->largest, "", Better::lower);
+        ARETE_TRY(const auto quality, qualityOf(result->mesh, source_));
+        add(variant, "ratio of mean to CGAL's", quality.mean / theirs->mean, "", Better::lower);
+        add(variant, "ratio of RMS to CGAL's", quality.rms / theirs->rms, "", Better::lower);
+        add(variant, "ratio of largest to CGAL's", quality.largest / theirs->largest, "", Better::lower);
         add(variant, "ratio of time to CGAL's", seconds / theirs->seconds, "", Better::lower);
       }
     }
@@ -159,26 +153,25 @@ class SurfaceRun {
     TriangleMesh drawn = surfaceOf(model_, cut).mesh.shape();
     drawn.positions =
         displacedPlaces(model_.mt, model_.displacement, cut, promisedErrors(model_.mt, cut, nullptr));
-    const auto own = qualityOf(drawn, source_);
-    if (!own) return tl::unexpected(own.error());
-    add(variant, "displaced, mean", own->mean, "%", Better::lower);
-    add(variant, "displaced, RMS", own->rms, "%", Better::lower);
-    add(variant, "displaced, largest", own->largest, "%", Better::lower);
+    ARETE_TRY(const auto own, qualityOf(drawn, source_));
+    add(variant, "displaced, mean", own.mean, "%", Better::lower);
+    add(variant, "displaced, RMS", own.rms, "%", Better::lower);
+    add(variant, "displaced, largest", own.largest, "%", Better::lower);
     const auto free = rivalOf(EdgeCollapse::lindstromTurk, wanted),
                checked = rivalOf(EdgeCollapse::lindstromTurkNormals, wanted);
     if (free || checked) {
       const auto least = [&](double Quality::*of) {
         return std::min(free ? (*free).*of : (*checked).*of, checked ? (*checked).*of : (*free).*of);
       };
-      add(variant, "displaced, ratio of mean to Lindstrom-Turk", own->mean / least(&Quality::mean), "",
+      add(variant, "displaced, ratio of mean to Lindstrom-Turk", own.mean / least(&Quality::mean), "",
           Better::lower);
-      add(variant, "displaced, ratio of RMS to Lindstrom-Turk", own->rms / least(&Quality::rms), "",
+      add(variant, "displaced, ratio of RMS to Lindstrom-Turk", own.rms / least(&Quality::rms), "",
           Better::lower);
     } else {
       add(variant, "Lindstrom-Turk left out", 1, "", Better::neither);
     }
     if (quadrics)
-      add(variant, "displaced, ratio of largest to plane quadrics", own->largest / quadrics->largest, "",
+      add(variant, "displaced, ratio of largest to plane quadrics", own.largest / quadrics->largest, "",
           Better::lower);
     return {};
   }
@@ -204,23 +197,21 @@ struct Growth {
 };
 
 Result<Growth> growthOf(std::uint32_t vertices, const std::string& scratch) {
-  const Result<Json> json = runForked([&]() -> Result<Json> {
-    SurfaceMesh mesh(generateAsteroid({.vertices = vertices}));
-    const double count = double(mesh.positions.size());
-    const Stopwatch watch;
-    const Result<SurfaceModel> model = buildSurface(std::move(mesh));
-    if (!model) return tl::unexpected(model.error());
-    const double seconds = watch.seconds();
-    const double peak = peakBytes();
-    const fs::path path = fs::path(scratch) / "rock.amt";
-    if (const Status written = writeSurfaceAmt(path.string(), *model); !written)
-      return tl::unexpected(written.error());
-    const double bytes = double(fs::file_size(path));
-    fs::remove(path);
-    return Json{{"vertices", count}, {"peak", peak}, {"file", bytes}, {"seconds", seconds}};
-  });
-  if (!json) return tl::unexpected(json.error());
-  return Growth{(*json)["vertices"], (*json)["peak"], (*json)["file"], (*json)["seconds"]};
+  ARETE_TRY(const Json json, runForked([&]() -> Result<Json> {
+              SurfaceMesh mesh(generateAsteroid({.vertices = vertices}));
+              const double count = double(mesh.positions.size());
+              const Stopwatch watch;
+              const Result<SurfaceModel> model = buildSurface(std::move(mesh));
+              if (!model) return tl::unexpected(model.error());
+              const double seconds = watch.seconds();
+              const double peak = peakBytes();
+              const fs::path path = fs::path(scratch) / "rock.amt";
+              ARETE_CHECK(writeSurfaceAmt(path.string(), *model));
+              const double bytes = double(fs::file_size(path));
+              fs::remove(path);
+              return Json{{"vertices", count}, {"peak", peak}, {"file", bytes}, {"seconds", seconds}};
+            }));
+  return Growth{json["vertices"], json["peak"], json["file"], json["seconds"]};
 }
 
 }  // namespace
@@ -236,31 +227,27 @@ std::vector<MeshSource> realMeshes(const std::string& folder) {
 }
 
 Result<Figures> surfaceStage(const MeshSource& source, const Plan& plan) {
-  const Result<MeshFile> file = readMesh(source.path);
-  if (!file) return tl::unexpected(file.error());
+  ARETE_TRY(const MeshFile file, readMesh(source.path));
   Figures figures;
   SurfaceRun run(source.name, figures);
-  if (const Status built = run.build(file->mesh, plan.repetition); !built)
-    return tl::unexpected(built.error());
-  if (const Status compared = run.compare(); !compared) return tl::unexpected(compared.error());
-  if (const Status compared = run.compareMethods(); !compared) return tl::unexpected(compared.error());
+  ARETE_CHECK(run.build(file.mesh, plan.repetition));
+  ARETE_CHECK(run.compare());
+  ARETE_CHECK(run.compareMethods());
   return figures;
 }
 
 Result<Figures> surfaceMemoryStage(const Plan& plan) {
-  const auto small = growthOf(500'000, plan.scratch);
-  if (!small) return tl::unexpected(small.error());
-  const auto large = growthOf(2'000'000, plan.scratch);
-  if (!large) return tl::unexpected(large.error());
+  ARETE_TRY(const auto small, growthOf(500'000, plan.scratch));
+  ARETE_TRY(const auto large, growthOf(2'000'000, plan.scratch));
   Figures figures;
-  const double more = large->vertices - small->vertices;
+  const double more = large.vertices - small.vertices;
   const auto add = [&](const char* name, double value, const char* unit) {
     figures.push_back(
         {"generated rock", "surface", "0.5 to 2 million vertices", name, value, unit, Better::lower});
   };
-  add("memory, growth a vertex", (large->peak - small->peak) / more, "byte");
-  add("file, growth a vertex", (large->file - small->file) / more, "byte");
-  add("time of the larger one", large->seconds, "s");
+  add("memory, growth a vertex", (large.peak - small.peak) / more, "byte");
+  add("file, growth a vertex", (large.file - small.file) / more, "byte");
+  add("time of the larger one", large.seconds, "s");
   return figures;
 }
 

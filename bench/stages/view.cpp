@@ -27,35 +27,30 @@ std::string shortName(const std::string& renderer) {
 }  // namespace
 
 Result<Figures> viewStage(const DemSource& source, const std::string& path, const Plan&) {
-  const Result<TerrainModel> model = loadModel(path);
-  if (!model) return tl::unexpected(model.error());
-  const SurfaceHeights heights(*model);
-  const CameraSpace space(*model);
-  const auto plan = roundFlight(heights, space, metricBox(*model));
-  if (!plan) return tl::unexpected(plan.error());
-  const auto flight = Flight::create(*plan, space);
-  if (!flight) return tl::unexpected(flight.error());
+  ARETE_TRY(const TerrainModel model, loadModel(path));
+  const SurfaceHeights heights(model);
+  const CameraSpace space(model);
+  ARETE_TRY(const auto plan, roundFlight(heights, space, metricBox(model)));
+  ARETE_TRY(const auto flight, Flight::create(plan, space));
   Figures figures;
   for (const CutPath cutPath : {CutPath::device, CutPath::processor}) {
     HeadlessOptions options{.widthPixels = 1280, .heightPixels = 720, .samples = 1, .settings = {}};
     options.settings.path = cutPath;
-    Result<HeadlessView> view = HeadlessView::create(*model, options);
-    if (!view) return tl::unexpected(view.error());
-    if (cutPath == CutPath::device && !view->view().deviceRefusal().empty()) continue;
+    ARETE_TRY(HeadlessView view, HeadlessView::create(model, options));
+    if (cutPath == CutPath::device && !view.view().deviceRefusal().empty()) continue;
     std::vector<double> cut, draw, triangles, rate;
     for (int i = 0; i <= kFrames; ++i) {
       // The whole round in so many frames, each far from the last.
-      const auto frame = view->draw(flight->at(flight->duration() * i / kFrames));
-      if (!frame) return tl::unexpected(frame.error());
+      ARETE_TRY(const auto frame, view.draw(flight.at(flight.duration() * i / kFrames)));
       if (i == 0) continue;  // compiles, starts at the root
-      cut.push_back(frame->cutMilliseconds);
-      draw.push_back(frame->drawMilliseconds);
-      triangles.push_back(frame->triangles);
-      rate.push_back(frame->triangles / (frame->drawMilliseconds * 1e-3));
+      cut.push_back(frame.cutMilliseconds);
+      draw.push_back(frame.drawMilliseconds);
+      triangles.push_back(frame.triangles);
+      rate.push_back(frame.triangles / (frame.drawMilliseconds * 1e-3));
     }
     const std::string variant =
         fmt::format("{}, {}", cutPath == CutPath::device ? "device's cut" : "processor's cut",
-                    shortName(view->description()));
+                    shortName(view.description()));
     const auto add = [&](const char* name, double value, const char* unit, Better better) {
       figures.push_back({source.name, "view", variant, name, value, unit, better});
     };

@@ -107,16 +107,14 @@ Seen seenOf(const Viewshed& viewshed) {
 }  // namespace
 
 Result<Figures> viewshedStage(const DemSource& source, const std::string& path, const Plan& plan) {
-  const Result<TerrainModel> model = loadModel(path);
-  if (!model) return tl::unexpected(model.error());
+  ARETE_TRY(const TerrainModel model, loadModel(path));
   const auto limit = limitTo(1);
-  const double unit = model->georeference.verticalUnitMetres;
-  const auto earth = makePlaneEarth(*model);
+  const double unit = model.georeference.verticalUnitMetres;
+  const auto earth = makePlaneEarth(model);
   const Stopwatch making;
-  const auto grid = std::make_shared<const SightGrid>(*model);
+  const auto grid = std::make_shared<const SightGrid>(model);
   const double gridSeconds = making.seconds();
-  const auto maker = ViewshedMaker::make(*model, *earth, grid, onThreads(1));
-  if (!maker) return tl::unexpected(maker.error());
+  ARETE_TRY(const auto maker, ViewshedMaker::make(model, *earth, grid, onThreads(1)));
   const double makingSeconds = making.seconds();
   const auto pyramid = makeSightPyramid(grid);
   // What is beyond NODATA is unknown, and the rivals look over it.
@@ -125,10 +123,10 @@ Result<Figures> viewshedStage(const DemSource& source, const std::string& path, 
 
   std::vector<Contestant> contestants;
   contestants.push_back({"sweep", makingSeconds, [&](const ViewshedObserver& from) {
-                           const auto viewshed = maker->from(from, options, onThreads(1));
+                           const auto viewshed = maker.from(from, options, onThreads(1));
                            return viewshed ? seenOf(*viewshed) : Seen{};
                          }});
-  const GdalViewshed gdal(*model, *grid);
+  const GdalViewshed gdal(model, *grid);
   contestants.push_back(
       {"gdal_viewshed", 0, [&](const ViewshedObserver& from) { return gdal.viewshed(from); }});
   std::vector<std::unique_ptr<EmbreeRays>> embree;

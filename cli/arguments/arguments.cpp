@@ -166,11 +166,10 @@ Result<std::vector<double>> parseNumbers(const std::string& option, const std::s
 Result<std::pair<double, double>> twoNumbers(const std::string& option, std::string text, char separator) {
   const std::string culprit = fmt::format("{} {}", option, text);
   std::ranges::replace(text, separator, ',');
-  const auto numbers = parseNumbers(option, text);
-  if (!numbers) return tl::unexpected(numbers.error());
-  if (numbers->size() != 2)
-    return failure(ErrorCode::usage, fmt::format("must be two numbers, not {}", numbers->size()), culprit);
-  return std::pair((*numbers)[0], (*numbers)[1]);
+  ARETE_TRY(const auto numbers, parseNumbers(option, text));
+  if (numbers.size() != 2)
+    return failure(ErrorCode::usage, fmt::format("must be two numbers, not {}", numbers.size()), culprit);
+  return std::pair(numbers[0], numbers[1]);
 }
 
 void DemArguments::addFilesTo(CLI::App& command, const std::string& help) {

@@ -226,46 +226,40 @@ Status CriterionArguments::checkFit() const {
 
 Result<std::optional<Vec2>> CriterionArguments::placeAboveGround(const TerrainModel& outline) const {
   if (camera_.empty()) return std::nullopt;
-  const auto transform = transformOfPlaces(isLonLat_, outline);
-  if (!transform) return tl::unexpected(transform.error());
-  const auto place = readCameraPlace("--camera", camera_, *transform);
-  if (!place) return tl::unexpected(place.error());
-  return outline.toPlan(*place);
+  ARETE_TRY(const auto transform, transformOfPlaces(isLonLat_, outline));
+  ARETE_TRY(const auto place, readCameraPlace("--camera", camera_, transform));
+  return outline.toPlan(place);
 }
 
 Status CriterionArguments::placeCamera(const TerrainModel& model, ExtractCriterion& c) const {
-  const auto transform = transformOfPlaces(isLonLat_, model);
-  if (!transform) return tl::unexpected(transform.error());
-  const auto argument = readCameraArgument("--camera", camera_, *transform, SurfaceHeights(model));
-  if (!argument) return tl::unexpected(argument.error());
-  Camera camera = argument->camera;
+  ARETE_TRY(const auto transform, transformOfPlaces(isLonLat_, model));
+  ARETE_TRY(const auto argument, readCameraArgument("--camera", camera_, transform, SurfaceHeights(model)));
+  Camera camera = argument.camera;
   if (!look_.empty()) {
-    if (argument->statesLook)
+    if (argument.statesLook)
       return failure(ErrorCode::usage, "cannot be combined with a direction in --camera", "--look " + look_);
-    const auto look = twoNumbers("--look", look_, ',');
-    if (!look) return tl::unexpected(look.error());
-    camera.azimuthDegrees = look->first;
-    camera.pitchDegrees = look->second;
+    ARETE_TRY(const auto look, twoNumbers("--look", look_, ','));
+    camera.azimuthDegrees = look.first;
+    camera.pitchDegrees = look.second;
     if (const Result<View> view = viewOf(camera, model); !view)
       return failure(view.error().code, view.error().message, "--look " + look_);
   }
   if (!viewport_.empty()) {
-    const auto viewport = twoNumbers("--viewport", viewport_, 'x');
-    if (!viewport) return tl::unexpected(viewport.error());
-    if (viewport->first != std::floor(viewport->first) || viewport->second != std::floor(viewport->second))
+    ARETE_TRY(const auto viewport, twoNumbers("--viewport", viewport_, 'x'));
+    if (viewport.first != std::floor(viewport.first) || viewport.second != std::floor(viewport.second))
       return failure(ErrorCode::usage, "must be whole pixels", "--viewport " + viewport_);
-    camera.widthPixels = viewport->first;
-    camera.heightPixels = viewport->second;
+    camera.widthPixels = viewport.first;
+    camera.heightPixels = viewport.second;
     if (const Result<View> view = viewOf(camera, model); !view)
       return failure(view.error().code, view.error().message, "--viewport " + viewport_);
   }
-  if (!std::isnan(fieldOfView_) && argument->statesFieldOfView)
+  if (!std::isnan(fieldOfView_) && argument.statesFieldOfView)
     return failure(ErrorCode::usage, "cannot be combined with a field of view in --camera", "--fov");
   if (!std::isnan(fieldOfView_)) camera.verticalFieldOfViewDegrees = fieldOfView_;
   if (const Result<View> view = viewOf(camera, model); !view)
     return failure(view.error().code, view.error().message, "--camera " + camera_);
   c.camera = camera;
-  c.cameraText = argument->positionText;
+  c.cameraText = argument.positionText;
   c.isLonLat = isLonLat_;
   if (!std::isnan(pixelError_))
     c.pixelError = pixelError_;
@@ -275,11 +269,9 @@ Status CriterionArguments::placeCamera(const TerrainModel& model, ExtractCriteri
 }
 
 Status CriterionArguments::placeFocus(const TerrainModel& model, ExtractCriterion& c) const {
-  const auto transform = transformOfPlaces(isLonLat_, model);
-  if (!transform) return tl::unexpected(transform.error());
-  const auto place = readPlaceArgument("--focus", focus_, *transform);
-  if (!place) return tl::unexpected(place.error());
-  c.focus = {.xy = *place, .growth = growth_, .text = focus_};
+  ARETE_TRY(const auto transform, transformOfPlaces(isLonLat_, model));
+  ARETE_TRY(const auto place, readPlaceArgument("--focus", focus_, transform));
+  c.focus = {.xy = place, .growth = growth_, .text = focus_};
   c.isLonLat = isLonLat_;
   return {};
 }
@@ -305,10 +297,9 @@ Result<std::vector<CriterionArguments::OfTerrain>> CriterionArguments::criteria(
   common.regionCrs = regionCrs_;
   common.distance = distance_;
   if (!outsideErrorText_.empty()) {
-    const auto outside = parseStatedSizes(outsideErrorText_, "--outside-error");
-    if (!outside) return tl::unexpected(outside.error());
-    if (outside->size() != 1) return failure(ErrorCode::usage, "takes one error", "--outside-error");
-    common.outsideError = outside->front().of(relief);
+    ARETE_TRY(const auto outside, parseStatedSizes(outsideErrorText_, "--outside-error"));
+    if (outside.size() != 1) return failure(ErrorCode::usage, "takes one error", "--outside-error");
+    common.outsideError = outside.front().of(relief);
   }
   common.method = method_ == "saturated" ? CutMethod::saturated : CutMethod::minimal;
   if (deadline_ > 0) common.deadlineMilliseconds = deadline_;
@@ -319,17 +310,14 @@ Result<std::vector<CriterionArguments::OfTerrain>> CriterionArguments::criteria(
   common.fit = fit_ == "triangles" ? ExtractFit::triangles
                : fit_ == "error"   ? ExtractFit::error
                                    : ExtractFit::none;
-  if (!camera_.empty())
-    if (Status placed = placeCamera(model, common); !placed) return tl::unexpected(placed.error());
-  if (!focus_.empty())
-    if (Status placed = placeFocus(model, common); !placed) return tl::unexpected(placed.error());
+  if (!camera_.empty()) ARETE_CHECK(placeCamera(model, common));
+  if (!focus_.empty()) ARETE_CHECK(placeFocus(model, common));
 
   std::vector<OfTerrain> withErrors = {{common, ""}};
   if (!maxErrors_.empty()) {
-    const auto errors = parseStatedSizes(maxErrors_, "--max-error");
-    if (!errors) return tl::unexpected(errors.error());
+    ARETE_TRY(const auto errors, parseStatedSizes(maxErrors_, "--max-error"));
     withErrors.clear();
-    for (const StatedSize& stated : *errors) {
+    for (const StatedSize& stated : errors) {
       const double error = stated.of(relief);
       if (std::ranges::count(withErrors, error, [](const OfTerrain& c) { return c.criterion.maxError; }) > 0)
         return failure(ErrorCode::usage, fmt::format("has {} twice", stated.text), "--max-error");
@@ -344,9 +332,9 @@ Result<std::vector<CriterionArguments::OfTerrain>> CriterionArguments::criteria(
   }
   std::vector<StatedTriangles> budgets(1);
   if (hasBudget()) {
-    auto stated = parseTriangleBudgets(maxTriangles_, statesShares() ? model.mt.finestTriangleCount() : 0);
-    if (!stated) return tl::unexpected(stated.error());
-    budgets = std::move(*stated);
+    ARETE_TRY(auto stated,
+              parseTriangleBudgets(maxTriangles_, statesShares() ? model.mt.finestTriangleCount() : 0));
+    budgets = std::move(stated);
   }
   std::vector<OfTerrain> all;
   for (const OfTerrain& each : withErrors)
@@ -360,10 +348,9 @@ Result<std::vector<CriterionArguments::OfTerrain>> CriterionArguments::criteria(
 
 Result<std::vector<StatedTriangles>> parseTriangleBudgets(const std::string& text, std::uint64_t finest) {
   constexpr const char* kOption = "--max-triangles";
-  const Result<std::vector<StatedSize>> sizes = parseStatedSizes(text, kOption);
-  if (!sizes) return tl::unexpected(sizes.error());
+  ARETE_TRY(const std::vector<StatedSize> sizes, parseStatedSizes(text, kOption));
   std::vector<StatedTriangles> budgets;
-  for (const StatedSize& size : *sizes) {
+  for (const StatedSize& size : sizes) {
     const double count = std::floor(size.of(static_cast<double>(finest)));
     if (!size.isShare && count != size.number)
       return failure(ErrorCode::usage, fmt::format("'{}' is not a whole number", size.text), kOption);

@@ -15,8 +15,7 @@ Result<MeshTarget> meshTarget(const MeshOutput& output, const std::string& input
   if (!format)
     return failure(ErrorCode::usage, format.error().message, fmt::format("--output {}", output.path));
   const std::string path = output.open(session);
-  if (Status checked = checkOutput("--output", path, {input}); !checked)
-    return tl::unexpected(checked.error());
+  ARETE_CHECK(checkOutput("--output", path, {input}));
   return MeshTarget{*format, path};
 }
 

@@ -33,8 +33,9 @@ void TerrainError::addTo(Json& json) const {
 void addTerrainErrorTo(CLI::App& command, std::string& text, const std::string& help, bool mayBeInfinite) {
   command
       .add_option(kOption, text,
-                  help + ", in the DEM's unit of height or as E% of its relief, the highest minus the lowest\n"
-                         "sample (default 0: full resolution)")
+                  help +
+                      ", in the DEM's unit of height or as E% of its relief, the highest minus the lowest\n"
+                      "sample (default 0: full resolution)")
       ->check(shareOrTolerance(mayBeInfinite))
       ->type_name("E");
 }
@@ -45,13 +46,11 @@ bool isAboveZero(const std::string& text) {
 }
 
 Result<TerrainError> terrainErrorOf(const std::string& text, const AmtFile& file, const Session& session) {
-  const Result<StatedSize> stated = parseStatedSize(text, kOption);
-  if (!stated) return tl::unexpected(stated.error());
-  if (!stated->isShare) return TerrainError{stated->number};
-  const Result<TerrainModel> whole = file.read({}, session.context());
-  if (!whole) return tl::unexpected(whole.error());
-  const double relief = reliefOf(*whole);
-  return TerrainError{stated->of(relief), relief};
+  ARETE_TRY(const StatedSize stated, parseStatedSize(text, kOption));
+  if (!stated.isShare) return TerrainError{stated.number};
+  ARETE_TRY(const TerrainModel whole, file.read({}, session.context()));
+  const double relief = reliefOf(whole);
+  return TerrainError{stated.of(relief), relief};
 }
 
 }  // namespace arete

@@ -69,11 +69,10 @@ Result<FixedVertexOptions> fixedOptions(const BuildArguments& arguments, std::sp
   FixedVertexOptions fixed;
   fixed.features->count = arguments.featureCount;
   if (!arguments.featurePersistence.empty()) {
-    const auto stated = parseStatedSize(arguments.featurePersistence, "--feature-persistence");
-    if (!stated) return tl::unexpected(stated.error());
-    const std::optional<double> relief = stated->isShare ? std::optional(reliefOf(heights)) : std::nullopt;
+    ARETE_TRY(const auto stated, parseStatedSize(arguments.featurePersistence, "--feature-persistence"));
+    const std::optional<double> relief = stated.isShare ? std::optional(reliefOf(heights)) : std::nullopt;
     fixed.features->count = std::numeric_limits<std::size_t>::max();
-    fixed.features->minimumPersistence = stated->of(relief.value_or(0));
+    fixed.features->minimumPersistence = stated.of(relief.value_or(0));
     if (relief)
       session.note(fmt::format(
           "features of at least {}",
@@ -82,10 +81,10 @@ Result<FixedVertexOptions> fixedOptions(const BuildArguments& arguments, std::sp
   if (arguments.noFeatures) fixed.features.reset();
   if (arguments.creaseAngleDegrees >= 0) fixed.creaseAngleDegrees = arguments.creaseAngleDegrees;
   if (!arguments.fixedPath.empty()) {
-    auto points = readPlanPoints(inputPath(arguments.fixedPath), georeference.crsWkt, session.context());
-    if (!points) return tl::unexpected(points.error());
-    session.warn(points->warnings, arguments.fixedPath);
-    fixed.given = std::move(points->positions);
+    ARETE_TRY(auto points,
+              readPlanPoints(inputPath(arguments.fixedPath), georeference.crsWkt, session.context()));
+    session.warn(points.warnings, arguments.fixedPath);
+    fixed.given = std::move(points.positions);
   }
   return fixed;
 }
@@ -159,19 +158,18 @@ template <class Heightfield, class... Finest>
 Status buildFrom(BuildArguments& arguments, const FixedVertexOptions& fixedChoice, Session& session,
                  Seconds& seconds, const Heightfield& field, Finest... finest) {
   Stopwatch choosing;
-  Result<FixedVertices> fixed = chooseFixedVertices(field, finest..., fixedChoice, session.context());
-  if (!fixed) return tl::unexpected(fixed.error());
-  if (!fixedChoice.given.empty() && fixed->givenOutside == fixedChoice.given.size())
+  ARETE_TRY(FixedVertices fixed, chooseFixedVertices(field, finest..., fixedChoice, session.context()));
+  if (!fixedChoice.given.empty() && fixed.givenOutside == fixedChoice.given.size())
     return failure(ErrorCode::invalidData,
                    fmt::format("none of {} lies on the DEM's data",
                                grouped(fixedChoice.given.size(), "point", "points")),
                    fmt::format("--fixed {}", arguments.fixedPath));
-  if (fixed->givenOutside > 0)
+  if (fixed.givenOutside > 0)
     session.warn(
         fmt::format("--fixed {}: {} of {} {} outside the DEM's data and {} left out", arguments.fixedPath,
-                    fixed->givenOutside, grouped(fixedChoice.given.size(), "point", "points"),
-                    fixed->givenOutside == 1 ? "lies" : "lie", fixed->givenOutside == 1 ? "is" : "are"));
-  arguments.options.fixedVertices = fixed->vertices;
+                    fixed.givenOutside, grouped(fixedChoice.given.size(), "point", "points"),
+                    fixed.givenOutside == 1 ? "lies" : "lie", fixed.givenOutside == 1 ? "is" : "are"));
+  arguments.options.fixedVertices = fixed.vertices;
   seconds.features = choosing.seconds();
 
   // Samples without data take no memory.
@@ -188,17 +186,15 @@ Status buildFrom(BuildArguments& arguments, const FixedVertexOptions& fixedChoic
                    arguments.dem.path);
 
   Stopwatch building;
-  Result<TerrainModel> model = build(field, std::move(finest)..., arguments.options, session.context());
-  if (!model) return tl::unexpected(model.error());
+  ARETE_TRY(TerrainModel model, build(field, std::move(finest)..., arguments.options, session.context()));
   seconds.build += building.seconds();
-  model->reading = arguments.dem.reading;
+  model.reading = arguments.dem.reading;
 
   Stopwatch writing;
   const AmtWriteOptions options{.isPacked = arguments.isPacked};
-  if (Status written = writeAmt(arguments.output, *model, session.context(), options); !written)
-    return written;
+  ARETE_CHECK(writeAmt(arguments.output, model, session.context(), options));
   seconds.write = writing.seconds();
-  report(session, arguments, *model, *fixed, seconds);
+  report(session, arguments, model, fixed, seconds);
   return {};
 }
 
@@ -238,7 +234,7 @@ Status runSurfaceBuild(const BuildArguments& arguments, MeshInput input, double 
 }
 
 Status runBuild(BuildArguments& arguments, Session& session) {
-  if (Status taken = takeShape(arguments); !taken) return taken;
+  ARETE_CHECK(takeShape(arguments));
   const std::string extension = text::lowerExtension(arguments.output);
   if (!extension.empty() && extension != "amt")
     return failure(ErrorCode::usage,
@@ -246,13 +242,12 @@ Status runBuild(BuildArguments& arguments, Session& session) {
                    fmt::format("--output {}", arguments.output));
   std::vector<std::string> inputs = arguments.dem.files();
   inputs.push_back(arguments.fixedPath);
-  if (Status output = checkOutput("--output", arguments.output, inputs); !output) return output;
+  ARETE_CHECK(checkOutput("--output", arguments.output, inputs));
   if (isMesh(arguments.dem) && (arguments.kind.empty() || arguments.kind == "surface")) {
     // A mesh without faces is read anew, as points.
     Stopwatch reading;
     Result<MeshInput> input = readMeshInput(arguments.dem.path, session.context());
-    if (input && !input->file.mesh.triangles.empty())
-      if (const Status looked = warnOfGaps(*input, session.context()); !looked) return looked;
+    if (input && !input->file.mesh.triangles.empty()) ARETE_CHECK(warnOfGaps(*input, session.context()));
     if (input) session.warn(input->file.warnings, arguments.dem.path);
     if (input && !input->file.mesh.triangles.empty())
       return runSurfaceBuild(arguments, std::move(*input), reading.seconds(), session);
@@ -266,25 +261,23 @@ Status runBuild(BuildArguments& arguments, Session& session) {
                      option);
   Seconds seconds;
   Stopwatch reading;
-  Result<DemRead> dem = readSource(arguments.dem, arguments.kind, session);
-  if (!dem) return tl::unexpected(dem.error());
+  ARETE_TRY(DemRead dem, readSource(arguments.dem, arguments.kind, session));
   seconds.read = reading.seconds();
   return std::visit(
       [&](const auto& field) -> Status {
-        const auto fixedChoice = fixedOptions(arguments, field.heights, field.georeference, session);
-        if (!fixedChoice) return tl::unexpected(fixedChoice.error());
+        ARETE_TRY(const auto fixedChoice,
+                  fixedOptions(arguments, field.heights, field.georeference, session));
         if constexpr (std::is_same_v<decltype(field), const PointHeightfield&>) {
-          if (Status valid = checkBuild(field, arguments.options); !valid) return valid;
+          ARETE_CHECK(checkBuild(field, arguments.options));
           Stopwatch triangulating;
-          Result<FinestPoints> finest = finestPoints(field, session.context());
-          if (!finest) return tl::unexpected(finest.error());
+          ARETE_TRY(FinestPoints finest, finestPoints(field, session.context()));
           seconds.build = triangulating.seconds();
-          return buildFrom(arguments, *fixedChoice, session, seconds, field, std::move(*finest));
+          return buildFrom(arguments, fixedChoice, session, seconds, field, std::move(finest));
         } else {
-          return buildFrom(arguments, *fixedChoice, session, seconds, field);
+          return buildFrom(arguments, fixedChoice, session, seconds, field);
         }
       },
-      dem->heightfield);
+      dem.heightfield);
 }
 
 }  // namespace

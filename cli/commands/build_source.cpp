@@ -29,14 +29,11 @@ Result<PointReadOptions> pointOptions(const SourceReading& reading) {
 }
 
 Result<DemRead> readVertices(const DemArguments& dem, MeshFile mesh, Session& session) {
-  Result<PointReadOptions> options = pointOptions(dem.reading);
-  if (!options) return tl::unexpected(options.error());
-  if (options->verticalUnit.empty()) options->verticalUnit = mesh.verticalUnit;
+  ARETE_TRY(PointReadOptions options, pointOptions(dem.reading));
+  if (options.verticalUnit.empty()) options.verticalUnit = mesh.verticalUnit;
   session.warn(mesh.warnings, dem.path);
-  if (mesh.up == MeshUp::y)
-    if (Status placed = placeMesh(mesh, {.up = MeshUp::y}, MeshUp::z); !placed)
-      return tl::unexpected(placed.error());
-  Result<PointRead> points = pointsFrom(mesh.mesh.positions, mesh.crsWkt, dem.path, *options);
+  if (mesh.up == MeshUp::y) ARETE_CHECK(placeMesh(mesh, {.up = MeshUp::y}, MeshUp::z));
+  Result<PointRead> points = pointsFrom(mesh.mesh.positions, mesh.crsWkt, dem.path, options);
   if (!points) {
     if (!dem.reading.crs.empty() && points.error().culprit == dem.reading.crs)
       points.error().culprit = fmt::format("--crs {}", dem.reading.crs);

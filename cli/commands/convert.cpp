@@ -56,19 +56,18 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
   if (!arguments.placing.isNothing())
     return failure(ErrorCode::usage, "is for meshes; an .amt states its axes and units",
                    arguments.placing.unit.empty() ? "--up" : "--unit");
-  if (Status checked = checkOutput("--output", output, {arguments.input}); !checked) return checked;
+  ARETE_CHECK(checkOutput("--output", output, {arguments.input}));
   if (const Result<bool> isSurface = isSurfaceAmt(arguments.input); isSurface && *isSurface)
     return convertSurfaceFile({arguments.input, output, arguments.isPacked, arguments.positionBits}, session);
   if (arguments.positionBits != 0)
     return failure(ErrorCode::usage, fmt::format("is for surfaces, and {} is terrain", arguments.input),
                    "--position-bits");
-  const Result<TerrainModel> model = loadAmt(arguments.input, {}, session.context());
-  if (!model) return tl::unexpected(model.error());
+  ARETE_TRY(const TerrainModel model, loadAmt(arguments.input, {}, session.context()));
   const AmtWriteOptions options{.isPacked = arguments.isPacked};
-  if (Status written = writeAmt(output, *model, session.context(), options); !written) return written;
+  ARETE_CHECK(writeAmt(output, model, session.context(), options));
   std::error_code error;
   const auto size = std::filesystem::file_size(output, error);
-  const std::uint64_t bytes = error ? 0 : size, samples = model->mt.vertexCount() + model->isolated.size();
+  const std::uint64_t bytes = error ? 0 : size, samples = model.mt.vertexCount() + model.isolated.size();
   const double perSample = static_cast<double>(bytes) / static_cast<double>(samples);
   session.say(fmt::format("{}: {}, {:.1f} bytes a sample\n", output, byteCount(bytes), perSample));
   session.answer({{"input", arguments.input},
@@ -86,12 +85,10 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
     return failure(ErrorCode::usage, "requires a multitriangulation (.amt)", "--packed");
   if (arguments.positionBits != 0)
     return failure(ErrorCode::usage, "requires a multitriangulation (.amt)", "--position-bits");
-  const Result<MeshTarget> target = meshTarget(arguments.output, arguments.input, session);
-  if (!target) return tl::unexpected(target.error());
-  Result<MeshFile> mesh = readMesh(arguments.input, session.context());
-  if (!mesh) return tl::unexpected(mesh.error());
-  if (Status dropped = dropNamed(mesh->mesh, arguments.dropAttributes); !dropped) return dropped;
-  const Result<ConvertedMesh> converted = convertMesh(std::move(*mesh), target->path,
+  ARETE_TRY(const MeshTarget target, meshTarget(arguments.output, arguments.input, session));
+  ARETE_TRY(MeshFile mesh, readMesh(arguments.input, session.context()));
+  ARETE_CHECK(dropNamed(mesh.mesh, arguments.dropAttributes));
+  const Result<ConvertedMesh> converted = convertMesh(std::move(mesh), target.path,
                                                       {.crs = arguments.crs,
                                                        .format = arguments.output.format,
                                                        .existing = arguments.existing,
@@ -103,9 +100,9 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
       error.culprit = fmt::format("--crs {}", arguments.crs);
     return tl::unexpected(std::move(error));
   }
-  warnOf(*converted, arguments.input, target->format.name, session);
-  session.say(writtenText(target->path, *converted));
-  session.answer(writtenJson(arguments.input, target->path, target->format.name, *converted));
+  warnOf(*converted, arguments.input, target.format.name, session);
+  session.say(writtenText(target.path, *converted));
+  session.answer(writtenJson(arguments.input, target.path, target.format.name, *converted));
   return {};
 }
 

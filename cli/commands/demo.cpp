@@ -67,17 +67,15 @@ std::string textOf(const DemoReport& report) {
 Status demonstrate(DemoArguments& arguments, Session& session) {
   arguments.options.reading = arguments.dem.reading;
   if (!arguments.maxErrors.empty()) {
-    const auto errors = parseStatedSizes(arguments.maxErrors, "--max-error");
-    if (!errors) return tl::unexpected(errors.error());
-    for (const StatedSize& stated : *errors)
+    ARETE_TRY(const auto errors, parseStatedSizes(arguments.maxErrors, "--max-error"));
+    for (const StatedSize& stated : errors)
       (stated.isShare ? arguments.options.reliefShares : arguments.options.maxErrors)
           .push_back(stated.number);
   }
-  const Result<DemoReport> report = runDemo(arguments.dem.path, arguments.options, session.context());
-  if (!report) return tl::unexpected(report.error());
-  session.warn(report->warnings, arguments.dem.path);
-  session.say(textOf(*report));
-  session.answer(answerOf(*report));
+  ARETE_TRY(const DemoReport report, runDemo(arguments.dem.path, arguments.options, session.context()));
+  session.warn(report.warnings, arguments.dem.path);
+  session.say(textOf(report));
+  session.answer(answerOf(report));
   return {};
 }
 

@@ -68,17 +68,16 @@ std::string certificateBeside(const std::string& output) {
 
 Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments, const TerrainModel& model,
                                                Session& session) {
-  auto criteria = arguments.criterion.criteria(model);
-  if (!criteria) return tl::unexpected(criteria.error());
+  ARETE_TRY(auto criteria, arguments.criterion.criteria(model));
   std::vector<ExtractRequest> requests;
   const bool wantsCertificate = arguments.certificateOption->count() > 0;
-  const bool several = criteria->size() > 1;
+  const bool several = criteria.size() > 1;
   const std::string output = arguments.output.open(session);
   if (several && output != arguments.output.path)
     return failure(ErrorCode::usage, "takes one tolerance", "--output -");
   if (wantsCertificate && arguments.certificate.empty() && output != arguments.output.path)
     return failure(ErrorCode::usage, "needs a name if the mesh goes to stdout", "--certificate");
-  for (auto& [criterion, tag] : *criteria) {
+  for (auto& [criterion, tag] : criteria) {
     ExtractRequest request;
     request.existing = arguments.existing;
     request.criterion = std::move(criterion);
@@ -113,14 +112,14 @@ Status checkOutputs(const std::vector<ExtractRequest>& requests, const ExtractAr
   if (fs::exists(arguments.criterion.region())) inputs.push_back(arguments.criterion.region());
   const auto check = [&](const char* option, const std::string& path) -> Status {
     if (path.empty()) return {};
-    if (Status output = checkOutput(option, path, inputs, outputs); !output) return output;
+    ARETE_CHECK(checkOutput(option, path, inputs, outputs));
     outputs.push_back(path);
     return {};
   };
   for (const ExtractRequest& request : requests) {
-    if (Status status = check("--output", request.output); !status) return status;
-    if (Status status = check("--certificate", request.certificate); !status) return status;
-    if (Status status = check("--error-raster", request.errorRaster); !status) return status;
+    ARETE_CHECK(check("--output", request.output));
+    ARETE_CHECK(check("--certificate", request.certificate));
+    ARETE_CHECK(check("--error-raster", request.errorRaster));
   }
   return {};
 }
@@ -129,11 +128,10 @@ Result<std::optional<Region>> regionOf(const ExtractArguments& arguments, const 
                                        Session& session) {
   const std::string& text = arguments.criterion.region();
   if (text.empty()) return std::nullopt;
-  auto read = readRegionArgument(arguments.criterion.regionText(), model.georeference, LongitudeTurns(model),
-                                 session.context());
-  if (!read) return tl::unexpected(read.error());
-  session.warn(read->warnings, text);
-  Region region = planRegion(std::move(read->shape), model);
+  ARETE_TRY(auto read, readRegionArgument(arguments.criterion.regionText(), model.georeference,
+                                          LongitudeTurns(model), session.context()));
+  session.warn(read.warnings, text);
+  Region region = planRegion(std::move(read.shape), model);
   if (region.isEmpty() || !meetsDomain(region, model.mt))
     return failure(ErrorCode::usage, fmt::format("does not meet the data of {}", arguments.model),
                    fmt::format("--region {}", text));
@@ -240,11 +238,10 @@ Result<TerrainModel> outlineForPlaces(const AmtFile& file, const CriterionArgume
                                       const Session& session) {
   Result<TerrainModel> root = file.read({.wanted = requiredNowhere()}, session.context());
   if (!root) return root;
-  const auto place = criterion.placeAboveGround(*root);
-  if (!place) return tl::unexpected(place.error());
-  if (!*place) return root;
+  ARETE_TRY(const auto place, criterion.placeAboveGround(*root));
+  if (!place) return root;
   QueryFootprint wanted(*root);
-  wanted.add(**place);
+  wanted.add(*place);
   return file.read({.wanted = wanted.within(0)}, session.context());
 }
 
@@ -266,15 +263,14 @@ void warnOfMapMetres(const std::vector<ExtractRequest>& requests, const TerrainM
 }
 
 Status runSurfaceExtract(const ExtractArguments& arguments, Session& session) {
-  const auto asked = arguments.criterion.ofSurface();
-  if (!asked) return tl::unexpected(asked.error());
+  ARETE_TRY(const auto asked, arguments.criterion.ofSurface());
   for (const auto& [option, isStated] : {std::pair{"--certificate", arguments.certificateOption->count() > 0},
                                          std::pair{"--error-raster", !arguments.errorRaster.empty()}})
     if (isStated) return failure(ErrorCode::usage, "is for terrain, and the file is of a surface", option);
   return extractSurface({.model = arguments.model,
                          .output = arguments.output.open(session),
                          .format = arguments.output.format,
-                         .asked = *asked,
+                         .asked = asked,
                          .map = arguments.map,
                          .dropParts = arguments.dropParts,
                          .dropAttributes = arguments.dropAttributes,
@@ -285,7 +281,7 @@ Status runSurfaceExtract(const ExtractArguments& arguments, Session& session) {
 }
 
 Status runExtract(const ExtractArguments& arguments, Session& session) {
-  if (Status ok = arguments.criterion.check(); !ok) return ok;
+  ARETE_CHECK(arguments.criterion.check());
   const Result<bool> isSurface = isSurfaceAmt(arguments.model);
   if (isSurface && *isSurface) return runSurfaceExtract(arguments, session);
   for (const auto& [option, isStated] :
@@ -296,46 +292,40 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
     if (isStated) return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", option);
   if (arguments.criterion.isForSurfaces())
     return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", "--fit rms");
-  const Result<AmtFile> file = openAmt(arguments.model);
-  if (!file) return tl::unexpected(file.error());
+  ARETE_TRY(const AmtFile file, openAmt(arguments.model));
   // The relief is that of all samples.
   const bool statesShares = arguments.criterion.statesShares();
-  const Result<TerrainModel> outline = statesShares ? file->read({}, session.context())
-                                                    : outlineForPlaces(*file, arguments.criterion, session);
-  if (!outline) return tl::unexpected(outline.error());
-  auto requests = requestsOf(arguments, *outline, session);
-  if (!requests) return tl::unexpected(requests.error());
-  if (Status outputs = checkOutputs(*requests, arguments, *outline); !outputs) return outputs;
-  warnOfMapMetres(*requests, *outline, session);
-  const auto region = regionOf(arguments, *outline, session);
-  if (!region) return tl::unexpected(region.error());
-  for (ExtractRequest& request : *requests) request.region = *region;
-  Result<PartAndCut> part = readForExtract(*file, *requests, *outline, session.context());
-  if (!part) return tl::unexpected(part.error());
+  ARETE_TRY(const TerrainModel outline, statesShares ? file.read({}, session.context())
+                                                     : outlineForPlaces(file, arguments.criterion, session));
+  ARETE_TRY(auto requests, requestsOf(arguments, outline, session));
+  ARETE_CHECK(checkOutputs(requests, arguments, outline));
+  warnOfMapMetres(requests, outline, session);
+  ARETE_TRY(const auto region, regionOf(arguments, outline, session));
+  for (ExtractRequest& request : requests) request.region = region;
+  ARETE_TRY(PartAndCut part, readForExtract(file, requests, outline, session.context()));
 
-  const std::string& verticalUnit = outline->georeference.verticalUnit;
+  const std::string& verticalUnit = outline.georeference.verticalUnit;
   Wholes wholes;
   if (statesShares) {
-    wholes.relief = reliefOf(*outline);
-    wholes.finestTriangles = outline->mt.finestTriangleCount();
+    wholes.relief = reliefOf(outline);
+    wholes.finestTriangles = outline.mt.finestTriangleCount();
   }
   TinExtractor extractor(
-      std::move(part->model), arguments.model,
-      [&file](const RunContext& context) { return file->read({}, context); },
+      std::move(part.model), arguments.model,
+      [&file](const RunContext& context) { return file.read({}, context); },
       [&](const ExtractRequest& request, double promisedError) {
-        return checkCommand(request, *outline, arguments.model, promisedError);
+        return checkCommand(request, outline, arguments.model, promisedError);
       });
   Json exports = Json::array();
   Status promise;
-  for (const ExtractRequest& request : *requests) {
-    const Result<ExtractedTin> tin =
-        extractor.extract(request, session.context(), std::exchange(part->cut, std::nullopt));
-    if (!tin) return tl::unexpected(tin.error());
-    warnOfRounding(*tin, request.output, verticalUnit, session);
-    session.say(textOf(request, *tin, verticalUnit, wholes));
-    exports.push_back(jsonOf(request, *tin, outline->isRaster, wholes));
-    if (!tin->isKept && promise)
-      promise = failure(ErrorCode::brokenPromise, brokenPromise(*tin), request.output);
+  for (const ExtractRequest& request : requests) {
+    ARETE_TRY(const ExtractedTin tin,
+              extractor.extract(request, session.context(), std::exchange(part.cut, std::nullopt)));
+    warnOfRounding(tin, request.output, verticalUnit, session);
+    session.say(textOf(request, tin, verticalUnit, wholes));
+    exports.push_back(jsonOf(request, tin, outline.isRaster, wholes));
+    if (!tin.isKept && promise)
+      promise = failure(ErrorCode::brokenPromise, brokenPromise(tin), request.output);
   }
   Json answer = {{"model", arguments.model}, {"verticalUnit", verticalUnit}};
   if (wholes.relief) {

@@ -38,16 +38,13 @@ using Heights = std::vector<std::optional<SurfaceHeight>>;
 /// The places of --at, as typed and in the DEM's CRS.
 Result<PointTable> statedPlaces(const HeightArguments& arguments, const TerrainModel& model) {
   PointTable table;
-  const auto toDem = transformOfPlaces(arguments.lonLat, model);
-  if (!toDem) return tl::unexpected(toDem.error());
-  table.crsWkt = arguments.lonLat ? toDem->sourceWkt() : model.georeference.crsWkt;
+  ARETE_TRY(const auto toDem, transformOfPlaces(arguments.lonLat, model));
+  table.crsWkt = arguments.lonLat ? toDem.sourceWkt() : model.georeference.crsWkt;
   for (const std::string& text : arguments.at) {
-    const auto stated = readPlaceArgument("--at", text, CrsTransform());
-    if (!stated) return tl::unexpected(stated.error());
-    const auto place = readPlaceArgument("--at", text, *toDem);
-    if (!place) return tl::unexpected(place.error());
-    table.stated.push_back(*stated);
-    table.positions.push_back(*place);
+    ARETE_TRY(const auto stated, readPlaceArgument("--at", text, CrsTransform()));
+    ARETE_TRY(const auto place, readPlaceArgument("--at", text, toDem));
+    table.stated.push_back(stated);
+    table.positions.push_back(place);
   }
   return table;
 }
@@ -104,69 +101,63 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
     if (!isHeightTable(arguments.output))
       return failure(ErrorCode::usage, "a table of heights ends in .csv or .gpkg", culprit);
   }
-  const Result<AmtFile> file = openAmt(arguments.model);
-  if (!file) return tl::unexpected(file.error());
-  const Result<TerrainModel> outline = outlineOf(*file, session);
-  if (!outline) return tl::unexpected(outline.error());
-  const Result<TerrainError> maxError = terrainErrorOf(arguments.maxError, *file, session);
-  if (!maxError) return tl::unexpected(maxError.error());
+  ARETE_TRY(const AmtFile file, openAmt(arguments.model));
+  ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
+  ARETE_TRY(const TerrainError maxError, terrainErrorOf(arguments.maxError, file, session));
   if (!arguments.output.empty())
     if (Status output =
-            checkOutput("--output", arguments.output, {arguments.model, arguments.points, outline->source});
+            checkOutput("--output", arguments.output, {arguments.model, arguments.points, outline.source});
         !output)
       return output;
-  const auto table = readPlaces(arguments, *outline, session);
-  if (!table) return tl::unexpected(table.error());
-  QueryFootprint wanted(*outline);
-  for (const Vec2 place : table->positions) wanted.add(outline->toPlan(place));
-  const Result<TerrainModel> model = readWanted(*file, *outline, wanted.within(0), session);
-  if (!model) return tl::unexpected(model.error());
-  const auto heights = SurfaceHeights(*model).at(table->positions, maxError->value, session.context());
-  if (!heights) return tl::unexpected(heights.error());
+  ARETE_TRY(const auto table, readPlaces(arguments, outline, session));
+  QueryFootprint wanted(outline);
+  for (const Vec2 place : table.positions) wanted.add(outline.toPlan(place));
+  ARETE_TRY(const TerrainModel model, readWanted(file, outline, wanted.within(0), session));
+  ARETE_TRY(const auto heights, SurfaceHeights(model).at(table.positions, maxError.value, session.context()));
 
   const auto found = static_cast<std::size_t>(
-      std::count_if(heights->begin(), heights->end(), [](const auto& h) { return h.has_value(); }));
-  Json json = {{"model", arguments.model}, {"verticalUnit", model->georeference.verticalUnit}};
-  maxError->addTo(json);
-  json["places"] = heights->size();
-  json["withoutPlace"] = table->withoutPlace;
+      std::count_if(heights.begin(), heights.end(), [](const auto& h) { return h.has_value(); }));
+  Json json = {{"model", arguments.model}, {"verticalUnit", model.georeference.verticalUnit}};
+  maxError.addTo(json);
+  json["places"] = heights.size();
+  json["withoutPlace"] = table.withoutPlace;
   json["onTerrain"] = found;
   if (arguments.output.empty()) {
-    session.say(textOf(arguments, *table, *heights));
-    if (maxError->relief)
-      session.note(fmt::format("heights within {}", maxError->text(model->georeference.verticalUnit)));
-    json["points"] = jsonOf(*table, *heights);
+    session.say(textOf(arguments, table, heights));
+    if (maxError.relief)
+      session.note(fmt::format("heights within {}", maxError.text(model.georeference.verticalUnit)));
+    json["points"] = jsonOf(table, heights);
   } else {
     if (Status written =
-            writeHeightTable(arguments.output, *table, *heights, session.context(), arguments.existing);
+            writeHeightTable(arguments.output, table, heights, session.context(), arguments.existing);
         !written)
       return written;
     session.say(fmt::format("{}: {} of {} a height{}\n", arguments.output, grouped(found),
-                            grouped(heights->size(), "place has", "places have"),
-                            maxError->shareText(model->georeference.verticalUnit)));
+                            grouped(heights.size(), "place has", "places have"),
+                            maxError.shareText(model.georeference.verticalUnit)));
     json["file"] = arguments.output;
   }
   session.answer(json);
-  if (table->withoutPlace == heights->size())
+  if (table.withoutPlace == heights.size())
     return failure(ErrorCode::invalidData,
-                   heights->size() == 1
+                   heights.size() == 1
                        ? std::string("has no position in its only row")
-                       : fmt::format("has no position in any of its {} rows", grouped(heights->size())),
+                       : fmt::format("has no position in any of its {} rows", grouped(heights.size())),
                    arguments.points);
   if (found == 0)
     return failure(
         ErrorCode::invalidData,
         fmt::format("has no terrain at {}; X,Y are coordinates of its CRS, or longitude,latitude "
                     "with --lonlat",
-                    heights->size() == 1 ? std::string("this place")
-                                         : fmt::format("any of the {} places", grouped(heights->size()))),
+                    heights.size() == 1 ? std::string("this place")
+                                        : fmt::format("any of the {} places", grouped(heights.size()))),
         arguments.model);
-  if (table->withoutPlace > 0)
-    session.warn(fmt::format("{} of {} no position, and so no height", grouped(table->withoutPlace),
-                             grouped(heights->size(), "row has", "rows have")));
-  if (const std::size_t off = heights->size() - found - table->withoutPlace; off > 0)
+  if (table.withoutPlace > 0)
+    session.warn(fmt::format("{} of {} no position, and so no height", grouped(table.withoutPlace),
+                             grouped(heights.size(), "row has", "rows have")));
+  if (const std::size_t off = heights.size() - found - table.withoutPlace; off > 0)
     session.warn(fmt::format("{} of {} no height: outside the DEM, or on NODATA", grouped(off),
-                             grouped(heights->size(), "place has", "places have")));
+                             grouped(heights.size(), "place has", "places have")));
   return {};
 }
 

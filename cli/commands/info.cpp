@@ -164,28 +164,24 @@ Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const 
 Status runInfo(const InfoArguments& arguments, Session& session) {
   if (const Result<bool> isSurface = isSurfaceAmt(arguments.model); isSurface && *isSurface)
     return sayAboutSurface(arguments.model, arguments.at, session);
-  const Result<AmtFile> file = openAmt(arguments.model);
-  if (!file) return tl::unexpected(file.error());
-  const Result<TerrainModel> model = loadAmt(arguments.model, {}, session.context());
-  if (!model) return tl::unexpected(model.error());
+  ARETE_TRY(const AmtFile file, openAmt(arguments.model));
+  ARETE_TRY(const TerrainModel model, loadAmt(arguments.model, {}, session.context()));
   Facts facts;
-  facts.bytes = file->bytes().size();
-  facts.writer = file->writer();
-  facts.isPacked = file->isPacked();
-  facts.rootError = largestRootError(model->mt);
-  facts.relief = reliefOf(*model);
-  std::vector<double> tolerances = toleranceLadder(model->mt, arguments.curvePoints);
+  facts.bytes = file.bytes().size();
+  facts.writer = file.writer();
+  facts.isPacked = file.isPacked();
+  facts.rootError = largestRootError(model.mt);
+  facts.relief = reliefOf(model);
+  std::vector<double> tolerances = toleranceLadder(model.mt, arguments.curvePoints);
   if (!arguments.at.empty()) {
-    const auto stated = parseStatedSizes(arguments.at, "--at");
-    if (!stated) return tl::unexpected(stated.error());
+    ARETE_TRY(const auto stated, parseStatedSizes(arguments.at, "--at"));
     tolerances.clear();
-    for (const StatedSize& size : *stated) tolerances.push_back(size.of(facts.relief));
+    for (const StatedSize& size : stated) tolerances.push_back(size.of(facts.relief));
   }
-  auto curve = errorCurve(model->mt, tolerances, session.context());
-  if (!curve) return tl::unexpected(curve.error());
-  facts.curve = std::move(*curve);
-  sayFacts(arguments, *model, facts, session);
-  session.answer(factsJson(arguments, *model, facts));
+  ARETE_TRY(auto curve, errorCurve(model.mt, tolerances, session.context()));
+  facts.curve = std::move(curve);
+  sayFacts(arguments, model, facts, session);
+  session.answer(factsJson(arguments, model, facts));
   return {};
 }
 

@@ -88,11 +88,10 @@ template <class Heightfield>
 Result<std::vector<std::uint8_t>> maskOf(const MeasureArguments& arguments, const Heightfield& field,
                                          Session& session) {
   if (arguments.region.empty()) return std::vector<std::uint8_t>();
-  auto read = readRegionArgument({arguments.region, arguments.distance, arguments.regionCrs},
-                                 field.georeference, LongitudeTurns(field), session.context());
-  if (!read) return tl::unexpected(read.error());
-  session.warn(read->warnings, arguments.region);
-  std::vector<std::uint8_t> mask = samplesInside(planRegion(std::move(read->shape), field), field);
+  ARETE_TRY(auto read, readRegionArgument({arguments.region, arguments.distance, arguments.regionCrs},
+                                          field.georeference, LongitudeTurns(field), session.context()));
+  session.warn(read.warnings, arguments.region);
+  std::vector<std::uint8_t> mask = samplesInside(planRegion(std::move(read.shape), field), field);
   bool any = false;
   for (std::size_t i = 0; i < mask.size() && !any; ++i) any = mask[i] != 0 && !std::isnan(field.heights[i]);
   if (!any)
@@ -121,27 +120,24 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
   constexpr bool isRaster = std::is_same_v<Heightfield, RasterHeightfield>;
   const Georeference& georeference = field.georeference;
   compareFrames(tin, georeference, session);
-  const auto mask = maskOf(arguments, field, session);
-  if (!mask) return tl::unexpected(mask.error());
+  ARETE_TRY(const auto mask, maskOf(arguments, field, session));
   MeasureOptions options;
-  options.mask = *mask;
+  options.mask = mask;
   options.planRounding = {tin.frame.rounding.x, tin.frame.rounding.y};
   MeasureRasters rasters;
-  const Result<MeasureReport> report = measure(tin.mesh, field, options, session.context(),
-                                               arguments.errorRaster.empty() ? nullptr : &rasters);
-  if (!report) return tl::unexpected(report.error());
-  if (!arguments.errorRaster.empty())
-    if (Status written = writeErrors(arguments, field, rasters, session); !written) return written;
+  ARETE_TRY(const MeasureReport report, measure(tin.mesh, field, options, session.context(),
+                                                arguments.errorRaster.empty() ? nullptr : &rasters));
+  if (!arguments.errorRaster.empty()) ARETE_CHECK(writeErrors(arguments, field, rasters, session));
 
   const bool expects = arguments.expect.has_value();
   const double relief = expects ? reliefOf(field.heights) : 0;
   const double expected = expects ? arguments.expect->of(relief) : 0;
   const Status promise =
-      expects ? checkPromise(*report, expected, {.allowCoveredNodata = arguments.allowCoveredNodata})
+      expects ? checkPromise(report, expected, {.allowCoveredNodata = arguments.allowCoveredNodata})
               : Status();
   session.say(fmt::format("{} against {}{}\n{}", arguments.tin, nameWithoutQuery(arguments.dem.path),
                           arguments.region.empty() ? "" : fmt::format(" in {}", arguments.region),
-                          measureReportText(*report, georeference.verticalUnit, isRaster)));
+                          measureReportText(report, georeference.verticalUnit, isRaster)));
   if (expects && promise)
     session.say(fmt::format("kept: nowhere more than {}\n",
                             withReliefShare(expected, georeference.verticalUnit, relief)));
@@ -152,7 +148,7 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
                  {"crs", crsName(georeference.crsWkt)},
                  {"verticalUnit", georeference.verticalUnit}}}};
   if (!arguments.region.empty()) json["region"] = arguments.region;
-  json.update(toJson(*report, isRaster));
+  json.update(toJson(report, isRaster));
   if (expects) {
     json["expect"] = std::isfinite(expected) ? Json(expected) : Json();
     json["expectPercent"] = std::isfinite(expected) && relief > 0 ? Json(100 * expected / relief) : Json();
@@ -162,7 +158,7 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
   }
   session.answer(json);
   if (!promise) return failure(promise.error().code, promise.error().message, arguments.tin);
-  if (report->covered == 0 && report->valid > 0)
+  if (report.covered == 0 && report.valid > 0)
     return failure(ErrorCode::invalidData,
                    fmt::format("covers no sample of {}, so there is nothing to compare", arguments.dem.path),
                    arguments.tin);
@@ -171,13 +167,12 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
 
 Status runMeasure(MeasureArguments arguments, Session& session) {
   if (!arguments.expectText.empty()) {
-    auto stated = parseStatedSize(arguments.expectText, "--expect");
-    if (!stated) return tl::unexpected(stated.error());
-    arguments.expect = std::move(*stated);
+    ARETE_TRY(auto stated, parseStatedSize(arguments.expectText, "--expect"));
+    arguments.expect = std::move(stated);
   }
   const Result<bool> isModel = isSurfaceAmt(arguments.dem.path);
   const bool isAgainstMesh = isMeshFile(arguments.dem.path) || (isModel && *isModel);
-  if (Status kind = checkKind(arguments, isAgainstMesh); !kind) return kind;
+  ARETE_CHECK(checkKind(arguments, isAgainstMesh));
   if (isAgainstMesh) {
     MeasureMeshesArguments meshes;
     meshes.first = arguments.tin;
@@ -195,15 +190,13 @@ Status runMeasure(MeasureArguments arguments, Session& session) {
                      fmt::format("--error-raster {}", arguments.errorRaster));
     std::vector<std::string> inputs = arguments.dem.files();
     inputs.push_back(arguments.tin);
-    if (Status output = checkOutput("--error-raster", arguments.errorRaster, inputs); !output) return output;
+    ARETE_CHECK(checkOutput("--error-raster", arguments.errorRaster, inputs));
   }
-  const Result<MeshFile> tin = readMesh(arguments.tin, session.context());
-  if (!tin) return tl::unexpected(tin.error());
-  session.warn(tin->warnings, arguments.tin);
-  const Result<DemRead> dem = arguments.dem.read(session);
-  if (!dem) return tl::unexpected(dem.error());
-  return std::visit([&](const auto& field) { return compare(arguments, *tin, field, session); },
-                    dem->heightfield);
+  ARETE_TRY(const MeshFile tin, readMesh(arguments.tin, session.context()));
+  session.warn(tin.warnings, arguments.tin);
+  ARETE_TRY(const DemRead dem, arguments.dem.read(session));
+  return std::visit([&](const auto& field) { return compare(arguments, tin, field, session); },
+                    dem.heightfield);
 }
 
 }  // namespace

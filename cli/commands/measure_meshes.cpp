@@ -35,17 +35,15 @@ struct Measured : MeshFile {
 Result<Measured> readMeasured(const std::string& path, const Session& session) {
   const Result<bool> isSurface = isSurfaceAmt(path);
   if (!isSurface || !*isSurface) {
-    Result<MeshFile> read = readMesh(path, session.context());
-    if (!read) return tl::unexpected(read.error());
-    return Measured{std::move(*read)};
+    ARETE_TRY(MeshFile read, readMesh(path, session.context()));
+    return Measured{std::move(read)};
   }
-  const Result<SurfaceModel> model = loadSurfaceAmt(path, AmtVerify::all, session.context());
-  if (!model) return tl::unexpected(model.error());
+  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(path, AmtVerify::all, session.context()));
   Measured file;
-  file.positionError = model->positionError;
-  file.mesh = finestSurfaceOf(*model).mesh;
-  file.crsWkt = model->crsWkt;
-  file.verticalUnit = model->verticalUnit;
+  file.positionError = model.positionError;
+  file.mesh = finestSurfaceOf(model).mesh;
+  file.crsWkt = model.crsWkt;
+  file.verticalUnit = model.verticalUnit;
   return file;
 }
 
@@ -66,12 +64,11 @@ bool areDegrees(const MeshFile& first, const MeshFile& second) {
 Result<std::optional<MetricMeshes>> inMetres(const MeshFile& first, const MeshFile& second,
                                              const Session& session) {
   if (areDegrees(first, second)) {
-    Result<MetricMeshes> metric = toMetres(first, second);
-    if (!metric) return tl::unexpected(metric.error());
+    ARETE_TRY(MetricMeshes metric, toMetres(first, second));
     session.warn(fmt::format(
         "x and y are degrees: they are compared in metres, by the size of a degree at latitude {:.4g}",
-        metric->latitude));
-    return std::move(*metric);
+        metric.latitude));
+    return metric;
   }
   if (isGeographicCrs(first.crsWkt) || isGeographicCrs(second.crsWkt))
     return failure(ErrorCode::invalidData,
@@ -123,8 +120,7 @@ Status writeDistances(const std::string& path, const MeshFile& mesh, const std::
   options.notes = {
       fmt::format("quality is the distance to {}, colours are from 0 to {}", reference, largest)};
   const TriangleMesh& shape = mesh.mesh;
-  if (auto written = writeMesh(shape, path, options, session.context()); !written)
-    return tl::unexpected(written.error());
+  ARETE_CHECK(writeMesh(shape, path, options, session.context()));
   return {};
 }
 
@@ -143,32 +139,28 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
     if (!format || !format->holds.holdsQualities)
       return failure(ErrorCode::usage, "the mesh of distances is a PLY: its name ends in .ply",
                      fmt::format("--error-mesh {}", arguments.errorMesh));
-    if (Status output = checkOutput("--error-mesh", arguments.errorMesh, {arguments.first, arguments.second});
-        !output)
-      return output;
+    ARETE_CHECK(checkOutput("--error-mesh", arguments.errorMesh, {arguments.first, arguments.second}));
   }
-  const Result<Measured> first = readMeasured(arguments.first, session);
-  if (!first) return tl::unexpected(first.error());
-  const Result<Measured> second = readMeasured(arguments.second, session);
-  if (!second) return tl::unexpected(second.error());
-  session.warn(first->warnings, arguments.first);
-  session.warn(second->warnings, arguments.second);
-  compareFrames(*first, *second, session);
+  ARETE_TRY(const Measured first, readMeasured(arguments.first, session));
+  ARETE_TRY(const Measured second, readMeasured(arguments.second, session));
+  session.warn(first.warnings, arguments.first);
+  session.warn(second.warnings, arguments.second);
+  compareFrames(first, second, session);
 
-  const Result<std::optional<MetricMeshes>> metric = inMetres(*first, *second, session);
+  const Result<std::optional<MetricMeshes>> metric = inMetres(first, second, session);
   if (!metric) return tl::unexpected(named(metric.error(), arguments));
   MeshDistanceOptions options;
   options.samples = static_cast<std::uint64_t>(arguments.samples);
   options.seed = static_cast<std::uint64_t>(arguments.seed);
   std::vector<double> distances;
   Result<MeshDistanceReport> report =
-      measureDistance(*metric ? (*metric)->first : first->mesh, *metric ? (*metric)->second : second->mesh,
+      measureDistance(*metric ? (*metric)->first : first.mesh, *metric ? (*metric)->second : second.mesh,
                       options, session.context(), arguments.errorMesh.empty() ? nullptr : &distances);
   if (!report) return tl::unexpected(named(report.error(), arguments));
   if (*metric) restorePlaces(*report, **metric);
-  const double moved = *metric ? longest((*metric)->firstUnits) * first->positionError +
-                                     longest((*metric)->secondUnits) * second->positionError
-                               : first->positionError + second->positionError;
+  const double moved = *metric ? longest((*metric)->firstUnits) * first.positionError +
+                                     longest((*metric)->secondUnits) * second.positionError
+                               : first.positionError + second.positionError;
   const bool expects = arguments.expect.has_value();
   const double diagonal = report->second.diagonal;
   const double expected = expects ? arguments.expect->of(diagonal) : 0;
@@ -177,11 +169,9 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
   const Status promise = expects ? checkDistance(*report, expected, way) : Status();
   report->raise(moved);
   if (!arguments.errorMesh.empty())
-    if (Status written = writeDistances(arguments.errorMesh, *first, arguments.second, distances, session);
-        !written)
-      return written;
+    ARETE_CHECK(writeDistances(arguments.errorMesh, first, arguments.second, distances, session));
 
-  const std::string unit = unitOf(*first, *second);
+  const std::string unit = unitOf(first, second);
   session.say(
       fmt::format("{} against {}\n{}", arguments.first, arguments.second, meshDistanceText(*report, unit)));
   if (moved > 0)
@@ -195,8 +185,8 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
                     ? fmt::format("kept: nowhere farther than {}\n", limit)
                     : fmt::format("kept as far as found: nothing is known to be farther than {}\n", limit));
   }
-  Json json = {{"first", {{"path", arguments.first}, {"crs", crsName(first->crsWkt)}}},
-               {"second", {{"path", arguments.second}, {"crs", crsName(second->crsWkt)}}},
+  Json json = {{"first", {{"path", arguments.first}, {"crs", crsName(first.crsWkt)}}},
+               {"second", {{"path", arguments.second}, {"crs", crsName(second.crsWkt)}}},
                {"unit", unit},
                {"positionError", moved}};
   const Json found = toJson(*report);

@@ -68,9 +68,8 @@ Result<std::uint64_t> compare(const ValidateArguments& arguments, const TerrainM
                               Session& session) {
   DemArguments source = arguments.source;
   source.reading = readingOf(source.reading, model.reading);
-  const Result<DemRead> dem = source.read(session);
-  if (!dem) return tl::unexpected(dem.error());
-  return std::visit([&](const auto& field) { return compareWithSource(model, field); }, dem->heightfield);
+  ARETE_TRY(const DemRead dem, source.read(session));
+  return std::visit([&](const auto& field) { return compareWithSource(model, field); }, dem.heightfield);
 }
 
 /// What the checks of a law covered, where that is not everything.
@@ -87,14 +86,13 @@ Status runValidate(const ValidateArguments& arguments, Session& session) {
       return failure(ErrorCode::usage, "is for terrain, and the file is of a surface", "--against");
     return validateSurfaceFile(arguments.model, {.everySample = arguments.options.everyTriangle}, session);
   }
-  const Result<TerrainModel> model = loadAmt(arguments.model, {}, session.context());
-  if (!model) return tl::unexpected(model.error());
+  ARETE_TRY(const TerrainModel model, loadAmt(arguments.model, {}, session.context()));
   ErrorsChecked checked;
-  Status valid = validateModel(*model, arguments.options, session.context(), &checked);
+  Status valid = validateModel(model, arguments.options, session.context(), &checked);
   if (!valid && valid.error().code == ErrorCode::interrupted) return valid;
   std::uint64_t compared = 0;
   if (valid && !arguments.source.path.empty()) {
-    const auto same = compare(arguments, *model, session);
+    const auto same = compare(arguments, model, session);
     if (same)
       compared = *same;
     else if (same.error().code != ErrorCode::brokenPromise)
@@ -106,7 +104,7 @@ Status runValidate(const ValidateArguments& arguments, Session& session) {
     std::string text = fmt::format("{}: checksums, indices and every law hold\n", arguments.model);
     for (const Law& law : kLaws)
       text +=
-          fmt::format("  law {}  {}  {}{}\n", law.number, isClaimed(law, *model) ? "holds" : "is not claimed",
+          fmt::format("  law {}  {}  {}{}\n", law.number, isClaimed(law, model) ? "holds" : "is not claimed",
                       law.says, scopeOf(law, checked));
     text += arguments.source.path.empty() ? "  heights not compared with the source (--against)\n"
                                           : fmt::format("  heights all {} are those of {}\n", compared,
@@ -115,7 +113,7 @@ Status runValidate(const ValidateArguments& arguments, Session& session) {
   }
   Json laws = Json::array();
   for (const Law& law : kLaws)
-    if (valid) laws.push_back({{"law", law.number}, {"says", law.says}, {"claimed", isClaimed(law, *model)}});
+    if (valid) laws.push_back({{"law", law.number}, {"says", law.says}, {"claimed", isClaimed(law, model)}});
   Json json = {{"file", arguments.model},
                {"holds", valid.has_value()},
                {"randomFronts", arguments.options.randomFronts},

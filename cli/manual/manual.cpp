@@ -43,10 +43,9 @@ Status runManual(const ManualArguments& arguments, Session& session) {
   Json files = Json::array();
   for (const DeclaredCommand& command : declaredCommands(program)) {
     const std::string path = (fs::path(arguments.folder) / (pageName(command) + ".1")).string();
-    Result<FileWriter> out = FileWriter::create(path);
-    if (!out) return tl::unexpected(out.error());
-    out->write(manPage(command, program));
-    if (Status written = out->finish(); !written) return written;
+    ARETE_TRY(FileWriter out, FileWriter::create(path));
+    out.write(manPage(command, program));
+    ARETE_CHECK(out.finish());
     files.push_back(path);
   }
   session.say(

@@ -44,46 +44,39 @@ Result<Box3> parseBox(const std::string& text) {
       bounds[i] = i < 3 ? -Box3::kInfinity : Box3::kInfinity;
       continue;
     }
-    const auto number = parseNumbers(culprit, parts[i]);
-    if (!number) return tl::unexpected(number.error());
-    bounds[i] = (*number)[0];
+    ARETE_TRY(const auto number, parseNumbers(culprit, parts[i]));
+    bounds[i] = number[0];
   }
   return Box3{{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}};
 }
 
 Status runCrop(const CropArguments& arguments, Session& session) {
-  const Result<Box3> box = parseBox(arguments.box);
-  if (!box) return tl::unexpected(box.error());
-  const Result<MeshTarget> target = meshTarget(arguments.output, arguments.input, session);
-  if (!target) return tl::unexpected(target.error());
-  Result<MeshFile> mesh = readMesh(arguments.input, session.context());
-  if (!mesh) return tl::unexpected(mesh.error());
-  Result<CroppedMesh> cropped = crop(mesh->mesh, *box, arguments.options, session.context());
-  if (!cropped) return tl::unexpected(cropped.error());
-  const bool isOfFloats = movedByFloats(mesh->mesh) == 0;
-  mesh->mesh = std::move(cropped->mesh);
-  if (!mesh->triangleErrors.empty()) {
+  ARETE_TRY(const Box3 box, parseBox(arguments.box));
+  ARETE_TRY(const MeshTarget target, meshTarget(arguments.output, arguments.input, session));
+  ARETE_TRY(MeshFile mesh, readMesh(arguments.input, session.context()));
+  ARETE_TRY(CroppedMesh cropped, crop(mesh.mesh, box, arguments.options, session.context()));
+  const bool isOfFloats = movedByFloats(mesh.mesh) == 0;
+  mesh.mesh = std::move(cropped.mesh);
+  if (!mesh.triangleErrors.empty()) {
     std::vector<float> errors;
-    for (const std::uint32_t t : cropped->triangleOf) errors.push_back(mesh->triangleErrors[t]);
-    mesh->triangleErrors = std::move(errors);
+    for (const std::uint32_t t : cropped.triangleOf) errors.push_back(mesh.triangleErrors[t]);
+    mesh.triangleErrors = std::move(errors);
   }
-  const Result<ConvertedMesh> converted = convertMesh(std::move(*mesh), target->path,
-                                                      {.format = arguments.output.format,
-                                                       .existing = arguments.existing,
-                                                       .placing = arguments.placing,
-                                                       .isOfFloats = isOfFloats},
-                                                      session.context());
-  if (!converted) return tl::unexpected(converted.error());
-  warnOf(*converted, arguments.input, target->format.name, session);
-  session.say(writtenText(target->path, *converted) +
-              (cropped->cutTriangles > 0
-                   ? fmt::format("  {} cut at the box, {} made there\n",
-                                 grouped(cropped->cutTriangles, "triangle", "triangles"),
-                                 grouped(cropped->cutVertices, "vertex", "vertices"))
-                   : ""));
-  Json json = writtenJson(arguments.input, target->path, target->format.name, *converted);
-  json["cutTriangles"] = cropped->cutTriangles;
-  json["cutVertices"] = cropped->cutVertices;
+  ARETE_TRY(const ConvertedMesh converted, convertMesh(std::move(mesh), target.path,
+                                                       {.format = arguments.output.format,
+                                                        .existing = arguments.existing,
+                                                        .placing = arguments.placing,
+                                                        .isOfFloats = isOfFloats},
+                                                       session.context()));
+  warnOf(converted, arguments.input, target.format.name, session);
+  session.say(writtenText(target.path, converted) +
+              (cropped.cutTriangles > 0 ? fmt::format("  {} cut at the box, {} made there\n",
+                                                      grouped(cropped.cutTriangles, "triangle", "triangles"),
+                                                      grouped(cropped.cutVertices, "vertex", "vertices"))
+                                        : ""));
+  Json json = writtenJson(arguments.input, target.path, target.format.name, converted);
+  json["cutTriangles"] = cropped.cutTriangles;
+  json["cutVertices"] = cropped.cutVertices;
   session.answer(json);
   return {};
 }

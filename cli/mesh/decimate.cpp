@@ -61,9 +61,8 @@ Result<std::uint32_t> triangleBudget(const std::string& text, std::uint64_t face
   if (number.ends_with("%f")) number.pop_back();
   const bool isShare = number.ends_with('%');
   if (isShare) number.pop_back();
-  const auto parsed = parseNumbers(culprit, number);
-  if (!parsed) return tl::unexpected(parsed.error());
-  const double count = parsed->size() != 1 ? 0 : isShare ? (*parsed)[0] / 100 * double(faces) : (*parsed)[0];
+  ARETE_TRY(const auto parsed, parseNumbers(culprit, number));
+  const double count = parsed.size() != 1 ? 0 : isShare ? parsed[0] / 100 * double(faces) : parsed[0];
   if (!(count >= 1) || !(count < 4e9) || (!isShare && count != std::floor(count)))
     return failure(ErrorCode::usage, "must be a number of triangles, or a percentage of the faces as 10%",
                    culprit);
@@ -121,9 +120,8 @@ Error tooFew(const std::string& budget, std::uint64_t least, const std::string& 
 }
 
 Result<std::uint64_t> crossingsOf(const TriangleMesh& mesh, const RunContext& context) {
-  const Result<MeshDiagnosis> d = diagnose(mesh, {.mostPlaces = 1}, context);
-  if (!d) return tl::unexpected(d.error());
-  return d->selfIntersections->count;
+  ARETE_TRY(const MeshDiagnosis d, diagnose(mesh, {.mostPlaces = 1}, context));
+  return d.selfIntersections->count;
 }
 
 Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
@@ -131,50 +129,45 @@ Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
   SurfaceBuildOptions options;
   options.keepsBorders = arguments.keepsBorders;
   // A cut of so many triangles has what is coarser than a quarter of them whole.
-  const Result<SurfaceModel> model =
-      buildSurface(std::move(mesh), options, session.context(), maxTriangles.value_or(0) / 4);
-  if (!model) return tl::unexpected(model.error());
+  ARETE_TRY(const SurfaceModel model,
+            buildSurface(std::move(mesh), options, session.context(), maxTriangles.value_or(0) / 4));
   std::optional<double> maxError;
   CutOptions wanted;
   if (maxTriangles) {
-    if (*maxTriangles < model->mt.rootTriangleCount())
-      return tl::unexpected(tooFew(arguments.maxTriangles, model->mt.rootTriangleCount(), "measured",
-                                   finestSurfaceOf(*model).mesh));
+    if (*maxTriangles < model.mt.rootTriangleCount())
+      return tl::unexpected(tooFew(arguments.maxTriangles, model.mt.rootTriangleCount(), "measured",
+                                   finestSurfaceOf(model).mesh));
     wanted.maxTriangles = *maxTriangles;
     wanted.order = std::make_shared<LargestSquaresFirst>();
   }
   if (!arguments.maxError.empty()) {
-    const auto tolerances = parseSurfaceTolerances("--max-error", arguments.maxError, model->diagonal);
-    if (!tolerances) return tl::unexpected(tolerances.error());
-    if (tolerances->size() != 1) return failure(ErrorCode::usage, "takes one distance", "--max-error");
-    maxError = tolerances->front().distance;
+    ARETE_TRY(const auto tolerances,
+              parseSurfaceTolerances("--max-error", arguments.maxError, model.diagonal));
+    if (tolerances.size() != 1) return failure(ErrorCode::usage, "takes one distance", "--max-error");
+    maxError = tolerances.front().distance;
   }
-  const Result<Cut> cut = takeCut(model->mt, UniformError(maxError.value_or(0)), wanted, session.context());
-  if (!cut) return tl::unexpected(cut.error());
-  SurfaceFront front = surfaceOf(*model, *cut);
-  const auto fit = fitFront(front, finestSurfaceOf(*model).mesh.shape(),
-                            chartsOfCut(*model, frontOfPrefix(model->mt, model->mt.nodeCount()), *cut),
-                            options.keepsBorders, cut->achievedError,
-                            cut->isComplete ? maxError : std::nullopt, session.context());
-  if (!fit) return tl::unexpected(fit.error());
+  ARETE_TRY(const Cut cut, takeCut(model.mt, UniformError(maxError.value_or(0)), wanted, session.context()));
+  SurfaceFront front = surfaceOf(model, cut);
+  ARETE_TRY(const auto fit, fitFront(front, finestSurfaceOf(model).mesh.shape(),
+                                     chartsOfCut(model, frontOfPrefix(model.mt, model.mt.nodeCount()), cut),
+                                     options.keepsBorders, cut.achievedError,
+                                     cut.isComplete ? maxError : std::nullopt, session.context()));
   Outcome outcome;
   outcome.mesh = std::move(front.mesh);
   outcome.vertexOf = std::move(front.vertexOf);
-  outcome.fit = *fit;
-  if (!arguments.map.empty()) outcome.triangleFor = facesOf(*model, *cut);
-  const Result<std::uint64_t> crossings = crossingsOf(outcome.mesh, session.context());
-  if (!crossings) return tl::unexpected(crossings.error());
-  outcome.crossings = *crossings;
-  if (*crossings > 0) {
-    const Result<std::uint64_t> ofSource = crossingsOf(finestSurfaceOf(*model).mesh, session.context());
-    if (!ofSource) return tl::unexpected(ofSource.error());
-    outcome.sourceCrossings = *ofSource;
+  outcome.fit = fit;
+  if (!arguments.map.empty()) outcome.triangleFor = facesOf(model, cut);
+  ARETE_TRY(const std::uint64_t crossings, crossingsOf(outcome.mesh, session.context()));
+  outcome.crossings = crossings;
+  if (crossings > 0) {
+    ARETE_TRY(const std::uint64_t ofSource, crossingsOf(finestSurfaceOf(model).mesh, session.context()));
+    outcome.sourceCrossings = ofSource;
   }
-  outcome.isComplete = cut->isComplete;
-  if (2 * model->mt.rootTriangleCount() > model->mt.finestTriangleCount())
-    outcome.seams = seamsOf(finestSurfaceOf(*model).mesh);
+  outcome.isComplete = cut.isComplete;
+  if (2 * model.mt.rootTriangleCount() > model.mt.finestTriangleCount())
+    outcome.seams = seamsOf(finestSurfaceOf(model).mesh);
   outcome.maxError = maxError;
-  outcome.dropsFlatNormals = model->mending.dropsFlatNormals;
+  outcome.dropsFlatNormals = model.mending.dropsFlatNormals;
   return outcome;
 }
 
@@ -191,67 +184,61 @@ Result<Outcome> contracted(const SurfaceMesh& mesh, const DecimateArguments& arg
   options.keepsClusterVertices = arguments.clusterVertices == "original";
   options.keepsBorders = arguments.keepsBorders;
   options.forbidsCrossings = arguments.forbidsCrossings;
-  Result<DecimatedMesh> decimated = decimate(mesh, options, session.context());
-  if (!decimated) return tl::unexpected(decimated.error());
-  if (decimated->mesh.triangles.size() > maxTriangles)
+  ARETE_TRY(DecimatedMesh decimated, decimate(mesh, options, session.context()));
+  if (decimated.mesh.triangles.size() > maxTriangles)
     return tl::unexpected(
-        tooFew(arguments.maxTriangles, decimated->mesh.triangles.size(), arguments.method, decimated->mesh));
+        tooFew(arguments.maxTriangles, decimated.mesh.triangles.size(), arguments.method, decimated.mesh));
   Outcome outcome;
-  outcome.mesh = std::move(decimated->mesh);
-  outcome.vertexOf = std::move(decimated->vertexOf);
-  outcome.triangleFor = std::move(decimated->triangleFor);
-  outcome.lost = std::move(decimated->lost);
-  outcome.evaluations = decimated->evaluations;
-  outcome.steps = decimated->steps;
-  outcome.dropsFlatNormals = decimated->dropsFlatNormals;
+  outcome.mesh = std::move(decimated.mesh);
+  outcome.vertexOf = std::move(decimated.vertexOf);
+  outcome.triangleFor = std::move(decimated.triangleFor);
+  outcome.lost = std::move(decimated.lost);
+  outcome.evaluations = decimated.evaluations;
+  outcome.steps = decimated.steps;
+  outcome.dropsFlatNormals = decimated.dropsFlatNormals;
   return outcome;
 }
 
 Status writeNumbers(const std::string& path, const Outcome& outcome, const MeshInput& input,
                     const std::vector<std::uint32_t>& vertexBefore,
                     const std::vector<std::uint32_t>& faceBefore) {
-  Result<FileWriter> out = FileWriter::create(path);
-  if (!out) return tl::unexpected(out.error());
-  out->write("what,output,input\n");
+  ARETE_TRY(FileWriter out, FileWriter::create(path));
+  out.write("what,output,input\n");
   const auto through = [](const std::vector<std::uint32_t>& map, std::uint32_t i) {
     return map.empty() ? i : map[i];
   };
   for (std::size_t v = 0; v < outcome.vertexOf.size(); ++v)
-    out->write(fmt::format("vertex,{},{}\n", v,
-                           through(input.numbers.vertexOf, through(vertexBefore, outcome.vertexOf[v]))));
+    out.write(fmt::format("vertex,{},{}\n", v,
+                          through(input.numbers.vertexOf, through(vertexBefore, outcome.vertexOf[v]))));
   for (std::uint32_t f = 0; f < outcome.triangleFor.size(); ++f)
     if (outcome.triangleFor[f] != MeshAttributes::kNone)
-      out->write(fmt::format("face,{},{}\n", outcome.triangleFor[f],
-                             through(input.numbers.faceOf, through(faceBefore, f))));
-  return out->finish();
+      out.write(fmt::format("face,{},{}\n", outcome.triangleFor[f],
+                            through(input.numbers.faceOf, through(faceBefore, f))));
+  return out.finish();
 }
 
 Status runDecimate(const DecimateArguments& arguments, Session& session) {
-  if (Status ok = checkArguments(arguments); !ok) return ok;
-  const Result<MeshTarget> target = meshTarget(arguments.output, arguments.input, session);
-  if (!target) return tl::unexpected(target.error());
+  ARETE_CHECK(checkArguments(arguments));
+  ARETE_TRY(const MeshTarget target, meshTarget(arguments.output, arguments.input, session));
   if (!arguments.map.empty())
-    if (Status checked = checkOutput("--map", arguments.map, {arguments.input}, {target->path}); !checked)
-      return checked;
-  Result<MeshInput> input = readMeshInput(arguments.input, session.context());
-  if (!input) return tl::unexpected(input.error());
-  if (const Status looked = warnOfGaps(*input, session.context()); !looked) return looked;
-  session.warn(input->file.warnings, arguments.input);
-  MeshFile& file = input->file;
+    ARETE_CHECK(checkOutput("--map", arguments.map, {arguments.input}, {target.path}));
+  ARETE_TRY(MeshInput input, readMeshInput(arguments.input, session.context()));
+  ARETE_CHECK(warnOfGaps(input, session.context()));
+  session.warn(input.file.warnings, arguments.input);
+  MeshFile& file = input.file;
   if (file.mesh.triangles.empty())
     return failure(ErrorCode::invalidData, "has no faces to be decimated", arguments.input);
   const std::size_t facesBefore = file.mesh.triangles.size();
   const bool isOfFloats = movedByFloats(file.mesh) == 0;
-  if (Status dropped = dropNamed(file.mesh, arguments.dropAttributes); !dropped) return dropped;
+  ARETE_CHECK(dropNamed(file.mesh, arguments.dropAttributes));
 
   SmallComponents dropped;
   if (!arguments.dropParts.empty()) {
-    const auto least = parseSurfaceTolerances("--drop-parts", arguments.dropParts, diagonalOf(file.mesh));
-    if (!least) return tl::unexpected(least.error());
-    if (least->size() != 1) return failure(ErrorCode::usage, "takes one length", "--drop-parts");
-    Result<SmallComponents> without = withoutSmallComponents(file.mesh, least->front().distance);
-    if (!without) return tl::unexpected(without.error());
-    dropped = std::move(*without);
+    ARETE_TRY(const auto least,
+              parseSurfaceTolerances("--drop-parts", arguments.dropParts, diagonalOf(file.mesh)));
+    if (least.size() != 1) return failure(ErrorCode::usage, "takes one length", "--drop-parts");
+    ARETE_TRY(SmallComponents without, withoutSmallComponents(file.mesh, least.front().distance));
+    dropped = std::move(without);
     if (dropped.mesh.triangles.empty())
       return failure(ErrorCode::usage, "leaves nothing: every component is smaller",
                      fmt::format("--drop-parts {}", arguments.dropParts));
@@ -259,9 +246,8 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
   }
   std::optional<std::uint32_t> maxTriangles;
   if (!arguments.maxTriangles.empty()) {
-    const Result<std::uint32_t> budget = triangleBudget(arguments.maxTriangles, facesBefore);
-    if (!budget) return tl::unexpected(budget.error());
-    maxTriangles = *budget;
+    ARETE_TRY(const std::uint32_t budget, triangleBudget(arguments.maxTriangles, facesBefore));
+    maxTriangles = budget;
   }
   Stopwatch working;
   const double diagonal = diagonalOf(file.mesh);
@@ -283,25 +269,22 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
     result.warnings.emplace_back("normals of corners are left out: they are those of flat faces");
   for (const std::string& lost : outcome->lost)
     result.warnings.push_back(fmt::format("{} cannot carry {}: left out", arguments.method, lost));
-  const Result<ConvertedMesh> converted = convertMesh(std::move(result), target->path,
-                                                      {.format = arguments.output.format,
-                                                       .existing = arguments.existing,
-                                                       .placing = arguments.placing,
-                                                       .isOfFloats = isOfFloats},
-                                                      session.context());
-  if (!converted) return tl::unexpected(converted.error());
-  if (!converted->triangleOf.empty()) {
-    std::vector<std::uint32_t> placeOf(converted->triangleOf.size());
-    for (std::uint32_t i = 0; i < placeOf.size(); ++i) placeOf[converted->triangleOf[i]] = i;
+  ARETE_TRY(const ConvertedMesh converted, convertMesh(std::move(result), target.path,
+                                                       {.format = arguments.output.format,
+                                                        .existing = arguments.existing,
+                                                        .placing = arguments.placing,
+                                                        .isOfFloats = isOfFloats},
+                                                       session.context()));
+  if (!converted.triangleOf.empty()) {
+    std::vector<std::uint32_t> placeOf(converted.triangleOf.size());
+    for (std::uint32_t i = 0; i < placeOf.size(); ++i) placeOf[converted.triangleOf[i]] = i;
     for (std::uint32_t& triangle : outcome->triangleFor)
       if (triangle != MeshAttributes::kNone) triangle = placeOf[triangle];
   }
   if (!arguments.map.empty())
-    if (Status written = writeNumbers(arguments.map, *outcome, *input, dropped.vertexOf, dropped.triangleOf);
-        !written)
-      return written;
-  warnOf(*converted, arguments.input, target->format.name, session);
-  std::string text = writtenText(target->path, *converted);
+    ARETE_CHECK(writeNumbers(arguments.map, *outcome, input, dropped.vertexOf, dropped.triangleOf));
+  warnOf(converted, arguments.input, target.format.name, session);
+  std::string text = writtenText(target.path, converted);
   const double percent = 100 * static_cast<double>(triangles) / static_cast<double>(facesBefore);
   text += fmt::format("  of         {}, {:.4g} % of them, by {} in {:.2f} s\n",
                       grouped(facesBefore, "triangle", "triangles"), percent, arguments.method, seconds);
@@ -323,7 +306,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
     text += fmt::format("  steps      {}; costs computed {} ({} queue)\n", grouped(outcome->steps),
                         grouped(outcome->evaluations, "time", "times"), arguments.queue);
   session.say(text);
-  Json json = writtenJson(arguments.input, target->path, target->format.name, *converted);
+  Json json = writtenJson(arguments.input, target.path, target.format.name, converted);
   json["operator"] = arguments.method;
   json["trianglesBefore"] = facesBefore;
   json["trianglesPercent"] = percent;

@@ -192,23 +192,21 @@ Json factsJson(const std::string& path, const MeshInput& input, const Facts& fac
 }
 
 Status runInfo(const InfoArguments& arguments, Session& session) {
-  const Result<MeshInput> input = readMeshInput(arguments.input, session.context());
-  if (!input) return tl::unexpected(input.error());
-  session.warn(input->file.warnings, arguments.input);
-  const SurfaceMesh& mesh = input->file.mesh;
+  ARETE_TRY(const MeshInput input, readMeshInput(arguments.input, session.context()));
+  session.warn(input.file.warnings, arguments.input);
+  const SurfaceMesh& mesh = input.file.mesh;
   DiagnosisOptions options{.selfIntersections = !arguments.leavesOutSelfIntersections,
-                           .rounding = input->rounding};
+                           .rounding = input.rounding};
   if (session.wantsJson()) options.mostPlaces = std::numeric_limits<std::size_t>::max();
-  Result<MeshDiagnosis> diagnosis = diagnose(mesh, options, session.context());
-  if (!diagnosis) return tl::unexpected(diagnosis.error());
+  ARETE_TRY(MeshDiagnosis diagnosis, diagnose(mesh, options, session.context()));
   Facts facts;
-  facts.diagnosis = std::move(*diagnosis);
+  facts.diagnosis = std::move(diagnosis);
   facts.area = areaOf(mesh);
   if (isSolid(facts.diagnosis)) facts.volume = volumeOf(mesh);
   facts.seamEdges = countSeamEdges(mesh);
   session.say(fmt::format("{}: {}\n{}{}", arguments.input, verdictOf(facts.diagnosis),
-                          factsText(*input, facts), diagnosisText(facts.diagnosis, input->numbers)));
-  if (session.wantsJson()) session.answer(factsJson(arguments.input, *input, facts));
+                          factsText(input, facts), diagnosisText(facts.diagnosis, input.numbers)));
+  if (session.wantsJson()) session.answer(factsJson(arguments.input, input, facts));
   return {};
 }
 

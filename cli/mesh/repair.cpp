@@ -46,14 +46,13 @@ struct WeldDistance {
 
 Result<WeldDistance> weldDistance(const std::string& text, const TriangleMesh& mesh) {
   const bool isPercent = text.ends_with('%');
-  const auto number =
-      parseNumbers(fmt::format("--weld {}", text), isPercent ? text.substr(0, text.size() - 1) : text);
-  if (!number) return tl::unexpected(number.error());
-  if (number->size() != 1 || !((*number)[0] >= 0) || !std::isfinite((*number)[0]))
+  ARETE_TRY(const auto number,
+            parseNumbers(fmt::format("--weld {}", text), isPercent ? text.substr(0, text.size() - 1) : text));
+  if (number.size() != 1 || !(number[0] >= 0) || !std::isfinite(number[0]))
     return failure(ErrorCode::usage,
                    "must be a distance of 0 or more, or such a number and % of the diagonal",
                    fmt::format("--weld {}", text));
-  WeldDistance distance{.size = (*number)[0], .share = {}};
+  WeldDistance distance{.size = number[0], .share = {}};
   if (isPercent) {
     distance.share = distance.size;
     const double diagonal = diagonalOf(mesh);
@@ -97,10 +96,9 @@ Result<RepairedMesh> mend(MeshInput& input, const RepairArguments& arguments, bo
   file.warnings.clear();  // written already
   if (!repaired->counts.isNothing()) {
     carryErrors(file, repaired->triangleOf, hasMoved);
-    Result<SurfaceMesh> mended =
-        transferAttributes(file.mesh, repaired->mesh, repaired->vertexOf, repaired->triangleOf);
-    if (!mended) return tl::unexpected(mended.error());
-    file.mesh = std::move(*mended);
+    ARETE_TRY(SurfaceMesh mended,
+              transferAttributes(file.mesh, repaired->mesh, repaired->vertexOf, repaired->triangleOf));
+    file.mesh = std::move(mended);
   } else if (hasMoved) {
     std::vector<std::uint32_t> same(file.mesh.triangles.size());
     std::iota(same.begin(), same.end(), 0u);
@@ -180,75 +178,70 @@ Json weldedJson(const Welded& welded) {
 /// of borders are too short for it.
 Result<double> distanceOfNearBorders(const MeshInput& input, const RunContext& context) {
   const TriangleMesh& mesh = input.file.mesh;
-  const Result<MeshDiagnosis> d =
-      diagnose(mesh, {.mostPlaces = 0, .selfIntersections = false, .rounding = input.rounding}, context);
-  if (!d) return tl::unexpected(d.error());
-  return d->farthestNear <= d->shortestBorderEdge / 4 ? d->farthestNear : 0;
+  ARETE_TRY(
+      const MeshDiagnosis d,
+      diagnose(mesh, {.mostPlaces = 0, .selfIntersections = false, .rounding = input.rounding}, context));
+  return d.farthestNear <= d.shortestBorderEdge / 4 ? d.farthestNear : 0;
 }
 
 Status runRepair(const RepairArguments& arguments, Session& session) {
-  const Result<MeshTarget> target = meshTarget(arguments.output, arguments.input, session);
-  if (!target) return tl::unexpected(target.error());
-  Result<MeshInput> input = readMeshInput(arguments.input, session.context());
-  if (!input) return tl::unexpected(input.error());
-  const bool isOfFloats = movedByFloats(input->file.mesh) == 0;
-  session.warn(input->file.warnings, arguments.input);
+  ARETE_TRY(const MeshTarget target, meshTarget(arguments.output, arguments.input, session));
+  ARETE_TRY(MeshInput input, readMeshInput(arguments.input, session.context()));
+  const bool isOfFloats = movedByFloats(input.file.mesh) == 0;
+  session.warn(input.file.warnings, arguments.input);
   std::optional<Welded> welded;
   if (!arguments.weld.empty()) {
-    SurfaceMesh& mesh = input->file.mesh;
-    const Result<WeldDistance> distance = weldDistance(arguments.weld, mesh);
-    if (!distance) return tl::unexpected(distance.error());
-    welded = Welded{.distance = *distance, .diagonal = diagonalOf(mesh)};
-  } else if (const auto distance = distanceOfNearBorders(*input, session.context()); !distance) {
+    SurfaceMesh& mesh = input.file.mesh;
+    ARETE_TRY(const WeldDistance distance, weldDistance(arguments.weld, mesh));
+    welded = Welded{.distance = distance, .diagonal = diagonalOf(mesh)};
+  } else if (const auto distance = distanceOfNearBorders(input, session.context()); !distance) {
     return tl::unexpected(distance.error());
   } else if (*distance > 0) {
     welded = Welded{.distance = {.size = *distance, .share = {}},
                     .isOfRounding = true,
-                    .diagonal = diagonalOf(input->file.mesh)};
+                    .diagonal = diagonalOf(input.file.mesh)};
   }
   if (welded) {
-    SurfaceMesh& mesh = input->file.mesh;
-    const Result<JoinedSurface> joined =
-        joinSurface(mesh, {.distance = welded->distance.size, .partOf = mesh.objectOf}, session.context());
-    if (!joined) return tl::unexpected(joined.error());
-    welded->vertices = joined->joinedVertices;
-    welded->edges = joined->joinedEdges;
-    welded->farthestMove = joined->farthestMove;
+    SurfaceMesh& mesh = input.file.mesh;
+    ARETE_TRY(
+        const JoinedSurface joined,
+        joinSurface(mesh, {.distance = welded->distance.size, .partOf = mesh.objectOf}, session.context()));
+    welded->vertices = joined.joinedVertices;
+    welded->edges = joined.joinedEdges;
+    welded->farthestMove = joined.farthestMove;
   }
-  const Result<RepairedMesh> repaired = mend(*input, arguments, welded && welded->farthestMove > 0, session);
-  if (!repaired) return tl::unexpected(repaired.error());
-  if (input->file.mesh.triangles.empty())
+  ARETE_TRY(const RepairedMesh repaired, mend(input, arguments, welded && welded->farthestMove > 0, session));
+  if (input.file.mesh.triangles.empty())
     return failure(ErrorCode::invalidData, "no face is left: all were without area", arguments.input);
-  Result<MeshDiagnosis> diagnosis = repaired->diagnosis;
+  Result<MeshDiagnosis> diagnosis = repaired.diagnosis;
   if (session.wantsJson())
-    diagnosis = diagnose(repaired->mesh,
+    diagnosis = diagnose(repaired.mesh,
                          {.mostPlaces = std::numeric_limits<std::size_t>::max(),
                           .selfIntersections = false,
-                          .rounding = input->rounding},
+                          .rounding = input.rounding},
                          session.context());
   if (!diagnosis) return tl::unexpected(diagnosis.error());
-  const Result<ConvertedMesh> converted = convertMesh(std::move(input->file), target->path,
-                                                      {.format = arguments.output.format,
-                                                       .existing = arguments.existing,
-                                                       .placing = arguments.placing,
-                                                       .isOfFloats = isOfFloats},
-                                                      session.context());
-  if (!converted) return tl::unexpected(converted.error());
-  warnOf(*converted, arguments.input, target->format.name, session);
+  ARETE_TRY(const ConvertedMesh converted, convertMesh(std::move(input.file), target.path,
+                                                       {.format = arguments.output.format,
+                                                        .existing = arguments.existing,
+                                                        .placing = arguments.placing,
+                                                        .isOfFloats = isOfFloats},
+                                                       session.context()));
+  warnOf(converted, arguments.input, target.format.name, session);
   const MeshNumbers numbers{
-      .first = target->format.extension == ".obj" || target->format.extension == ".2dm" ? 1u : 0u,
+      .first = target.format.extension == ".obj" || target.format.extension == ".2dm" ? 1u : 0u,
       .vertexOf = {},
       .faceOf = {}};
-  session.say(writtenText(target->path, *converted) + mendedText(*input, welded, *repaired) +
+  session.say(writtenText(target.path, converted) + mendedText(input, welded, repaired) +
               fmt::format("now: {}\n", verdictOf(*diagnosis)) + diagnosisText(*diagnosis, numbers));
   if (session.wantsJson()) {
-    Json json = writtenJson(arguments.input, target->path, target->format.name, *converted);
-    json["joinedAtSeams"] = input->joinedAtSeams;
+    Json json = writtenJson(arguments.input, target.path, target.format.name, converted);
+    json["joinedAtSeams"] = input.joinedAtSeams;
     json["welded"] = welded ? weldedJson(*welded) : Json();
-    json["mended"] = mendedJson(repaired->counts);
-    json["rounding"] = input->rounding;
-    json["openHoles"] = repaired->openHoles;
-    json["crossingParts"] = repaired->crossingParts;
+    json["mended"] = mendedJson(repaired.counts);
+    json["rounding"] = input.rounding;
+    json["openHoles"] = repaired.openHoles;
+    json["crossingParts"] = repaired.crossingParts;
     json["result"] = diagnosisJson(*diagnosis, numbers);
     session.answer(json);
   }

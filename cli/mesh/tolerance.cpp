@@ -12,10 +12,9 @@ namespace arete {
 
 Result<std::vector<SurfaceTolerance>> parseSurfaceTolerances(const std::string& option,
                                                              const std::string& text, double diagonal) {
-  const Result<std::vector<StatedSize>> sizes = parseStatedSizes(text, option);
-  if (!sizes) return tl::unexpected(sizes.error());
+  ARETE_TRY(const std::vector<StatedSize> sizes, parseStatedSizes(text, option));
   std::vector<SurfaceTolerance> tolerances;
-  for (const StatedSize& size : *sizes) {
+  for (const StatedSize& size : sizes) {
     const double distance = size.of(diagonal);
     if (std::ranges::count(tolerances, distance, &SurfaceTolerance::distance) > 0)
       return failure(ErrorCode::usage, fmt::format("has {} twice", size.text), option);

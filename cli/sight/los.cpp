@@ -69,11 +69,9 @@ Status checkArguments(const LosArguments& a) {
 
 /// Reads "X,Y,H" as a site. Its `stated` coordinates are those typed, its `xy` are in the DEM's CRS.
 Result<SightSite> siteOf(const std::string& option, const std::string& text, const CrsTransform& toDem) {
-  const auto stated = readPositionArgument(option, text, CrsTransform());
-  if (!stated) return tl::unexpected(stated.error());
-  const auto position = readPositionArgument(option, text, toDem);
-  if (!position) return tl::unexpected(position.error());
-  return SightSite{stated->xy, position->xy, StatedHeight{position->height, position->kind}};
+  ARETE_TRY(const auto stated, readPositionArgument(option, text, CrsTransform()));
+  ARETE_TRY(const auto position, readPositionArgument(option, text, toDem));
+  return SightSite{stated.xy, position.xy, StatedHeight{position.height, position.kind}};
 }
 
 /// Moves longitudes by whole turns to the DEM.
@@ -93,18 +91,16 @@ Result<SightPairs> readRows(const LosArguments& a, const TerrainModel& model, Se
     turnLongitudes(*pairs, model);
     return pairs;
   }
-  const auto toDem = transformOfPlaces(a.sight.lonLat, model);
-  if (!toDem) return tl::unexpected(toDem.error());
+  ARETE_TRY(const auto toDem, transformOfPlaces(a.sight.lonLat, model));
   std::optional<SightSite> from, to;
   for (const auto& [option, text, site] : {std::tuple{"--from", &a.from, &from}, {"--to", &a.to, &to}}) {
     if (text->empty()) continue;
-    auto read = siteOf(option, *text, *toDem);
-    if (!read) return tl::unexpected(read.error());
-    *site = *read;
+    ARETE_TRY(auto read, siteOf(option, *text, toDem));
+    *site = read;
   }
   if (a.points.empty()) {
     SightPairs one;
-    one.crsWkt = a.sight.lonLat ? toDem->sourceWkt() : dem.crsWkt;
+    one.crsWkt = a.sight.lonLat ? toDem.sourceWkt() : dem.crsWkt;
     one.rows.push_back({*from, *to});
     return one;
   }
@@ -114,7 +110,7 @@ Result<SightPairs> readRows(const LosArguments& a, const TerrainModel& model, Se
   turnLongitudes(*sites, model);
   // `stated` of the typed end becomes a place in the CRS of the sites, so that a table has one CRS.
   SightSite fixed = from ? *from : *to;
-  if (sites->crsWkt != (a.sight.lonLat ? toDem->sourceWkt() : dem.crsWkt)) {
+  if (sites->crsWkt != (a.sight.lonLat ? toDem.sourceWkt() : dem.crsWkt)) {
     const auto there = CrsTransform::between(dem.crsWkt, sites->crsWkt);
     const auto stated = there ? (*there)(fixed.xy) : std::nullopt;
     fixed.stated = stated.value_or(Vec2{std::nan(""), std::nan("")});
@@ -144,9 +140,8 @@ Result<SightPathOptions> optionsOf(const LosArguments& a, double maxError, const
   options.sight.maxError = maxError;
   options.frequencyMegahertz = a.frequency;
   if (a.clutter.empty()) return options;
-  auto clutter = readClutter(a.clutter, model, session.context());
-  if (!clutter) return tl::unexpected(clutter.error());
-  options.clutter = std::move(*clutter);
+  ARETE_TRY(auto clutter, readClutter(a.clutter, model, session.context()));
+  options.clutter = std::move(clutter);
   options.clutter.freeMetres = a.clutterFree;
   return options;
 }
@@ -180,10 +175,9 @@ Status reportOne(const SightResults& results, Json json, Session& session) {
 
 Status writeAnswers(const std::string& path, const LineTable& table, const Json& json, Session& session) {
   if (!isJson(path)) return writeLineTable(path, table, session.context());
-  auto file = FileWriter::create(path);
-  if (!file) return tl::unexpected(file.error());
-  file->write(json.dump(1) + "\n");
-  return file->finish();
+  ARETE_TRY(auto file, FileWriter::create(path));
+  file.write(json.dump(1) + "\n");
+  return file.finish();
 }
 
 Status reportMany(const LosArguments& a, const SightResults& results, Json json, Session& session) {
@@ -213,7 +207,7 @@ Status reportMany(const LosArguments& a, const SightResults& results, Json json,
     forCsvLines(table, [&](std::string_view line) { text += line; });
     session.say(text);
   } else {
-    if (Status written = writeAnswers(a.output, table, json, session); !written) return written;
+    ARETE_CHECK(writeAnswers(a.output, table, json, session));
     json.erase("answers");
     json["file"] = a.output;
     session.say(fmt::format("{}: {}: {}\n", a.output, grouped(lines, "line of sight", "lines of sight"),
@@ -230,58 +224,50 @@ Status reportMany(const LosArguments& a, const SightResults& results, Json json,
 }
 
 Status runLos(const LosArguments& a, Session& session) {
-  if (Status checked = checkArguments(a); !checked) return checked;
-  const Result<AmtFile> file = openAmt(a.model);
-  if (!file) return tl::unexpected(file.error());
-  const Result<TerrainModel> outline = outlineOf(*file, session);
-  if (!outline) return tl::unexpected(outline.error());
+  ARETE_CHECK(checkArguments(a));
+  ARETE_TRY(const AmtFile file, openAmt(a.model));
+  ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
   if (!a.output.empty())
     if (Status output =
-            checkOutput("--output", a.output, {a.model, a.pairs, a.points, a.clutter, outline->source});
+            checkOutput("--output", a.output, {a.model, a.pairs, a.points, a.clutter, outline.source});
         !output)
       return output;
-  auto pairs = readRows(a, *outline, session);
-  if (!pairs) return tl::unexpected(pairs.error());
-  if (Status added = addUsualHeights(a, *pairs); !added) return added;
-  const Result<TerrainError> maxError = terrainErrorOf(a.maxError, *file, session);
-  if (!maxError) return tl::unexpected(maxError.error());
-  const auto options = optionsOf(a, maxError->value, *outline, session);
-  if (!options) return tl::unexpected(options.error());
-  const auto earth = a.sight.makeEarth(*outline, session);
-  if (!earth) return tl::unexpected(earth.error());
-  const Result<TerrainModel> model =
-      readWanted(*file, *outline, wantedFor(a, maxError->value, *pairs, **earth, *outline), session);
-  if (!model) return tl::unexpected(model.error());
+  ARETE_TRY(auto pairs, readRows(a, outline, session));
+  ARETE_CHECK(addUsualHeights(a, pairs));
+  ARETE_TRY(const TerrainError maxError, terrainErrorOf(a.maxError, file, session));
+  ARETE_TRY(const auto options, optionsOf(a, maxError.value, outline, session));
+  ARETE_TRY(const auto earth, a.sight.makeEarth(outline, session));
+  ARETE_TRY(const TerrainModel model,
+            readWanted(file, outline, wantedFor(a, maxError.value, pairs, *earth, outline), session));
   // Profiles at full resolution walk over the cells of a raster.
-  const bool hasProfiles = options->frequencyMegahertz > 0 || options->clutter.height;
-  const auto grid = hasProfiles && model->isRaster ? std::make_shared<const SightGrid>(*model) : nullptr;
-  const Profiles profiles(*model, grid);
-  const SightRows rows = SightRows::of(*pairs, profiles.heights());
-  const SightMethod method = bestMethod(a.method, maxError->value, rows.paths.size(), *model);
-  if (!model->isRaster && method != SightMethod::descent)
+  const bool hasProfiles = options.frequencyMegahertz > 0 || options.clutter.height;
+  const auto grid = hasProfiles && model.isRaster ? std::make_shared<const SightGrid>(model) : nullptr;
+  const Profiles profiles(model, grid);
+  const SightRows rows = SightRows::of(pairs, profiles.heights());
+  const SightMethod method = bestMethod(a.method, maxError.value, rows.paths.size(), model);
+  if (!model.isRaster && method != SightMethod::descent)
     return failure(ErrorCode::usage, fmt::format("requires a raster; {} is made of points", a.model),
                    fmt::format("--method {}", toString(method)));
-  const auto engine = makeSightEngine(method, *model, grid, session.context());
-  if (!engine) return tl::unexpected(engine.error());
-  const auto answers = answerPaths(rows.paths, **earth, **engine, profiles, *options, session.context());
-  if (!answers) return tl::unexpected(answers.error());
+  ARETE_TRY(const auto engine, makeSightEngine(method, model, grid, session.context()));
+  ARETE_TRY(const auto answers,
+            answerPaths(rows.paths, *earth, *engine, profiles, options, session.context()));
 
-  const SightResults results{.pairs = *pairs,
+  const SightResults results{.pairs = pairs,
                              .rows = rows,
-                             .answers = *answers,
-                             .model = *model,
+                             .answers = answers,
+                             .model = model,
                              .hasFresnel = a.frequency > 0,
-                             .hasTolerance = maxError->value > 0,
+                             .hasTolerance = maxError.value > 0,
                              .fresnel = a.fresnel};
   Json json = {{"model", a.model},
-               {"verticalUnit", model->georeference.verticalUnit},
-               {"earth", a.sight.earthName(*model)},
-               {"refraction", a.sight.refractionJson(*model)},
+               {"verticalUnit", model.georeference.verticalUnit},
+               {"earth", a.sight.earthName(model)},
+               {"refraction", a.sight.refractionJson(model)},
                {"nodata", std::string(toString(a.sight.nodata))}};
-  maxError->addTo(json);
+  maxError.addTo(json);
   json["method"] = std::string(toString(method));
-  if (maxError->relief)
-    session.note(fmt::format("terrain within {}", maxError->text(model->georeference.verticalUnit)));
+  if (maxError.relief)
+    session.note(fmt::format("terrain within {}", maxError.text(model.georeference.verticalUnit)));
   const bool isOne = a.pairs.empty() && a.points.empty() && a.output.empty();
   return isOne ? reportOne(results, std::move(json), session)
                : reportMany(a, results, std::move(json), session);

@@ -74,15 +74,13 @@ Result<Way> typedWay(const std::string& text, const CrsTransform& toDem) {
   std::vector<PositionArgument> positions;
   for (const std::string& part : parts) {
     if (std::count(part.begin(), part.end(), ',') == 2) {
-      const auto position = readPositionArgument("--along", part, toDem);
-      if (!position) return tl::unexpected(position.error());
-      positions.push_back(*position);
-      way.vertices.push_back(position->xy);
+      ARETE_TRY(const auto position, readPositionArgument("--along", part, toDem));
+      positions.push_back(position);
+      way.vertices.push_back(position.xy);
       continue;
     }
-    const auto place = readPlaceArgument("--along", part, toDem);
-    if (!place) return tl::unexpected(place.error());
-    way.vertices.push_back(*place);
+    ARETE_TRY(const auto place, readPlaceArgument("--along", part, toDem));
+    way.vertices.push_back(place);
   }
   if (positions.size() == 2 && parts.size() == 2)
     way.ends = {positions[0], positions[1]};
@@ -97,19 +95,18 @@ Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference&
                                   Session& session) {
   if (!isFile(a.along)) {
     if (!a.layer.empty()) return failure(ErrorCode::usage, "requires --along FILE", "--layer");
-    auto way = typedWay(a.along, *toDem);
-    if (!way) return tl::unexpected(way.error());
-    return std::vector<Way>{std::move(*way)};
+    ARETE_TRY(auto way, typedWay(a.along, *toDem));
+    return std::vector<Way>{std::move(way)};
   }
   if (a.sight.lonLat)
     return failure(ErrorCode::usage, "cannot be combined with --along FILE, which has a CRS of its own",
                    "--lonlat");
-  auto read = readRegion(a.along, dem.crsWkt, {.layer = a.layer, .takesLines = true}, session.context());
-  if (!read) return tl::unexpected(read.error());
-  session.warn(read->warnings, a.along);
-  if (read->lines.empty()) return failure(ErrorCode::invalidData, "holds no line", a.along);
+  ARETE_TRY(auto read,
+            readRegion(a.along, dem.crsWkt, {.layer = a.layer, .takesLines = true}, session.context()));
+  session.warn(read.warnings, a.along);
+  if (read.lines.empty()) return failure(ErrorCode::invalidData, "holds no line", a.along);
   std::vector<Way> ways;
-  for (auto& line : read->lines) {
+  for (auto& line : read.lines) {
     turns.apply(line);
     ways.push_back({std::move(line), std::nullopt});
   }
@@ -208,27 +205,24 @@ Result<Answer> answerWay(const Way& way, const ProfileArguments& a, double maxEr
   const TerrainModel& model = profiles.heights().model();
   Answer answer;
   if (!way.ends) {
-    const auto track = trackOf(way, earth, model);
-    if (!track) return tl::unexpected(track.error());
-    answer.profile = profiles.along(*track, maxError);
+    ARETE_TRY(const auto track, trackOf(way, earth, model));
+    answer.profile = profiles.along(track, maxError);
     return answer;
   }
   SightPath path{sightPlan(model, way.vertices[0]), sightPlan(model, way.vertices[1])};
   for (int end = 0; end < 2; ++end) {
-    const auto height = demHeight((*way.ends)[end], profiles.heights());
-    if (!height) return tl::unexpected(height.error());
-    (end == 0 ? path.fromHeight : path.toHeight) = *height;
+    ARETE_TRY(const auto height, demHeight((*way.ends)[end], profiles.heights()));
+    (end == 0 ? path.fromHeight : path.toHeight) = height;
   }
-  auto line = sightLine(path, earth, model);
-  if (!line) return tl::unexpected(line.error());
+  ARETE_TRY(auto line, sightLine(path, earth, model));
   const auto engine = makeSightDescent(model);
   SightPathOptions options;
   options.sight.nodata = a.sight.nodata;
   options.frequencyMegahertz = a.frequency;
   auto seen = answerPath(path, earth, *engine, profiles, options);  // always of full resolution
   if (!seen) return tl::unexpected(seen.error());
-  answer.profile = profiles.along(line->track(), maxError);
-  answer.line = std::move(*line);
+  answer.profile = profiles.along(line.track(), maxError);
+  answer.line = std::move(line);
   answer.path = *seen;
   return answer;
 }
@@ -262,9 +256,8 @@ Status drawPng(const ProfileArguments& a, const Answer& answer, const TerrainMod
     if (a.sight.earthName(model) == "ellipsoid")
       options.subtitle += fmt::format("; effective Earth's radius R / (1 - {:.4g})", a.sight.refraction);
   }
-  const auto canvas = drawProfile(answer.profile, sight, options);
-  if (!canvas) return tl::unexpected(canvas.error());
-  return canvas->savePng(a.png);
+  ARETE_TRY(const auto canvas, drawProfile(answer.profile, sight, options));
+  return canvas.savePng(a.png);
 }
 
 Status runProfile(const ProfileArguments& a, Session& session) {
@@ -272,77 +265,66 @@ Status runProfile(const ProfileArguments& a, Session& session) {
     return failure(ErrorCode::usage, "a profile is written as .csv", "--output " + a.output);
   if (!a.png.empty() && text::lowerExtension(a.png) != "png")
     return failure(ErrorCode::usage, "a picture ends in .png", "--png " + a.png);
-  const Result<AmtFile> amt = openAmt(a.model);
-  if (!amt) return tl::unexpected(amt.error());
-  const Result<TerrainModel> outline = outlineOf(*amt, session);
-  if (!outline) return tl::unexpected(outline.error());
+  ARETE_TRY(const AmtFile amt, openAmt(a.model));
+  ARETE_TRY(const TerrainModel outline, outlineOf(amt, session));
   for (const auto& [option, path] : {std::pair{"--output", a.output}, {"--png", a.png}})
-    if (!path.empty())
-      if (Status output = checkOutput(option, path, {a.model, a.along, outline->source}); !output)
-        return output;
-  const Georeference& dem = outline->georeference;
-  const auto toDem = transformOfPlaces(a.sight.lonLat, *outline);
-  if (!toDem) return tl::unexpected(toDem.error());
-  const auto ways = readWays(a, dem, LongitudeTurns(*outline), toDem, session);
-  if (!ways) return tl::unexpected(ways.error());
-  if (a.frequency > 0 && !ways->front().ends)
+    if (!path.empty()) ARETE_CHECK(checkOutput(option, path, {a.model, a.along, outline.source}));
+  const Georeference& dem = outline.georeference;
+  ARETE_TRY(const auto toDem, transformOfPlaces(a.sight.lonLat, outline));
+  ARETE_TRY(const auto ways, readWays(a, dem, LongitudeTurns(outline), toDem, session));
+  if (a.frequency > 0 && !ways.front().ends)
     return failure(ErrorCode::usage, "requires a line of sight: --along X,Y,H:X,Y,H", "--frequency");
-  if (a.sight.statesNodata() && !ways->front().ends)
+  if (a.sight.statesNodata() && !ways.front().ends)
     return failure(ErrorCode::usage, "requires a line of sight: --along X,Y,H:X,Y,H", "--nodata");
-  if (!a.png.empty() && ways->size() > 1)
-    return failure(ErrorCode::usage, fmt::format("draws one line, not {}", ways->size()), "--png");
-  const auto earth = a.sight.makeEarth(*outline, session);
-  if (!earth) return tl::unexpected(earth.error());
-  const Result<TerrainModel> model = readWanted(*amt, *outline, wantedFor(*ways, **earth, *outline), session);
-  if (!model) return tl::unexpected(model.error());
+  if (!a.png.empty() && ways.size() > 1)
+    return failure(ErrorCode::usage, fmt::format("draws one line, not {}", ways.size()), "--png");
+  ARETE_TRY(const auto earth, a.sight.makeEarth(outline, session));
+  ARETE_TRY(const TerrainModel model, readWanted(amt, outline, wantedFor(ways, *earth, outline), session));
 
-  const Result<TerrainError> maxError = terrainErrorOf(a.maxError, *amt, session);
-  if (!maxError) return tl::unexpected(maxError.error());
-  const bool isFull = maxError->value == 0 || a.frequency > 0;
-  const Profiles profiles(*model,
-                          isFull && model->isRaster ? std::make_shared<const SightGrid>(*model) : nullptr);
+  ARETE_TRY(const TerrainError maxError, terrainErrorOf(a.maxError, amt, session));
+  const bool isFull = maxError.value == 0 || a.frequency > 0;
+  const Profiles profiles(model,
+                          isFull && model.isRaster ? std::make_shared<const SightGrid>(model) : nullptr);
   const double wavelength = a.frequency > 0 ? wavelengthMetres(a.frequency) : 0;
   std::vector<Answer> answers;
   std::size_t vertices = 0;
-  for (std::size_t i = 0; i < ways->size(); ++i) {
+  for (std::size_t i = 0; i < ways.size(); ++i) {
     if (session.context().cancelled()) return failure(ErrorCode::interrupted, "the query was stopped");
-    auto answer = answerWay((*ways)[i], a, maxError->value, **earth, profiles);
-    if (!answer) return tl::unexpected(answer.error());
-    vertices += answer->profile.vertices.size();
-    answers.push_back(std::move(*answer));
+    ARETE_TRY(auto answer, answerWay(ways[i], a, maxError.value, *earth, profiles));
+    vertices += answer.profile.vertices.size();
+    answers.push_back(std::move(answer));
   }
   if (vertices == 0)
     return failure(
         ErrorCode::invalidData,
         "has no terrain along the line; X,Y are coordinates of its CRS, or longitude,latitude with --lonlat",
         a.model);
-  const ProfileTable table(*model, a.sight.lonLat && !isFile(a.along) ? toDem->sourceWkt() : dem.crsWkt,
+  const ProfileTable table(model, a.sight.lonLat && !isFile(a.along) ? toDem.sourceWkt() : dem.crsWkt,
                            wavelength);
   Json json = {{"model", a.model},
                {"verticalUnit", dem.verticalUnit},
-               {"earth", a.sight.earthName(*model)},
-               {"refraction", a.sight.refractionJson(*model)}};
-  maxError->addTo(json);
+               {"earth", a.sight.earthName(model)},
+               {"refraction", a.sight.refractionJson(model)}};
+  maxError.addTo(json);
   Json lines = Json::array();
   if (session.wantsJson())
     for (const Answer& answer : answers) lines.push_back(table.json(answer));
   json["lines"] = std::move(lines);
   if (!a.output.empty()) {
-    auto file = FileWriter::create(a.output);
-    if (!file) return tl::unexpected(file.error());
-    file->write(table.csv(answers));
-    if (Status finished = file->finish(); !finished) return finished;
+    ARETE_TRY(auto file, FileWriter::create(a.output));
+    file.write(table.csv(answers));
+    ARETE_CHECK(file.finish());
     session.say(fmt::format("{}: {} of {}{}\n", a.output, grouped(vertices, "vertex", "vertices"),
-                            grouped(answers.size(), "line", "lines"), maxError->shareText(dem.verticalUnit)));
+                            grouped(answers.size(), "line", "lines"), maxError.shareText(dem.verticalUnit)));
     json["file"] = a.output;
   }
   if (!a.png.empty()) {
-    if (Status drawn = drawPng(a, answers.front(), *model, wavelength); !drawn) return drawn;
+    ARETE_CHECK(drawPng(a, answers.front(), model, wavelength));
     json["picture"] = a.png;
   }
   if (a.csv || (a.output.empty() && a.png.empty())) session.say(table.csv(answers));
-  if (maxError->relief && a.output.empty())
-    session.note(fmt::format("the profile is within {}", maxError->text(dem.verticalUnit)));
+  if (maxError.relief && a.output.empty())
+    session.note(fmt::format("the profile is within {}", maxError.text(dem.verticalUnit)));
   session.answer(json);
   return {};
 }

@@ -29,10 +29,9 @@ Result<SightPath> pathOf(const std::array<SightSite, 2>& row, const SurfaceHeigh
                      kEnds[end]);
     if (!site.height)
       return failure(ErrorCode::usage, fmt::format("has no height; {} sets one", kOptions[end]), kEnds[end]);
-    const auto height = demHeight({site.xy, site.height->height, site.height->kind}, heights);
-    if (!height) return tl::unexpected(height.error());
+    ARETE_TRY(const auto height, demHeight({site.xy, site.height->height, site.height->kind}, heights));
     (end == 0 ? path.from : path.to) = sightPlan(heights.model(), site.xy);
-    (end == 0 ? path.fromHeight : path.toHeight) = *height;
+    (end == 0 ? path.fromHeight : path.toHeight) = height;
   }
   return path;
 }

@@ -66,12 +66,10 @@ struct PlacedObserver {
 Result<std::vector<PlacedObserver>> placeObservers(const ViewshedArguments& a, const ViewshedField& field,
                                                    const TerrainModel& outline, Session& session) {
   std::vector<PlacedObserver> observers;
-  const auto toDem = transformOfPlaces(a.sight.lonLat, outline);
-  if (!toDem) return tl::unexpected(toDem.error());
+  ARETE_TRY(const auto toDem, transformOfPlaces(a.sight.lonLat, outline));
   for (const std::string& text : a.observers.typed) {
-    const auto position = readPositionArgument("--observer", text, *toDem);
-    if (!position) return tl::unexpected(position.error());
-    observers.push_back({*position, field, {}});
+    ARETE_TRY(const auto position, readPositionArgument("--observer", text, toDem));
+    observers.push_back({position, field, {}});
   }
   if (a.observers.file.empty()) return observers;
   std::optional<StatedHeight> usual;
@@ -82,14 +80,13 @@ Result<std::vector<PlacedObserver>> placeObservers(const ViewshedArguments& a, c
                      "--observer-height " + a.observers.usualHeight);
     usual = *height;
   }
-  const auto sites =
-      readSightSites(inputPath(a.observers.file), outline.georeference,
-                     {.layer = a.observers.layer, .lonLat = a.sight.lonLat}, session.context());
-  if (!sites) return tl::unexpected(sites.error());
-  session.warn(sites->warnings, a.observers.file);
+  ARETE_TRY(const auto sites,
+            readSightSites(inputPath(a.observers.file), outline.georeference,
+                           {.layer = a.observers.layer, .lonLat = a.sight.lonLat}, session.context()));
+  session.warn(sites.warnings, a.observers.file);
   const LongitudeTurns turns(outline);
-  for (std::size_t i = 0; i < sites->rows.size(); ++i) {
-    SightSite site = sites->rows[i][0];
+  for (std::size_t i = 0; i < sites.rows.size(); ++i) {
+    SightSite site = sites.rows[i][0];
     site.xy = turns(site.xy);
     const std::string culprit = fmt::format("{}, row {}", a.observers.file, i + 1);
     if (!std::isfinite(site.stated.x + site.stated.y))
@@ -100,7 +97,7 @@ Result<std::vector<PlacedObserver>> placeObservers(const ViewshedArguments& a, c
     const auto height = site.height ? site.height : usual;
     if (!height) return failure(ErrorCode::usage, "has no height; --observer-height sets one", culprit);
     observers.push_back({{site.xy, height->height, height->kind}, field, culprit});
-    if (Status turned = aim(observers.back().field, sites->beams[i]); !turned)
+    if (Status turned = aim(observers.back().field, sites.beams[i]); !turned)
       return failure(turned.error().code, turned.error().message, culprit);
   }
   return observers;
@@ -229,20 +226,19 @@ Result<ViewshedAnswer> answerOne(const Question& q, const ViewshedMaker& maker, 
   ViewshedOptions options = q.options;
   options.field = q.observers.front().field;
   const ViewshedObserver& observer = q.observers.front().observer;
-  auto viewshed = q.arguments.like.empty() ? maker.from(observer, options, context)
-                                           : maker.of(grid.places, observer, options, context);
-  if (!viewshed) return tl::unexpected(viewshed.error());
-  json["method"] = std::string(toString(viewshed->method));
-  json["rays"] = viewshed->rays;
-  return ViewshedAnswer{pictureOfOne(q.arguments.mode, *viewshed), std::move(viewshed->cells),
-                        viewshed->withoutLine};
+  ARETE_TRY(auto viewshed, q.arguments.like.empty() ? maker.from(observer, options, context)
+                                                    : maker.of(grid.places, observer, options, context));
+  json["method"] = std::string(toString(viewshed.method));
+  json["rays"] = viewshed.rays;
+  return ViewshedAnswer{pictureOfOne(q.arguments.mode, viewshed), std::move(viewshed.cells),
+                        viewshed.withoutLine};
 }
 
 Result<ViewshedAnswer> answerMany(const Question& q, const ViewshedMaker& maker, const RunContext& context) {
   const Mode mode = q.arguments.mode;
-  auto all = viewshedOfMany(maker, q.model, q.earth, q.observers, q.options, mode == Mode::server, context);
-  if (!all) return tl::unexpected(all.error());
-  return ViewshedAnswer{pictureOfMany(mode, *all), std::move(all->cells), all->withoutLine};
+  ARETE_TRY(auto all,
+            viewshedOfMany(maker, q.model, q.earth, q.observers, q.options, mode == Mode::server, context));
+  return ViewshedAnswer{pictureOfMany(mode, all), std::move(all.cells), all.withoutLine};
 }
 
 /// Reports how many cells have which answer.
@@ -276,10 +272,8 @@ Status answer(const Question& q, Session& session) {
   const ViewshedArguments& a = q.arguments;
   if (!q.model.isRaster)
     return failure(ErrorCode::usage, "a viewshed requires a raster; this model is made of points", a.model);
-  const auto maker = ViewshedMaker::make(q.model, q.earth, {}, session.context());
-  if (!maker) return tl::unexpected(maker.error());
-  auto grid = gridOf(q, session);
-  if (!grid) return tl::unexpected(grid.error());
+  ARETE_TRY(const auto maker, ViewshedMaker::make(q.model, q.earth, {}, session.context()));
+  ARETE_TRY(auto grid, gridOf(q, session));
   Json json = {{"model", a.model},
                {"observers", q.observers.size()},
                {"targetHeight", a.targetHeight},
@@ -288,8 +282,8 @@ Status answer(const Question& q, Session& session) {
                {"nodata", std::string(toString(a.sight.nodata))}};
   q.maxError.addTo(json);
   if (!a.like.empty()) json["like"] = a.like;
-  auto made = q.isOfOne() ? answerOne(q, *maker, *grid, session.context(), json)
-                          : answerMany(q, *maker, session.context());
+  auto made = q.isOfOne() ? answerOne(q, maker, grid, session.context(), json)
+                          : answerMany(q, maker, session.context());
   // The sweep does not support every question: another value of the option does.
   if (!made && made.error().code == ErrorCode::unsupported && a.method == ViewshedMethod::sweep)
     return failure(ErrorCode::usage, made.error().message, "--method sweep");
@@ -301,43 +295,30 @@ Status answer(const Question& q, Session& session) {
                                      "samples are unknown: the shortest way to them")));
   Picture& picture = made->picture;
   picture.options.description = descriptionOf(a.mode);
-  grid->georeference.verticalUnit = picture.isHeight ? q.model.georeference.verticalUnit : "";
-  if (Status written = writeGeoTiff(a.output, grid->columns, grid->rows, picture.values, grid->georeference,
-                                    picture.options, session.context());
-      !written)
-    return written;
-  reportCounts(q, made->cells, *grid, std::move(json), session);
+  grid.georeference.verticalUnit = picture.isHeight ? q.model.georeference.verticalUnit : "";
+  ARETE_CHECK(writeGeoTiff(a.output, grid.columns, grid.rows, picture.values, grid.georeference,
+                           picture.options, session.context()));
+  reportCounts(q, made->cells, grid, std::move(json), session);
   return {};
 }
 
 Status runViewshed(const ViewshedArguments& a, Session& session) {
-  if (Status checked = a.check(); !checked) return checked;
-  auto options = a.options();
-  if (!options) return tl::unexpected(options.error());
-  const Result<AmtFile> file = openAmt(a.model);
-  if (!file) return tl::unexpected(file.error());
-  const Result<TerrainModel> outline = outlineOf(*file, session);
-  if (!outline) return tl::unexpected(outline.error());
-  if (Status output = checkOutput("--output", a.output, {a.model, a.observers.file, a.like, outline->source});
-      !output)
-    return output;
-  const Result<TerrainError> maxError = terrainErrorOf(a.maxError, *file, session);
-  if (!maxError) return tl::unexpected(maxError.error());
-  options->maxError = maxError->value;
-  const auto placed = placeObservers(a, options->field, *outline, session);
-  if (!placed) return tl::unexpected(placed.error());
-  if (!a.isOfOne(placed->size()) && (a.mode == Mode::height || a.mode == Mode::horizon))
-    return failure(ErrorCode::usage, fmt::format("requires one observer, not {}", placed->size()),
+  ARETE_CHECK(a.check());
+  ARETE_TRY(auto options, a.options());
+  ARETE_TRY(const AmtFile file, openAmt(a.model));
+  ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
+  ARETE_CHECK(checkOutput("--output", a.output, {a.model, a.observers.file, a.like, outline.source}));
+  ARETE_TRY(const TerrainError maxError, terrainErrorOf(a.maxError, file, session));
+  options.maxError = maxError.value;
+  ARETE_TRY(const auto placed, placeObservers(a, options.field, outline, session));
+  if (!a.isOfOne(placed.size()) && (a.mode == Mode::height || a.mode == Mode::horizon))
+    return failure(ErrorCode::usage, fmt::format("requires one observer, not {}", placed.size()),
                    a.mode == Mode::height ? "--mode height" : "--mode horizon");
-  const auto earth = a.sight.makeEarth(*outline, session);
-  if (!earth) return tl::unexpected(earth.error());
-  const auto wanted = wantedFor(*placed, **earth, *outline, session.context());
-  if (!wanted) return tl::unexpected(wanted.error());
-  const Result<TerrainModel> model = readWanted(*file, *outline, *wanted, session);
-  if (!model) return tl::unexpected(model.error());
-  const auto observers = sitesOf(*placed, *model);
-  if (!observers) return tl::unexpected(observers.error());
-  return answer({a, *model, **earth, *options, *observers, *maxError}, session);
+  ARETE_TRY(const auto earth, a.sight.makeEarth(outline, session));
+  ARETE_TRY(const auto wanted, wantedFor(placed, *earth, outline, session.context()));
+  ARETE_TRY(const TerrainModel model, readWanted(file, outline, wanted, session));
+  ARETE_TRY(const auto observers, sitesOf(placed, model));
+  return answer({a, model, *earth, options, observers, maxError}, session);
 }
 
 }  // namespace

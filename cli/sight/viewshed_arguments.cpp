@@ -18,12 +18,11 @@ namespace {
 
 /// "A,B". Errors: usage, naming the option.
 Result<std::pair<double, double>> readRange(const std::string& option, const std::string& text) {
-  const auto numbers = parseNumbers(option, text);
-  if (!numbers) return tl::unexpected(numbers.error());
-  if (numbers->size() != 2 || !std::isfinite((*numbers)[0] + (*numbers)[1]))
+  ARETE_TRY(const auto numbers, parseNumbers(option, text));
+  if (numbers.size() != 2 || !std::isfinite(numbers[0] + numbers[1]))
     return failure(ErrorCode::usage, "must be two numbers with a comma between",
                    fmt::format("{} {}", option, text));
-  return std::pair{(*numbers)[0], (*numbers)[1]};
+  return std::pair{numbers[0], numbers[1]};
 }
 
 }  // namespace
@@ -76,24 +75,22 @@ Result<ViewshedField> FieldOfViewArguments::field() const {
     return failure(ErrorCode::usage, fmt::format("is beyond --radius {}", greatestMetres),
                    fmt::format("--min-distance {}", leastMetres));
   if (!azimuths.empty()) {
-    const auto range = readRange("--azimuth", azimuths);
-    if (!range) return tl::unexpected(range.error());
+    ARETE_TRY(const auto range, readRange("--azimuth", azimuths));
     const auto turned = [](double v) { return v - 360 * std::floor(v / 360); };
-    field.fromAzimuth = turned(range->first);
-    const double span = range->second - range->first;
+    field.fromAzimuth = turned(range.first);
+    const double span = range.second - range.first;
     field.azimuthSpan = span >= 360 ? 360 : turned(span);
     if (!(field.azimuthSpan > 0))
       return failure(ErrorCode::usage, "is an empty field of view: B must differ from A",
                      "--azimuth " + azimuths);
   }
   if (!elevations.empty()) {
-    const auto range = readRange("--elevation", elevations);
-    if (!range) return tl::unexpected(range.error());
-    if (!(range->first <= range->second && range->first >= -90 && range->second <= 90))
+    ARETE_TRY(const auto range, readRange("--elevation", elevations));
+    if (!(range.first <= range.second && range.first >= -90 && range.second <= 90))
       return failure(ErrorCode::usage, "must be two angles from -90 to 90, the lower first",
                      "--elevation " + elevations);
-    field.lowest = range->first;
-    field.highest = range->second;
+    field.lowest = range.first;
+    field.highest = range.second;
   }
   return field;
 }
@@ -145,13 +142,12 @@ Status ViewshedArguments::check() const {
 }
 
 Result<ViewshedOptions> ViewshedArguments::options() const {
-  const Result<ViewshedField> field = fieldOfView.field();
-  if (!field) return tl::unexpected(field.error());
+  ARETE_TRY(const ViewshedField field, fieldOfView.field());
   ViewshedOptions options;
   options.targetHeight = targetHeight;
   options.nodata = sight.nodata;
   options.method = method;
-  options.field = *field;
+  options.field = field;
   options.value = mode == ViewshedMode::height    ? ViewshedValue::leastHeight
                   : mode == ViewshedMode::horizon ? ViewshedValue::horizon
                                                   : ViewshedValue::none;

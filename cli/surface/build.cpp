@@ -100,8 +100,7 @@ Status buildSurfaceFile(const SurfaceBuildArguments& arguments, MeshInput input,
 
   Stopwatch writing;
   const SurfaceWriteOptions options{.isPacked = arguments.isPacked, .positionBits = arguments.positionBits};
-  if (Status written = writeSurfaceAmt(arguments.output, built->model, session.context(), options); !written)
-    return written;
+  ARETE_CHECK(writeSurfaceAmt(arguments.output, built->model, session.context(), options));
   seconds.write = writing.seconds();
   report(arguments, faces, vertices, built->model, seconds, session);
   return {};

@@ -14,15 +14,13 @@ namespace arete {
 Status convertSurfaceFile(const SurfaceConvertArguments& arguments, Session& session) {
   if (arguments.positionBits != 0 && !arguments.isPacked)
     return failure(ErrorCode::usage, "requires --packed", "--position-bits");
-  const Result<SurfaceModel> model = loadSurfaceAmt(arguments.input, AmtVerify::all, session.context());
-  if (!model) return tl::unexpected(model.error());
+  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(arguments.input, AmtVerify::all, session.context()));
   const SurfaceWriteOptions options{.isPacked = arguments.isPacked, .positionBits = arguments.positionBits};
-  if (Status written = writeSurfaceAmt(arguments.output, *model, session.context(), options); !written)
-    return written;
+  ARETE_CHECK(writeSurfaceAmt(arguments.output, model, session.context(), options));
   std::error_code error;
   const auto size = std::filesystem::file_size(arguments.output, error);
   const std::uint64_t bytes = error ? 0 : size;
-  const double perVertex = static_cast<double>(bytes) / static_cast<double>(model->mt.vertexCount());
+  const double perVertex = static_cast<double>(bytes) / static_cast<double>(model.mt.vertexCount());
   session.say(fmt::format("{}: {}, {:.1f} bytes a vertex\n", arguments.output, byteCount(bytes), perVertex));
   session.answer({{"input", arguments.input},
                   {"output", arguments.output},

@@ -34,17 +34,15 @@ Result<std::shared_ptr<const SpaceRegion>> readSurfaceRegion(const std::string& 
 }
 
 Result<SurfaceCamera> readStatedCamera(const CriterionArguments::OfSurface& asked) {
-  const Result<SurfaceCameraArgument> stated = readSurfaceCamera(asked.camera);
-  if (!stated) return tl::unexpected(stated.error());
-  if (stated->statesFieldOfView && asked.fieldOfView)
+  ARETE_TRY(const SurfaceCameraArgument stated, readSurfaceCamera(asked.camera));
+  if (stated.statesFieldOfView && asked.fieldOfView)
     return failure(ErrorCode::usage, "cannot be combined with a field of view in --camera", "--fov");
-  SurfaceCamera camera = stated->camera;
+  SurfaceCamera camera = stated.camera;
   if (asked.fieldOfView) camera.verticalFieldOfViewDegrees = *asked.fieldOfView;
   if (!asked.viewport.empty()) {
-    const auto viewport = twoNumbers("--viewport", asked.viewport, 'x');
-    if (!viewport) return tl::unexpected(viewport.error());
-    camera.widthPixels = viewport->first;
-    camera.heightPixels = viewport->second;
+    ARETE_TRY(const auto viewport, twoNumbers("--viewport", asked.viewport, 'x'));
+    camera.widthPixels = viewport.first;
+    camera.heightPixels = viewport.second;
   }
   return camera;
 }
@@ -61,20 +59,18 @@ Result<SurfaceCriterion> readSurfaceCriterion(const CriterionArguments::OfSurfac
   criterion.pixelError = asked.pixelError;
   if (asked.isSaturated) criterion.method = CutMethod::saturated;
   if (!asked.outsideError.empty()) {
-    const auto stated = parseSurfaceTolerances("--outside-error", asked.outsideError, model.diagonal);
-    if (!stated) return tl::unexpected(stated.error());
-    if (stated->size() != 1) return failure(ErrorCode::usage, "takes one distance", "--outside-error");
-    criterion.outsideError = stated->front().distance;
+    ARETE_TRY(const auto stated,
+              parseSurfaceTolerances("--outside-error", asked.outsideError, model.diagonal));
+    if (stated.size() != 1) return failure(ErrorCode::usage, "takes one distance", "--outside-error");
+    criterion.outsideError = stated.front().distance;
   }
   if (!asked.region.empty()) {
-    auto region = readSurfaceRegion(asked.region, context);
-    if (!region) return tl::unexpected(region.error());
-    criterion.region = std::move(*region);
+    ARETE_TRY(auto region, readSurfaceRegion(asked.region, context));
+    criterion.region = std::move(region);
   }
   if (!asked.camera.empty()) {
-    const auto camera = readStatedCamera(asked);
-    if (!camera) return tl::unexpected(camera.error());
-    criterion.camera = *camera;
+    ARETE_TRY(const auto camera, readStatedCamera(asked));
+    criterion.camera = camera;
   }
   // Its errors name fields; here they are options.
   if (const auto valid = engineCriterion(criterion, model); !valid) {

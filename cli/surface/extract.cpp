@@ -58,15 +58,13 @@ Result<std::vector<Request>> requestsOf(const SurfaceExtractArguments& arguments
   const CriterionArguments::OfSurface& asked = arguments.asked;
   std::vector<std::optional<SurfaceTolerance>> tolerances(1);
   if (!asked.maxErrors.empty()) {
-    const auto stated = parseSurfaceTolerances("--max-error", asked.maxErrors, model.diagonal);
-    if (!stated) return tl::unexpected(stated.error());
-    tolerances.assign(stated->begin(), stated->end());
+    ARETE_TRY(const auto stated, parseSurfaceTolerances("--max-error", asked.maxErrors, model.diagonal));
+    tolerances.assign(stated.begin(), stated.end());
   }
   std::vector<std::optional<StatedTriangles>> budgets(1);
   if (!asked.maxTriangles.empty()) {
-    const auto stated = parseTriangleBudgets(asked.maxTriangles, model.mt.finestTriangleCount());
-    if (!stated) return tl::unexpected(stated.error());
-    budgets.assign(stated->begin(), stated->end());
+    ARETE_TRY(const auto stated, parseTriangleBudgets(asked.maxTriangles, model.mt.finestTriangleCount()));
+    budgets.assign(stated.begin(), stated.end());
   }
   const bool several = tolerances.size() * budgets.size() > 1;
   std::vector<Request> requests;
@@ -91,7 +89,7 @@ Status checkOutputs(const SurfaceExtractArguments& arguments, const std::vector<
     for (const auto& [option, path] :
          {std::pair{"--output", &request.output}, std::pair{"--map", &request.map}}) {
       if (path->empty()) continue;
-      if (Status checked = checkOutput(option, *path, {arguments.model}, outputs); !checked) return checked;
+      ARETE_CHECK(checkOutput(option, *path, {arguments.model}, outputs));
       outputs.push_back(*path);
     }
   }
@@ -158,22 +156,20 @@ Result<Cut> cutOf(const SurfaceCriterion& asked, const SurfaceModel& model, cons
 /// @param faces by face of the source: the triangle that stands for it.
 Status writeMap(const std::string& path, const SurfaceModel& model, const SurfaceFront& front,
                 const std::vector<std::uint32_t>& faces) {
-  Result<FileWriter> out = FileWriter::create(path);
-  if (!out) return tl::unexpected(out.error());
-  out->write("what,output,input\n");
+  ARETE_TRY(FileWriter out, FileWriter::create(path));
+  out.write("what,output,input\n");
   for (std::size_t v = 0; v < front.vertexOf.size(); ++v)
-    out->write(fmt::format("vertex,{},{}\n", v, front.vertexOf[v]));
+    out.write(fmt::format("vertex,{},{}\n", v, front.vertexOf[v]));
   const std::vector<std::uint32_t>& fileFace = model.attributes.faceOf;
   for (std::size_t f = 0; f < faces.size(); ++f)
     if (faces[f] != MeshAttributes::kNone)
-      out->write(fmt::format("face,{},{}\n", faces[f], fileFace.empty() ? f : fileFace[f]));
-  return out->finish();
+      out.write(fmt::format("face,{},{}\n", faces[f], fileFace.empty() ? f : fileFace[f]));
+  return out.finish();
 }
 
 Result<std::uint64_t> crossingsOf(const TriangleMesh& mesh, const RunContext& context) {
-  const Result<MeshDiagnosis> d = diagnose(mesh, {.mostPlaces = 1}, context);
-  if (!d) return tl::unexpected(d.error());
-  return d->selfIntersections->count;
+  ARETE_TRY(const MeshDiagnosis d, diagnose(mesh, {.mostPlaces = 1}, context));
+  return d.selfIntersections->count;
 }
 
 class Extraction {
@@ -185,33 +181,27 @@ class Extraction {
     const DroppedComponents* dropped = dropped_ ? &*dropped_ : nullptr;
     const std::optional<double> maxError =
         request.tolerance ? std::optional(request.tolerance->distance) : std::nullopt;
-    const auto asked =
-        readSurfaceCriterion(arguments_.asked, maxError, request.maxTriangles, model_, session_.context());
-    if (!asked) return tl::unexpected(asked.error());
-    const auto criterion = engineCriterion(*asked, model_);
-    if (!criterion) return tl::unexpected(criterion.error());
-    const Result<Cut> whole = cutOf(*asked, model_, **criterion, dropped, session_.context());
-    if (!whole) return tl::unexpected(whole.error());
-    const CutOfTheRest rest =
-        dropped ? withoutDropped(model_.mt, *whole, *dropped) : CutOfTheRest{*whole, {}};
+    ARETE_TRY(const auto asked, readSurfaceCriterion(arguments_.asked, maxError, request.maxTriangles, model_,
+                                                     session_.context()));
+    ARETE_TRY(const auto criterion, engineCriterion(asked, model_));
+    ARETE_TRY(const Cut whole, cutOf(asked, model_, *criterion, dropped, session_.context()));
+    const CutOfTheRest rest = dropped ? withoutDropped(model_.mt, whole, *dropped) : CutOfTheRest{whole, {}};
     const Cut& cut = rest.cut;
     SurfaceFront front = surfaceOf(model_, cut);
     std::optional<FitOutcome> fit;
     if (arguments_.asked.isFitted) {
       // A cut that the budget ended does not keep the tolerance before the fit.
-      const auto fitted =
+      ARETE_TRY(
+          const auto fitted,
           fitFront(front, finestOfTheRest(), chartsOfCut(model_, finestCutOfTheRest(), cut),
-                   model_.options.keepsBorders, cut.achievedError,
-                   whole->isComplete ? maxError : std::nullopt, session_.context(), model_.positionError);
-      if (!fitted) return tl::unexpected(fitted.error());
-      fit = *fitted;
+                   model_.options.keepsBorders, cut.achievedError, whole.isComplete ? maxError : std::nullopt,
+                   session_.context(), model_.positionError));
+      fit = fitted;
     } else if (isDisplaced()) {
-      displace(cut, criterion->get(), front);
+      displace(cut, criterion.get(), front);
     }
-    const Result<std::uint64_t> crossings = crossingsOf(front.mesh, session_.context());
-    if (!crossings) return tl::unexpected(crossings.error());
-    if (*crossings > 0)
-      if (Status counted = countSourceCrossings(); !counted) return counted;
+    ARETE_TRY(const std::uint64_t crossings, crossingsOf(front.mesh, session_.context()));
+    if (crossings > 0) ARETE_CHECK(countSourceCrossings());
     MeshWriteOptions options;
     options.crsWkt = model_.crsWkt;
     options.verticalUnit = model_.verticalUnit;
@@ -224,15 +214,14 @@ class Extraction {
     options.existing = arguments_.existing;
     OutputGroup together;
     options.up = model_.up == "y" ? MeshUp::y : model_.up == "z" ? MeshUp::z : MeshUp::unknown;
-    if (Status left = dropNamed(front.mesh, arguments_.dropAttributes); !left) return left;
-    const Result<MeshWriteReport> written =
-        writeMesh(front.mesh, request.output, options, session_.context());
-    if (!written) return tl::unexpected(written.error());
+    ARETE_CHECK(dropNamed(front.mesh, arguments_.dropAttributes));
+    ARETE_TRY(const MeshWriteReport written,
+              writeMesh(front.mesh, request.output, options, session_.context()));
     std::vector<std::string> warnings;
-    for (const std::string& lost : written->lost) warnings.push_back(fmt::format("cannot hold {}", lost));
+    for (const std::string& lost : written.lost) warnings.push_back(fmt::format("cannot hold {}", lost));
     session_.warn(warnings, request.output);
     if (!request.map.empty()) {
-      std::vector<std::uint32_t> faces = facesOf(model_, *whole);
+      std::vector<std::uint32_t> faces = facesOf(model_, whole);
       for (std::uint32_t& face : faces)
         if (dropped && face != MeshAttributes::kNone) face = rest.numberOf[face];
       if (const std::vector<std::uint32_t> triangleOf = trianglesOfFile(front.mesh, *format);
@@ -242,32 +231,30 @@ class Extraction {
         for (std::uint32_t& face : faces)
           if (face != MeshAttributes::kNone) face = placeOf[face];
       }
-      if (Status mapped = writeMap(request.map, model_, front, faces); !mapped) return mapped;
+      ARETE_CHECK(writeMap(request.map, model_, front, faces));
     }
     // A fit is measured by itself, and may keep what the stored errors cannot promise.
     const bool isKeptByFit = fit && request.tolerance && fit->distance <= request.tolerance->distance;
     const double left =
-        isToleranceStated(request) && !isKeptByFit ? errorLeftByRounding(model_, **criterion, cut) : 0;
+        isToleranceStated(request) && !isKeptByFit ? errorLeftByRounding(model_, *criterion, cut) : 0;
     if (left > 0)
       session_.warn(
           fmt::format("{}: the tolerance is not kept everywhere: rounding (--position-bits) has moved "
                       "vertices of the source by up to {}, and with it no error is below {}",
                       request.output, withShare(model_.positionError, model_.diagonal),
                       withShare(left, model_.diagonal)));
-    if (Status named = together.commit(); !named) return named;
+    ARETE_CHECK(together.commit());
     std::optional<double> droppedDistance;
     if (dropped && dropped->count > 0) {
-      const auto distance = distanceFrom(droppedSurface(model_, *dropped_), front.mesh);
-      if (!distance) return tl::unexpected(distance.error());
-      droppedDistance = *distance;
+      ARETE_TRY(const auto distance, distanceFrom(droppedSurface(model_, *dropped_), front.mesh));
+      droppedDistance = distance;
     }
     std::optional<double> otherWay;
     if (arguments_.isBothWays) {
-      const auto distance = distanceFrom(front.mesh, finest());
-      if (!distance) return tl::unexpected(distance.error());
-      otherWay = *distance;
+      ARETE_TRY(const auto distance, distanceFrom(front.mesh, finest()));
+      otherWay = distance;
     }
-    say(request, cut, front, {*crossings, droppedDistance, otherWay, fit, left}, *written);
+    say(request, cut, front, {crossings, droppedDistance, otherWay, fit, left}, written);
     return {};
   }
 
@@ -308,9 +295,8 @@ class Extraction {
   /// No point of a mesh is farther than this from another, one of which is the source as it was before
   /// rounding.
   Result<double> distanceFrom(const TriangleMesh& mesh, const TriangleMesh& other) const {
-    const Result<double> distance = farthestDistance(mesh, other, session_.context());
-    if (!distance) return tl::unexpected(distance.error());
-    return *distance + model_.positionError;
+    ARETE_TRY(const double distance, farthestDistance(mesh, other, session_.context()));
+    return distance + model_.positionError;
   }
 
   const TriangleMesh& finest() {
@@ -330,9 +316,8 @@ class Extraction {
 
   Status countSourceCrossings() {
     if (sourceCrossings_) return {};
-    const Result<std::uint64_t> count = crossingsOf(finest(), session_.context());
-    if (!count) return tl::unexpected(count.error());
-    sourceCrossings_ = *count;
+    ARETE_TRY(const std::uint64_t count, crossingsOf(finest(), session_.context()));
+    sourceCrossings_ = count;
     return {};
   }
 
@@ -434,24 +419,20 @@ class Extraction {
 }  // namespace
 
 Status extractSurface(const SurfaceExtractArguments& arguments, Session& session) {
-  const Result<SurfaceModel> model = loadSurfaceAmt(arguments.model, AmtVerify::all, session.context());
-  if (!model) return tl::unexpected(model.error());
-  const auto requests = requestsOf(arguments, *model);
-  if (!requests) return tl::unexpected(requests.error());
-  if (Status checked = checkOutputs(arguments, *requests); !checked) return checked;
-  Extraction extraction(arguments, *model, session);
+  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(arguments.model, AmtVerify::all, session.context()));
+  ARETE_TRY(const auto requests, requestsOf(arguments, model));
+  ARETE_CHECK(checkOutputs(arguments, requests));
+  Extraction extraction(arguments, model, session);
   if (!arguments.dropParts.empty()) {
-    const auto least = parseSurfaceTolerances("--drop-parts", arguments.dropParts, model->diagonal);
-    if (!least) return tl::unexpected(least.error());
-    if (least->size() != 1) return failure(ErrorCode::usage, "takes one length", "--drop-parts");
-    if (Status dropped = extraction.drop(least->front().distance); !dropped) return dropped;
+    ARETE_TRY(const auto least, parseSurfaceTolerances("--drop-parts", arguments.dropParts, model.diagonal));
+    if (least.size() != 1) return failure(ErrorCode::usage, "takes one length", "--drop-parts");
+    ARETE_CHECK(extraction.drop(least.front().distance));
   }
-  for (const Request& request : *requests)
-    if (Status extracted = extraction.run(request); !extracted) return extracted;
+  for (const Request& request : requests) ARETE_CHECK(extraction.run(request));
   session.answer({{"model", arguments.model},
                   {"kind", "surface"},
-                  {"diagonal", model->diagonal},
-                  {"finestTriangles", model->mt.finestTriangleCount()},
+                  {"diagonal", model.diagonal},
+                  {"finestTriangles", model.mt.finestTriangleCount()},
                   {"exports", std::move(extraction.exports())}});
   return {};
 }

@@ -27,9 +27,8 @@ struct CurvePoint {
 Result<std::vector<double>> errorsOf(const std::string& at, const SurfaceModel& model) {
   std::vector<double> errors;
   if (!at.empty()) {
-    const auto stated = parseSurfaceTolerances("--at", at, model.diagonal);
-    if (!stated) return tl::unexpected(stated.error());
-    for (const SurfaceTolerance& tolerance : *stated) errors.push_back(tolerance.distance);
+    ARETE_TRY(const auto stated, parseSurfaceTolerances("--at", at, model.diagonal));
+    for (const SurfaceTolerance& tolerance : stated) errors.push_back(tolerance.distance);
     return errors;
   }
   for (const double percent : {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0})
@@ -41,13 +40,11 @@ Result<std::vector<double>> errorsOf(const std::string& at, const SurfaceModel& 
 /// Triangles of cuts.
 Result<std::vector<CurvePoint>> curveOf(const std::string& at, const SurfaceModel& model,
                                         const RunContext& context) {
-  const Result<std::vector<double>> errors = errorsOf(at, model);
-  if (!errors) return tl::unexpected(errors.error());
+  ARETE_TRY(const std::vector<double> errors, errorsOf(at, model));
   std::vector<CurvePoint> curve;
-  for (const double error : *errors) {
-    const Result<Cut> cut = takeCut(model.mt, UniformError(error), {}, context);
-    if (!cut) return tl::unexpected(cut.error());
-    curve.push_back({error, cut->triangles.size(), uniformTriangleCount(model.mt, error)});
+  for (const double error : errors) {
+    ARETE_TRY(const Cut cut, takeCut(model.mt, UniformError(error), {}, context));
+    curve.push_back({error, cut.triangles.size(), uniformTriangleCount(model.mt, error)});
   }
   return curve;
 }
@@ -55,43 +52,39 @@ Result<std::vector<CurvePoint>> curveOf(const std::string& at, const SurfaceMode
 }  // namespace
 
 Status sayAboutSurface(const std::string& path, const std::string& at, Session& session) {
-  const Result<SurfaceModel> model = loadSurfaceAmt(path, AmtVerify::all, session.context());
-  if (!model) return tl::unexpected(model.error());
-  const Result<std::vector<CurvePoint>> curve = curveOf(at, *model, session.context());
-  if (!curve) return tl::unexpected(curve.error());
-  const MultiTriangulation& mt = model->mt;
+  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(path, AmtVerify::all, session.context()));
+  ARETE_TRY(const std::vector<CurvePoint> curve, curveOf(at, model, session.context()));
+  const MultiTriangulation& mt = model.mt;
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   const std::uint64_t bytes = error ? 0 : size;
-  const MeshAttributes& a = model->attributes;
-  const Result<bool> isPacked = isPackedAmt(path);
-  if (!isPacked) return tl::unexpected(isPacked.error());
-  std::string text =
-      fmt::format("{}: {}, a surface{}\n", path, byteCount(bytes), *isPacked ? ", packed" : "");
+  const MeshAttributes& a = model.attributes;
+  ARETE_TRY(const bool isPacked, isPackedAmt(path));
+  std::string text = fmt::format("{}: {}, a surface{}\n", path, byteCount(bytes), isPacked ? ", packed" : "");
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<14} {}\n", what, value);
   };
-  line("source", fmt::format("{}, {}, {}", model->source, grouped(model->fileFaces, "face", "faces"),
-                             grouped(model->sourceVertices, "vertex", "vertices")));
-  if (!model->crsWkt.empty()) line("CRS", crsName(model->crsWkt));
-  line("diagonal", fmt::format("{:.9g}", model->diagonal));
+  line("source", fmt::format("{}, {}, {}", model.source, grouped(model.fileFaces, "face", "faces"),
+                             grouped(model.sourceVertices, "vertex", "vertices")));
+  if (!model.crsWkt.empty()) line("CRS", crsName(model.crsWkt));
+  line("diagonal", fmt::format("{:.9g}", model.diagonal));
   line("places", mt.vertices().places64.empty() ? "float32" : "float64");
-  if (model->positionError > 0)
+  if (model.positionError > 0)
     line("rounded", fmt::format("vertices moved by at most {}, which every error includes twice",
-                                withShare(model->positionError, model->diagonal)));
+                                withShare(model.positionError, model.diagonal)));
   line("triangles", fmt::format("{} at the finest, {} in all", grouped(mt.finestTriangleCount()),
                                 grouped(mt.triangleCount())));
   line("root",
        fmt::format("{}, {}, error at most {}", grouped(mt.rootTriangleCount(), "triangle", "triangles"),
                    grouped(mt.rootVertexCount(), "vertex", "vertices"),
-                   withShare(mt.largestError(), model->diagonal)));
-  if (!model->displacement.isEmpty()) line("displacement", "coarse cuts are drawn nearer to the source");
-  if (model->boundsLines)
+                   withShare(mt.largestError(), model.diagonal)));
+  if (!model.displacement.isEmpty()) line("displacement", "coarse cuts are drawn nearer to the source");
+  if (model.boundsLines)
     line("lines", "seams and edges between parts, within the error of every cut");
-  else if (model->mayHaveLines())
+  else if (model.mayHaveLines())
     line("lines", "not bounded: an earlier version built the file");
-  line("levels", std::to_string(model->levels));
-  text += mendedText(model->mending, fmt::format("  {:<14} ", "mended"));
+  line("levels", std::to_string(model.levels));
+  text += mendedText(model.mending, fmt::format("  {:<14} ", "mended"));
   line("attributes", fmt::format("{} of vertices, {} of corners, {} of faces", a.vertexAttributes.size(),
                                  a.wedgeAttributes.size(), a.triangleAttributes.size()));
   if (!a.objects.empty()) line("objects", grouped(a.objects.size()));
@@ -100,12 +93,12 @@ Status sayAboutSurface(const std::string& path, const std::string& at, Session& 
          fmt::format("{}, {} inside", a.materials.size(), counted(a.pictures.size(), "picture", "pictures")));
   text += fmt::format("\n  {:>12}  {:>9}  {:>13}  {:>13}\n", "error", "diagonal", "minimal", "saturated");
   Json points = Json::array();
-  for (const CurvePoint& p : *curve) {
-    text += fmt::format("  {:>12.4g}  {:>7.3g} %  {:>13}  {:>13}\n", p.error, 100 * p.error / model->diagonal,
+  for (const CurvePoint& p : curve) {
+    text += fmt::format("  {:>12.4g}  {:>7.3g} %  {:>13}  {:>13}\n", p.error, 100 * p.error / model.diagonal,
                         grouped(p.minimal), grouped(p.saturated));
     points.push_back(
         {{"maxError", std::isfinite(p.error) ? Json(p.error) : Json()},
-         {"maxErrorPercent", std::isfinite(p.error) ? Json(100 * p.error / model->diagonal) : Json()},
+         {"maxErrorPercent", std::isfinite(p.error) ? Json(100 * p.error / model.diagonal) : Json()},
          {"minimal", p.minimal},
          {"saturated", p.saturated}});
   }
@@ -113,23 +106,23 @@ Status sayAboutSurface(const std::string& path, const std::string& at, Session& 
   session.answer({{"file", path},
                   {"kind", "surface"},
                   {"bytes", bytes},
-                  {"isPacked", *isPacked},
-                  {"positionError", model->positionError},
-                  {"displacement", !model->displacement.isEmpty()},
-                  {"boundsLines", model->boundsLines},
-                  {"source", model->source},
-                  {"crs", crsName(model->crsWkt)},
-                  {"sourceFaces", model->fileFaces},
-                  {"sourceVertices", model->sourceVertices},
-                  {"diagonal", model->diagonal},
+                  {"isPacked", isPacked},
+                  {"positionError", model.positionError},
+                  {"displacement", !model.displacement.isEmpty()},
+                  {"boundsLines", model.boundsLines},
+                  {"source", model.source},
+                  {"crs", crsName(model.crsWkt)},
+                  {"sourceFaces", model.fileFaces},
+                  {"sourceVertices", model.sourceVertices},
+                  {"diagonal", model.diagonal},
                   {"vertices", mt.vertexCount()},
                   {"triangles", mt.triangleCount()},
                   {"finestTriangles", mt.finestTriangleCount()},
                   {"rootTriangles", mt.rootTriangleCount()},
                   {"rootVertices", mt.rootVertexCount()},
                   {"rootError", mt.largestError()},
-                  {"levels", model->levels},
-                  {"mended", mendedJson(model->mending)},
+                  {"levels", model.levels},
+                  {"mended", mendedJson(model.mending)},
                   {"curve", std::move(points)}});
   return {};
 }

@@ -31,25 +31,24 @@ constexpr std::array kLaws = {
 }  // namespace
 
 Status validateSurfaceFile(const std::string& path, const SurfaceLawOptions& options, Session& session) {
-  const Result<SurfaceModel> model = loadSurfaceAmt(path, AmtVerify::all, session.context());
-  if (!model) return tl::unexpected(model.error());
-  const Status valid = validateSurface(*model, options, session.context());
+  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(path, AmtVerify::all, session.context()));
+  const Status valid = validateSurface(model, options, session.context());
   if (!valid && valid.error().code == ErrorCode::interrupted) return valid;
   Json laws = Json::array();
   std::string text = fmt::format(
       "{}: checksums, indices and every law hold\n"
       "  surface {}, {} at the finest\n",
-      path, grouped(model->fileFaces, "face", "faces"),
-      grouped(model->mt.finestTriangleCount(), "triangle", "triangles"));
-  text += mendedText(model->mending, "  mended  ");
+      path, grouped(model.fileFaces, "face", "faces"),
+      grouped(model.mt.finestTriangleCount(), "triangle", "triangles"));
+  text += mendedText(model.mending, "  mended  ");
   for (const Law& law : kLaws) {
     text += fmt::format("  law {:<2}  holds  {}\n", law.number, law.says);
     laws.push_back({{"law", law.number}, {"says", law.says}, {"claimed", true}});
   }
   Json json = {{"file", path}, {"kind", "surface"}, {"holds", valid.has_value()}};
-  json["sourceFaces"] = model->fileFaces;
-  json["finestTriangles"] = model->mt.finestTriangleCount();
-  json["mended"] = mendedJson(model->mending);
+  json["sourceFaces"] = model.fileFaces;
+  json["finestTriangles"] = model.mt.finestTriangleCount();
+  json["mended"] = mendedJson(model.mending);
   json["samples"] = options.everySample ? "full" : "vertices";
   if (valid) {
     text += options.everySample ? "  law 10 by vertices, middles of faces and of their sides\n"

@@ -113,10 +113,9 @@ void DetailArguments::addTo(CLI::App& command) {
 
 Status DetailArguments::findBudget(std::uint64_t finest) {
   if (budget.empty()) return {};
-  const Result<std::vector<StatedTriangles>> stated = parseTriangleBudgets(budget, finest);
-  if (!stated) return tl::unexpected(stated.error());
-  if (stated->size() != 1) return failure(ErrorCode::usage, "takes one number", "--max-triangles");
-  maxTriangles = std::min<std::int64_t>(stated->front().count, kMostTriangles);
+  ARETE_TRY(const std::vector<StatedTriangles> stated, parseTriangleBudgets(budget, finest));
+  if (stated.size() != 1) return failure(ErrorCode::usage, "takes one number", "--max-triangles");
+  maxTriangles = std::min<std::int64_t>(stated.front().count, kMostTriangles);
   return {};
 }
 
@@ -182,10 +181,9 @@ void AppearanceArguments::addTo(CLI::App& command) {
 Result<DrapeOptions> AppearanceArguments::drapeOptions() const {
   DrapeOptions options;
   if (drapeBands.empty()) return options;
-  const auto numbers = parseNumbers("--drape-bands", drapeBands);
-  if (!numbers) return tl::unexpected(numbers.error());
-  for (const double n : *numbers) {
-    if (!(n >= 1 && n <= 65535 && n == std::floor(n)) || (numbers->size() != 1 && numbers->size() != 3))
+  ARETE_TRY(const auto numbers, parseNumbers("--drape-bands", drapeBands));
+  for (const double n : numbers) {
+    if (!(n >= 1 && n <= 65535 && n == std::floor(n)) || (numbers.size() != 1 && numbers.size() != 3))
       return failure(ErrorCode::usage, "must be one band (grey) or three (red, green, blue), counted from 1",
                      "--drape-bands " + drapeBands);
     options.read.bands.push_back(static_cast<int>(n));
@@ -202,9 +200,8 @@ Result<ViewLook> AppearanceArguments::look() const {
   look.hasWireframe = hasWireframe;
   if (color == "material") return failure(ErrorCode::usage, "is for surfaces", "--color material");
   if (sun.empty()) return look;
-  const auto angles = anglesOfSun(sun);
-  if (!angles) return tl::unexpected(angles.error());
-  std::tie(look.sunAzimuthDegrees, look.sunElevationDegrees) = *angles;
+  ARETE_TRY(const auto angles, anglesOfSun(sun));
+  std::tie(look.sunAzimuthDegrees, look.sunElevationDegrees) = angles;
   return look;
 }
 
@@ -287,8 +284,7 @@ Status ViewArguments::check() const {
 }
 
 Result<ViewSettings> ViewArguments::settings() const {
-  Result<ViewLook> look = appearance.look();
-  if (!look) return tl::unexpected(look.error());
+  ARETE_TRY(ViewLook look, appearance.look());
   ViewSettings s;
   s.pixels = detail.pixelError;
   s.path = detail.isCutByProcessor() ? CutPath::processor : CutPath::device;
@@ -296,7 +292,7 @@ Result<ViewSettings> ViewArguments::settings() const {
   s.isGeomorphed = !detail.isFixed;
   s.stretch = appearance.exaggeration;
   s.isCurved = appearance.isCurved;
-  s.look = *look;
+  s.look = look;
   return s;
 }
 
@@ -327,9 +323,8 @@ Result<SurfaceViewSettings> ViewArguments::ofSurface() const {
   s.look.isShaded = !appearance.isUnshaded;
   s.look.hasWireframe = appearance.hasWireframe;
   if (appearance.sun.empty()) return s;
-  const auto angles = anglesOfSun(appearance.sun);
-  if (!angles) return tl::unexpected(angles.error());
-  s.look.sun = SurfaceLook::Sun{angles->first, angles->second};
+  ARETE_TRY(const auto angles, anglesOfSun(appearance.sun));
+  s.look.sun = SurfaceLook::Sun{angles.first, angles.second};
   return s;
 }
 

@@ -90,7 +90,7 @@ Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView
                    figures.error().culprit == "camera" && !a.viewpoint.camera.empty()
                        ? "--camera " + a.viewpoint.camera
                        : figures.error().culprit);
-  if (Status saved = savePng(view.image(), a.pictures.screenshot); !saved) return saved;
+  ARETE_CHECK(savePng(view.image(), a.pictures.screenshot));
   if (!figures->showsTerrain) session.warn("the picture shows nothing of the terrain");
   if (!figures->isComplete)
     session.warn(fmt::format("the {} ended the cut: the terrain is {}", a.detail.whatEndsTheCut(),
@@ -108,14 +108,14 @@ Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView
 
 Status makeFilm(const ViewArguments& a, const Flight& flight, const SurfaceHeights& heights,
                 HeadlessView& view, Session& session, Json& json) {
-  const auto frames =
+  ARETE_TRY(
+      const auto frames,
       drawFilm(view, flight, {.folder = a.pictures.frames, .framesPerSecond = a.pictures.framesPerSecond},
-               session.context());
-  if (!frames) return tl::unexpected(frames.error());
+               session.context()));
   Json list = Json::array();
   std::uint64_t triangles = 0;
   std::size_t unfinished = 0, empty = 0, large = 0, buried = 0;
-  for (const FilmFrame& frame : *frames) {
+  for (const FilmFrame& frame : frames) {
     const auto ground = heights.at(frame.camera.xy);
     buried += ground && frame.camera.height < ground->height ? 1 : 0;
     unfinished += frame.figures.isComplete ? 0 : 1;
@@ -124,20 +124,20 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, const SurfaceHeigh
   }
   if (empty > 0)
     session.warn(fmt::format("{} of {} nothing of the terrain", empty,
-                             grouped(frames->size(), "frame shows", "frames show")));
+                             grouped(frames.size(), "frame shows", "frames show")));
   if (buried > 0)
     session.warn(fmt::format("the camera stands under the ground in {} of {}", buried,
-                             grouped(frames->size(), "frame", "frames")));
+                             grouped(frames.size(), "frame", "frames")));
   if (unfinished > 0)
     session.warn(fmt::format("the {} ended the cut of {} of {}", a.detail.whatEndsTheCut(), unfinished,
-                             grouped(frames->size(), "frame", "frames")));
+                             grouped(frames.size(), "frame", "frames")));
   if (large > 0)
     session.warn(fmt::format("--max-triangles {}: the coarsest {} of {} of {} more", a.detail.maxTriangles,
-                             agreeing(frames->size(), "cut", "cuts"), large,
-                             grouped(frames->size(), "frame has", "frames have")));
-  if (hasFramesBehind(a.pictures.frames, frames->size()))
+                             agreeing(frames.size(), "cut", "cuts"), large,
+                             grouped(frames.size(), "frame has", "frames have")));
+  if (hasFramesBehind(a.pictures.frames, frames.size()))
     session.warn(fmt::format("{} has frames of an earlier, longer flight behind these", a.pictures.frames));
-  for (const FilmFrame& frame : *frames) {
+  for (const FilmFrame& frame : frames) {
     Json entry = {{"file", frame.file}, {"seconds", frame.seconds}, {"camera", jsonOf(frame.camera)}};
     entry.update(jsonOf(frame.figures));
     list.push_back(std::move(entry));
@@ -146,19 +146,18 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, const SurfaceHeigh
   json["renderer"] = view.description();
   json["frames"] = std::move(list);
   if (!a.pictures.figures.empty()) {
-    auto file = FileWriter::create(a.pictures.figures);
-    if (!file) return tl::unexpected(file.error());
-    file->write(json.dump(1) + "\n");
-    if (Status finished = file->finish(); !finished) return finished;
+    ARETE_TRY(auto file, FileWriter::create(a.pictures.figures));
+    file.write(json.dump(1) + "\n");
+    ARETE_CHECK(file.finish());
   }
   session.say(fmt::format("{}: {}, {} in the mean\n", a.pictures.frames,
-                          grouped(frames->size(), "frame", "frames"),
-                          grouped(triangles / frames->size(), "triangle", "triangles")));
+                          grouped(frames.size(), "frame", "frames"),
+                          grouped(triangles / frames.size(), "triangle", "triangles")));
   if (!a.pictures.film.empty()) {
     const double rate =
         a.pictures.framesPerSecond > 0 ? a.pictures.framesPerSecond : flight.plan().framesPerSecond;
     if (Status encoded =
-            encodeFilm(a.pictures.frames, frames->size(), rate, a.pictures.film, session.context());
+            encodeFilm(a.pictures.frames, frames.size(), rate, a.pictures.film, session.context());
         !encoded)
       return encoded;
     session.say(a.pictures.film + "\n");

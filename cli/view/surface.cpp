@@ -34,15 +34,13 @@ Result<Camera> cameraOf(const ViewArguments& a, const Upright& upright, const Up
   camera.heightPixels = height;
   const CameraSpace space;
   if (a.viewpoint.camera.empty()) return surfaceHome(a.viewpoint.homeView(), shape, camera);
-  const Result<SurfaceCameraArgument> stated = readSurfaceCamera(a.viewpoint.camera);
-  if (!stated) return tl::unexpected(stated.error());
-  const Vec3 eye = upright.fromFile(stated->camera.eye);
-  const Look look = space.lookAlong(upright.fromFile(stated->camera.target) - eye);
+  ARETE_TRY(const SurfaceCameraArgument stated, readSurfaceCamera(a.viewpoint.camera));
+  const Vec3 eye = upright.fromFile(stated.camera.eye);
+  const Look look = space.lookAlong(upright.fromFile(stated.camera.target) - eye);
   camera = space.at(camera, eye);
   camera.azimuthDegrees = look.azimuthDegrees;
   camera.pitchDegrees = look.pitchDegrees;
-  if (stated->statesFieldOfView)
-    camera.verticalFieldOfViewDegrees = stated->camera.verticalFieldOfViewDegrees;
+  if (stated.statesFieldOfView) camera.verticalFieldOfViewDegrees = stated.camera.verticalFieldOfViewDegrees;
   if (const Result<View> view = uprightView(camera); !view)
     return failure(view.error().code, view.error().message, "--camera " + a.viewpoint.camera);
   return camera;
@@ -81,18 +79,17 @@ class SurfacePictures {
       : a_(arguments), settings_(settings), view_(view), session_(session) {}
 
   Status takeScreenshot(const Camera& camera, Json& json) {
-    const Result<SurfaceFigures> figures = draw(camera);
-    if (!figures) return tl::unexpected(figures.error());
-    if (Status saved = savePng(view_.image(), a_.pictures.screenshot); !saved) return saved;
-    if (!figures->showsSurface) session_.warn("the picture shows nothing of the surface");
-    if (!figures->isComplete)
-      session_.warn(fmt::format("the budget ended the cut: the surface is {}", accuracyOf(*figures)));
+    ARETE_TRY(const SurfaceFigures figures, draw(camera));
+    ARETE_CHECK(savePng(view_.image(), a_.pictures.screenshot));
+    if (!figures.showsSurface) session_.warn("the picture shows nothing of the surface");
+    if (!figures.isComplete)
+      session_.warn(fmt::format("the budget ended the cut: the surface is {}", accuracyOf(figures)));
     session_.say(fmt::format("{}: {}, {}\n", a_.pictures.screenshot,
-                             grouped(figures->triangles, "triangle", "triangles"), accuracyOf(*figures)));
+                             grouped(figures.triangles, "triangle", "triangles"), accuracyOf(figures)));
     json["screenshot"] = {
         {"file", a_.pictures.screenshot},
         {"camera", jsonOf(camera, view_.view().upright(), view_.view().shape().box.diagonal())},
-        {"figures", jsonOf(*figures)}};
+        {"figures", jsonOf(figures)}};
     return {};
   }
 
@@ -115,32 +112,28 @@ class SurfacePictures {
                                     from.x * std::sin(turn) + from.y * std::cos(turn), from.z};
       Camera camera = space.at(first, at);
       camera.azimuthDegrees = wrappedAzimuth(first.azimuthDegrees - turn * 180 / std::numbers::pi);
-      const Result<SurfaceFigures> figures = draw(camera);
-      if (!figures) return tl::unexpected(figures.error());
+      ARETE_TRY(const SurfaceFigures figures, draw(camera));
       const auto path = fs::path(a_.pictures.frames) / fmt::format("frame_{:05}.png", i);
-      if (Status saved = savePng(view_.image(), path); !saved) return saved;
+      ARETE_CHECK(savePng(view_.image(), path));
       Json entry = {{"file", path.string()},
                     {"seconds", double(i) / rate},
                     {"camera", jsonOf(camera, view_.view().upright(), norm(from))}};
-      entry.update(jsonOf(*figures));
+      entry.update(jsonOf(figures));
       list.push_back(std::move(entry));
-      triangles += figures->triangles;
+      triangles += figures.triangles;
       session_.context().report("draw frames", double(i + 1) / double(count));
     }
     json["frames"] = std::move(list);
     if (!a_.pictures.figures.empty()) {
-      auto file = FileWriter::create(a_.pictures.figures);
-      if (!file) return tl::unexpected(file.error());
-      file->write(json.dump(1) + "\n");
-      if (Status finished = file->finish(); !finished) return finished;
+      ARETE_TRY(auto file, FileWriter::create(a_.pictures.figures));
+      file.write(json.dump(1) + "\n");
+      ARETE_CHECK(file.finish());
     }
     session_.say(fmt::format("{}: {}, {} in the mean\n", a_.pictures.frames,
                              grouped(count, "frame", "frames"),
                              grouped(triangles / count, "triangle", "triangles")));
     if (a_.pictures.film.empty()) return {};
-    if (Status encoded = encodeFilm(a_.pictures.frames, count, rate, a_.pictures.film, session_.context());
-        !encoded)
-      return encoded;
+    ARETE_CHECK(encodeFilm(a_.pictures.frames, count, rate, a_.pictures.film, session_.context()));
     session_.say(a_.pictures.film + "\n");
     json["film"] = a_.pictures.film;
     return {};
@@ -167,7 +160,7 @@ Status checkOutputs(const ViewArguments& a) {
                                      {"--film", &a.pictures.film},
                                      {"--figures", &a.pictures.figures}}) {
     if (path->empty()) continue;
-    if (Status ok = checkOutput(option, *path, {a.model}, outputs); !ok) return ok;
+    ARETE_CHECK(checkOutput(option, *path, {a.model}, outputs));
     outputs.push_back(*path);
   }
   return {};
@@ -176,44 +169,36 @@ Status checkOutputs(const ViewArguments& a) {
 }  // namespace
 
 Status viewSurface(ViewArguments a, Session& session) {
-  Result<SurfaceViewSettings> settings = a.ofSurface();
-  if (!settings) return tl::unexpected(settings.error());
-  if (Status ok = a.check(); !ok) return ok;
-  const auto size = a.pictures.size();
-  if (!size) return tl::unexpected(size.error());
-  if (Status ok = checkOutputs(a); !ok) return ok;
-  const Result<SurfaceModel> model = loadSurfaceAmt(a.model, AmtVerify::all, session.context());
-  if (!model) return tl::unexpected(model.error());
-  if (Status found = a.detail.findBudget(model->mt.finestTriangleCount()); !found) return found;
-  settings->maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);
-  const Upright upright(*model, a.viewpoint.up);
-  const Result<Camera> camera =
-      cameraOf(a, upright, uprightShape(*model, upright), size->first, size->second);
-  if (!camera) return tl::unexpected(camera.error());
+  ARETE_TRY(SurfaceViewSettings settings, a.ofSurface());
+  ARETE_CHECK(a.check());
+  ARETE_TRY(const auto size, a.pictures.size());
+  ARETE_CHECK(checkOutputs(a));
+  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(a.model, AmtVerify::all, session.context()));
+  ARETE_CHECK(a.detail.findBudget(model.mt.finestTriangleCount()));
+  settings.maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);
+  const Upright upright(model, a.viewpoint.up);
+  ARETE_TRY(const Camera camera, cameraOf(a, upright, uprightShape(model, upright), size.first, size.second));
 
   if (!a.pictures.isHeadless) {
     SurfaceWindowOptions window{.title = fmt::format("arete - {}", a.model)};
-    window.settings = *settings;
+    window.settings = settings;
     window.home = a.viewpoint.homeView();
-    if (!a.viewpoint.camera.empty()) window.camera = *camera;
-    if (!a.pictures.sizeText.empty()) std::tie(window.width, window.height) = *size;
+    if (!a.viewpoint.camera.empty()) window.camera = camera;
+    if (!a.pictures.sizeText.empty()) std::tie(window.width, window.height) = size;
     window.samples = a.pictures.samples;
     window.lastPicture = a.pictures.windowScreenshot;
     window.frames = a.pictures.windowFrames;
-    return runSurfaceWindow(*model, upright, window, session.context());
+    return runSurfaceWindow(model, upright, window, session.context());
   }
 
-  Result<HeadlessSurface> view =
-      HeadlessSurface::create(*model, upright, {size->first, size->second, a.pictures.samples});
-  if (!view) return tl::unexpected(view.error());
-  session.warn(view->view().warnings(), a.model);
-  Json json = {{"model", a.model}, {"kind", "surface"}, {"renderer", view->description()}};
-  a.detail.addBudgetTo(json, model->mt.finestTriangleCount());
-  SurfacePictures pictures(a, *settings, *view, session);
-  if (!a.pictures.screenshot.empty())
-    if (Status ok = pictures.takeScreenshot(*camera, json); !ok) return ok;
-  if (!a.pictures.frames.empty())
-    if (Status ok = pictures.makeTurn(*camera, json); !ok) return ok;
+  ARETE_TRY(HeadlessSurface view,
+            HeadlessSurface::create(model, upright, {size.first, size.second, a.pictures.samples}));
+  session.warn(view.view().warnings(), a.model);
+  Json json = {{"model", a.model}, {"kind", "surface"}, {"renderer", view.description()}};
+  a.detail.addBudgetTo(json, model.mt.finestTriangleCount());
+  SurfacePictures pictures(a, settings, view, session);
+  if (!a.pictures.screenshot.empty()) ARETE_CHECK(pictures.takeScreenshot(camera, json));
+  if (!a.pictures.frames.empty()) ARETE_CHECK(pictures.makeTurn(camera, json));
   session.answer(json);
   return {};
 }

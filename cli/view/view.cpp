@@ -42,18 +42,15 @@ Result<Camera> cameraOf(const ViewArguments& a, const TerrainModel& model, const
     const CameraSpace space(model);
     if (!a.appearance.isCurved)
       return homeCamera(a.viewpoint.homeView(), space, metricBox(model), picture, a.appearance.exaggeration);
-    const auto ground = CurvedGround::create(model);
-    if (!ground) return tl::unexpected(ground.error());
-    return curvedHomeCamera(a.viewpoint.homeView(), *ground, space, metricBox(model), picture,
+    ARETE_TRY(const auto ground, CurvedGround::create(model));
+    return curvedHomeCamera(a.viewpoint.homeView(), ground, space, metricBox(model), picture,
                             a.appearance.exaggeration);
   }
-  const auto toDem = transformOfPlaces(a.viewpoint.isLonLat, model);
-  if (!toDem) return tl::unexpected(toDem.error());
-  Result<CameraArgument> stated = readCameraArgument("--camera", a.viewpoint.camera, *toDem, heights);
-  if (!stated) return tl::unexpected(stated.error());
-  stated->camera.widthPixels = width;
-  stated->camera.heightPixels = height;
-  return stated->camera;
+  ARETE_TRY(const auto toDem, transformOfPlaces(a.viewpoint.isLonLat, model));
+  ARETE_TRY(CameraArgument stated, readCameraArgument("--camera", a.viewpoint.camera, toDem, heights));
+  stated.camera.widthPixels = width;
+  stated.camera.heightPixels = height;
+  return stated.camera;
 }
 
 Result<std::optional<Flight>> flightOf(const ViewArguments& a, const TerrainModel& model,
@@ -61,14 +58,12 @@ Result<std::optional<Flight>> flightOf(const ViewArguments& a, const TerrainMode
   const CameraSpace space(model);
   FlightPlan plan;
   if (!a.viewpoint.path.empty()) {
-    Result<FlightRead> read = readFlight(a.viewpoint.path, model.georeference, LongitudeTurns(model));
-    if (!read) return tl::unexpected(read.error());
-    session.warn(read->warnings, a.viewpoint.path);
-    plan = std::move(read->plan);
+    ARETE_TRY(FlightRead read, readFlight(a.viewpoint.path, model.georeference, LongitudeTurns(model)));
+    session.warn(read.warnings, a.viewpoint.path);
+    plan = std::move(read.plan);
   } else if (a.viewpoint.isRound) {
-    Result<FlightPlan> round = roundFlight(heights, space, metricBox(model));
-    if (!round) return tl::unexpected(round.error());
-    plan = std::move(*round);
+    ARETE_TRY(FlightPlan round, roundFlight(heights, space, metricBox(model)));
+    plan = std::move(round);
   } else {
     return std::optional<Flight>();
   }
@@ -84,71 +79,64 @@ Result<std::optional<Flight>> flightOf(const ViewArguments& a, const TerrainMode
 Status runView(ViewArguments a, Session& session) {
   if (const Result<bool> isSurface = isSurfaceAmt(a.model); isSurface && *isSurface)
     return viewSurface(a, session);
-  if (Status ok = a.check(); !ok) return ok;
+  ARETE_CHECK(a.check());
   if (!a.viewpoint.up.empty())
     return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", "--up");
-  Result<ViewSettings> settings = a.settings();
-  if (!settings) return tl::unexpected(settings.error());
-  const Result<DrapeOptions> drapeOptions = a.appearance.drapeOptions();
-  if (!drapeOptions) return tl::unexpected(drapeOptions.error());
-  const auto size = a.pictures.size();
-  if (!size) return tl::unexpected(size.error());
-  const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
-  if (!model) return tl::unexpected(model.error());
-  if (Status found = a.detail.findBudget(model->mt.finestTriangleCount()); !found) return found;
-  settings->maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);
-  const SurfaceHeights heights(*model);
-  const Result<Camera> camera = cameraOf(a, *model, heights, size->first, size->second);
-  if (!camera) return tl::unexpected(camera.error());
-  if (const auto ground = heights.at(camera->xy); ground && camera->height < ground->height)
+  ARETE_TRY(ViewSettings settings, a.settings());
+  ARETE_TRY(const DrapeOptions drapeOptions, a.appearance.drapeOptions());
+  ARETE_TRY(const auto size, a.pictures.size());
+  ARETE_TRY(const TerrainModel model, loadAmt(a.model, {}, session.context()));
+  ARETE_CHECK(a.detail.findBudget(model.mt.finestTriangleCount()));
+  settings.maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);
+  const SurfaceHeights heights(model);
+  ARETE_TRY(const Camera camera, cameraOf(a, model, heights, size.first, size.second));
+  if (const auto ground = heights.at(camera.xy); ground && camera.height < ground->height)
     session.warn(fmt::format("the camera stands {} under the ground",
-                             withUnit(ground->height - camera->height, model->georeference.verticalUnit)));
-  const auto flight = flightOf(a, *model, heights, session);
-  if (!flight) return tl::unexpected(flight.error());
+                             withUnit(ground->height - camera.height, model.georeference.verticalUnit)));
+  ARETE_TRY(const auto flight, flightOf(a, model, heights, session));
 
   if (!a.pictures.frames.empty()) {
-    if (const auto count = filmFrames(**flight, a.pictures.framesPerSecond); !count)
+    if (const auto count = filmFrames(*flight, a.pictures.framesPerSecond); !count)
       return failure(
           count.error().code, count.error().message,
           a.viewpoint.path.empty() ? count.error().culprit : a.viewpoint.path + ", " + count.error().culprit);
     std::error_code failed;  // drawFilm() says why; the film may lie in it
     std::filesystem::create_directories(a.pictures.frames, failed);
   }
-  if (Status ok = checkPictureOutputs(a, *model); !ok) return ok;
+  ARETE_CHECK(checkPictureOutputs(a, model));
 
   const auto layDrape = [&](TerrainView& view) -> Status {
-    if (Status laid = view.setDrape(a.appearance.drape, *drapeOptions, session.context()); !laid) return laid;
+    ARETE_CHECK(view.setDrape(a.appearance.drape, drapeOptions, session.context()));
     session.warn(view.drape()->warnings(), a.appearance.drape);
     return {};
   };
   if (!a.pictures.isHeadless) {
     WindowOptions window{.title = fmt::format("arete - {}", a.model)};
-    window.start.settings = *settings;
+    window.start.settings = settings;
     window.start.frameMilliseconds = a.detail.frameTime;
     if (a.viewpoint.statesCamera())
-      window.start.camera = *camera;
-    else if (*flight)
-      window.start.camera = (*flight)->at(0);
-    if (*flight) window.start.flight = (*flight)->plan();
+      window.start.camera = camera;
+    else if (flight)
+      window.start.camera = flight->at(0);
+    if (flight) window.start.flight = flight->plan();
     if (!a.viewpoint.path.empty()) window.start.flightPath = a.viewpoint.path;
-    if (!a.pictures.sizeText.empty()) std::tie(window.width, window.height) = *size;
+    if (!a.pictures.sizeText.empty()) std::tie(window.width, window.height) = size;
     window.samples = a.pictures.samples;
     window.start.hasDrape = !a.appearance.drape.empty();
     if (!a.appearance.drape.empty()) window.onReady = layDrape;
     window.lastPicture = a.pictures.windowScreenshot;
     window.frames = a.pictures.windowFrames;
-    return runWindow(*model, window, session.context());
+    return runWindow(model, window, session.context());
   }
 
-  HeadlessOptions options{size->first, size->second, a.pictures.samples, *settings};
-  Result<HeadlessView> view = HeadlessView::create(*model, options, session.context());
-  if (!view) return tl::unexpected(view.error());
-  for (const std::string& warning : view->warnings()) session.warn(warning);
-  Json json = {{"model", a.model}, {"renderer", view->description()}};
-  a.detail.addBudgetTo(json, model->mt.finestTriangleCount());
+  HeadlessOptions options{size.first, size.second, a.pictures.samples, settings};
+  ARETE_TRY(HeadlessView view, HeadlessView::create(model, options, session.context()));
+  for (const std::string& warning : view.warnings()) session.warn(warning);
+  Json json = {{"model", a.model}, {"renderer", view.description()}};
+  a.detail.addBudgetTo(json, model.mt.finestTriangleCount());
   if (!a.appearance.drape.empty()) {
-    if (Status laid = layDrape(view->view()); !laid) return laid;
-    const DrapeOnGpu& drape = *view->view().drape();
+    ARETE_CHECK(layDrape(view.view()));
+    const DrapeOnGpu& drape = *view.view().drape();
     json["drape"] = {{"file", a.appearance.drape},
                      {"columns", drape.columns()},
                      {"rows", drape.rows()},
@@ -156,11 +144,10 @@ Status runView(ViewArguments a, Session& session) {
   }
   if (!a.pictures.screenshot.empty()) {
     const bool isStated = a.viewpoint.statesCamera();
-    const Camera from = *flight && !isStated ? (*flight)->at(0) : *camera;
-    if (Status ok = takeScreenshot(a, from, *view, session, json); !ok) return ok;
+    const Camera from = flight && !isStated ? flight->at(0) : camera;
+    ARETE_CHECK(takeScreenshot(a, from, view, session, json));
   }
-  if (!a.pictures.frames.empty())
-    if (Status ok = makeFilm(a, **flight, heights, *view, session, json); !ok) return ok;
+  if (!a.pictures.frames.empty()) ARETE_CHECK(makeFilm(a, *flight, heights, view, session, json));
   session.answer(json);
   return {};
 }

@@ -46,3 +46,22 @@ inline tl::unexpected<Error> failure(ErrorCode code, std::string message, std::s
 }
 
 }  // namespace arete
+
+/// ARETE_TRY(const Mesh mesh, readMesh(path)); declares `mesh` as the value of the result, or returns its
+/// error from the function, whose own result may be of another type. The expression is evaluated once.
+#define ARETE_TRY(value, ...) ARETE_TRY_NAMED(ARETE_NAME_OF_LINE(result, __LINE__), value, __VA_ARGS__)
+
+/// ARETE_CHECK(file.finish()); returns the error of a status, or of a result whose value is not used.
+#define ARETE_CHECK(...) ARETE_CHECK_NAMED(ARETE_NAME_OF_LINE(status, __LINE__), __VA_ARGS__)
+
+#define ARETE_CHECK_NAMED(status, ...)                                                          \
+  do {                                                                                          \
+    if (auto&& status = __VA_ARGS__; !status) return tl::unexpected(std::move(status).error()); \
+  } while (false)
+
+#define ARETE_TRY_NAMED(result, value, ...)                      \
+  auto result = __VA_ARGS__;                                     \
+  if (!result) return tl::unexpected(std::move(result).error()); \
+  value = *std::move(result)
+#define ARETE_NAME_OF_LINE(name, line) ARETE_JOINED(name, line)
+#define ARETE_JOINED(name, line) name##_of_line_##line

@@ -105,7 +105,7 @@ std::uint32_t uniformTriangleCount(const MultiTriangulation& mt, double maxError
 namespace {
 
 Status checkOptions(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options) {
-  if (Status ok = checkCut(mt, criterion, options.method, options.maxTriangles); !ok) return ok;
+  ARETE_CHECK(checkCut(mt, criterion, options.method, options.maxTriangles));
   if (options.method == CutMethod::minimal) return {};
   if (options.deadline || options.order)
     return failure(ErrorCode::usage,
@@ -118,7 +118,7 @@ Status checkOptions(const MultiTriangulation& mt, const Criterion& criterion, co
 
 Result<NodeCut> takeNodes(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options,
                           const RunContext& context) try {
-  if (const Status ok = checkOptions(mt, criterion, options); !ok) return tl::unexpected(ok.error());
+  ARETE_CHECK(checkOptions(mt, criterion, options));
   if (context.cancelled()) return interrupted();
   return withThreads(context, [&]() -> Result<NodeCut> {
     if (options.method == CutMethod::saturated) {
@@ -136,7 +136,7 @@ Result<NodeCut> takeNodes(const MultiTriangulation& mt, const Criterion& criteri
 
 Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options,
                     const RunContext& context) try {
-  if (const Status ok = checkOptions(mt, criterion, options); !ok) return tl::unexpected(ok.error());
+  ARETE_CHECK(checkOptions(mt, criterion, options));
   if (context.cancelled()) return interrupted();
   return withThreads(context, [&]() -> Result<Cut> {
     if (options.method == CutMethod::saturated) {
@@ -150,10 +150,9 @@ Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, co
       if (!least) return interrupted();
       return frontOfClosure(mt, *least);
     }
-    const Result<NodeCut> nodes = refineWithin(mt, criterion, options, context);
-    if (!nodes) return tl::unexpected(nodes.error());
-    Cut cut = front(mt, nodes->nodes);
-    cut.isComplete = nodes->isComplete;
+    ARETE_TRY(const NodeCut nodes, refineWithin(mt, criterion, options, context));
+    Cut cut = front(mt, nodes.nodes);
+    cut.isComplete = nodes.isComplete;
     return cut;
   });
 } catch (...) {

@@ -81,8 +81,7 @@ Result<IncrementalCut::Update> IncrementalCut::update(const Criterion& criterion
                                                       const IncrementalOptions& options,
                                                       const RunContext& context) try {
   State& s = *state_;
-  if (const Status ok = checkCut(s.mt, criterion, CutMethod::saturated, options.maxTriangles); !ok)
-    return tl::unexpected(ok.error());
+  ARETE_CHECK(checkCut(s.mt, criterion, CutMethod::saturated, options.maxTriangles));
   const BoundedCriterion& bounded = *criterion.bounded();
   return withThreads(context, [&] {
     s.steps.clear();

@@ -34,14 +34,14 @@ class ViewMesh::State {
   }
 
   Result<Report> update(const View& view, const UpdateOptions& o, const RunContext& context) {
-    if (const Status valid = view.validate(); !valid) return tl::unexpected(valid.error());
+    ARETE_CHECK(view.validate());
     if (!(o.pixels > 0 && std::isfinite(o.pixels)))
       return failure(ErrorCode::usage, "the tolerance must be above 0 pixels", "view mesh");
     const MorphCamera camera({.view = view, .pixels = o.pixels, .moves = o.geomorph}, metric());
-    const auto updated = cut_.update(ViewError({.view = view, .pixels = camera.tolerance().cut}, metric()),
-                                     {.maxTriangles = o.maxTriangles, .deadline = o.deadline}, context);
-    if (!updated) return tl::unexpected(updated.error());
-    const bool budgetBinds = !updated->isComplete && o.maxTriangles.has_value();
+    ARETE_TRY(const auto updated,
+              cut_.update(ViewError({.view = view, .pixels = camera.tolerance().cut}, metric()),
+                          {.maxTriangles = o.maxTriangles, .deadline = o.deadline}, context));
+    const bool budgetBinds = !updated.isComplete && o.maxTriangles.has_value();
     return withThreads(context, [&] {
       const GeomorphedSurface::Update moved = surface_.update(camera, cut_, budgetBinds);
       takeTriangles();
@@ -50,11 +50,11 @@ class ViewMesh::State {
         heights_.push_back({change.vertex.index(), position(change.vertex)[2]});
       Report report;
       report.triangles = static_cast<std::uint32_t>(triangles_.size());
-      report.refined = updated->refined;
-      report.coarsened = updated->coarsened;
+      report.refined = updated.refined;
+      report.coarsened = updated.coarsened;
       report.moving = moved.moving;
-      report.isComplete = updated->isComplete;
-      report.pixels = updated->isComplete ? o.pixels : reached(camera, moved.cutPixels);
+      report.isComplete = updated.isComplete;
+      report.pixels = updated.isComplete ? o.pixels : reached(camera, moved.cutPixels);
       report.jumpPixels = moved.jumpPixels;
       return report;
     });

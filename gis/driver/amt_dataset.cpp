@@ -67,7 +67,7 @@ Status AmtDataset::openTerrain(AmtContainer container, const DriverOptions& opti
   if (!cuts) return tl::unexpected(cuts.error());
   cuts_ = std::make_shared<TerrainCuts>(std::move(*cuts));
   const TerrainModel& outline = cuts_->outline();
-  if (Status taken = takeCrs(outline.georeference.crsWkt); !taken) return taken;
+  ARETE_CHECK(takeCrs(outline.georeference.crsWkt));
   hasPosition_ = outline.georeference.hasGeoTransform || !outline.isRaster || options.cell;
   SetMetadataItem("SOURCE", fs::path(outline.source).filename().c_str());
   SetMetadataItem("TOLERANCE", CPLSPrintf("%.9g", options.tolerance));
@@ -84,11 +84,9 @@ Status AmtDataset::openTerrain(AmtContainer container, const DriverOptions& opti
   }
   if (wantsLayer)
     layer_ = std::make_unique<TriangleLayer>("triangles", crs_, [cuts = cuts_]() -> Result<PlacedTriangles> {
-      const Result<TerrainCuts::Whole> whole = cuts->take(cuts->tolerance());
-      if (!whole) return tl::unexpected(whole.error());
-      Result<TinExport> tin = runAsGuest([&] { return exportTin(whole->model, whole->cut); });
-      if (!tin) return tl::unexpected(tin.error());
-      return PlacedTriangles::sorted(std::move(tin->mesh), whole->cut.ids, tin->errors);
+      ARETE_TRY(const TerrainCuts::Whole whole, cuts->take(cuts->tolerance()));
+      ARETE_TRY(TinExport tin, runAsGuest([&] { return exportTin(whole.model, whole.cut); }));
+      return PlacedTriangles::sorted(std::move(tin.mesh), whole.cut.ids, tin.errors);
     });
   return {};
 }
@@ -99,20 +97,18 @@ Status AmtDataset::openSurface(const AmtContainer& container, const DriverOption
         ErrorCode::unsupported,
         "is of a surface, which has no single height over a place: it opens as a layer of triangles",
         container.path());
-  Result<SurfaceModel> model = runAsGuest([&] { return loadSurfaceAmt(container); });
-  if (!model) return tl::unexpected(model.error());
-  if (Status taken = takeCrs(model->crsWkt); !taken) return taken;
-  SetMetadataItem("SOURCE", fs::path(model->source).filename().c_str());
+  ARETE_TRY(SurfaceModel model, runAsGuest([&] { return loadSurfaceAmt(container); }));
+  ARETE_CHECK(takeCrs(model.crsWkt));
+  SetMetadataItem("SOURCE", fs::path(model.source).filename().c_str());
   SetMetadataItem("TOLERANCE", CPLSPrintf("%.9g", options.tolerance));
   layer_ = std::make_unique<TriangleLayer>(
-      "triangles", crs_, [mt = model->mt, tolerance = options.tolerance]() -> Result<PlacedTriangles> {
-        const Result<Cut> cut = runAsGuest([&] { return takeCut(mt, UniformError(tolerance)); });
-        if (!cut) return tl::unexpected(cut.error());
-        TriangleMesh mesh{{}, cut->triangles};
-        for (const std::uint32_t v : cut->vertices) mesh.positions.push_back(mt.position(VertexId(v)));
+      "triangles", crs_, [mt = model.mt, tolerance = options.tolerance]() -> Result<PlacedTriangles> {
+        ARETE_TRY(const Cut cut, runAsGuest([&] { return takeCut(mt, UniformError(tolerance)); }));
+        TriangleMesh mesh{{}, cut.triangles};
+        for (const std::uint32_t v : cut.vertices) mesh.positions.push_back(mt.position(VertexId(v)));
         std::vector<float> errors;
-        for (const std::uint32_t t : cut->ids) errors.push_back(static_cast<float>(mt.error(TriangleId(t))));
-        return PlacedTriangles::sorted(std::move(mesh), cut->ids, errors);
+        for (const std::uint32_t t : cut.ids) errors.push_back(static_cast<float>(mt.error(TriangleId(t))));
+        return PlacedTriangles::sorted(std::move(mesh), cut.ids, errors);
       });
   return {};
 }

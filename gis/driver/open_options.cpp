@@ -33,11 +33,9 @@ const char* const kAmtOpenOptions =
     "</OpenOptionList>";
 
 Result<DriverOptions> readOpenOptions(CSLConstList options) {
-  const auto tolerance = numberOf(options, "TOLERANCE", true);
-  if (!tolerance) return tl::unexpected(tolerance.error());
-  const auto cell = numberOf(options, "CELL", false);
-  if (!cell) return tl::unexpected(cell.error());
-  return DriverOptions{tolerance->value_or(0), *cell};
+  ARETE_TRY(const auto tolerance, numberOf(options, "TOLERANCE", true));
+  ARETE_TRY(const auto cell, numberOf(options, "CELL", false));
+  return DriverOptions{tolerance.value_or(0), cell};
 }
 
 }  // namespace arete

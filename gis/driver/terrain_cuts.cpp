@@ -29,17 +29,14 @@ bool meet(const Box2& a, const Box2& b) {
 
 Result<TerrainCuts> TerrainCuts::open(AmtContainer container, double tolerance,
                                       std::optional<double> cell) try {
-  Result<AmtFile> file = openAmt(std::move(container));
-  if (!file) return tl::unexpected(file.error());
-  Result<TerrainModel> outline = runAsGuest([&] { return file->read({.wanted = requiredNowhere()}); });
-  if (!outline) return tl::unexpected(outline.error());
-  TerrainCuts cuts(std::move(*file));
-  cuts.outline_ = std::make_shared<const TerrainModel>(std::move(*outline));
+  ARETE_TRY(AmtFile file, openAmt(std::move(container)));
+  ARETE_TRY(TerrainModel outline, runAsGuest([&] { return file.read({.wanted = requiredNowhere()}); }));
+  TerrainCuts cuts(std::move(file));
+  cuts.outline_ = std::make_shared<const TerrainModel>(std::move(outline));
   cuts.tolerance_ = tolerance;
   if (!cell && !cuts.outline_->isRaster) cell = cuts.spacingOfPoints();
-  Result<PixelGrid> grid = PixelGrid::of(*cuts.outline_, cell);
-  if (!grid) return tl::unexpected(grid.error());
-  cuts.grid_ = *grid;
+  ARETE_TRY(PixelGrid grid, PixelGrid::of(*cuts.outline_, cell));
+  cuts.grid_ = grid;
   return cuts;
 } catch (...) {
   return caughtFailure();
@@ -59,11 +56,9 @@ double TerrainCuts::errorOfOverview(int k) const {
 
 Result<TerrainCuts::Whole> TerrainCuts::take(double error) const {
   return runAsGuest([&]() -> Result<Whole> {
-    Result<TerrainModel> model = file_.read({.wanted = [error](const Box2&) { return error; }});
-    if (!model) return tl::unexpected(model.error());
-    Result<Cut> cut = takeCut(model->mt, UniformError(error));
-    if (!cut) return tl::unexpected(cut.error());
-    return Whole{std::move(*model), std::move(*cut)};
+    ARETE_TRY(TerrainModel model, file_.read({.wanted = [error](const Box2&) { return error; }}));
+    ARETE_TRY(Cut cut, takeCut(model.mt, UniformError(error)));
+    return Whole{std::move(model), std::move(cut)};
   });
 }
 
@@ -104,18 +99,17 @@ Result<TriangleBins> TerrainCuts::finestIn(const PixelWindow& window) const {
   GridTriangles all;
   for (const double columns : {0.0, -turn()}) {
     const Box2 moved{box.xMin - columns, box.yMin, box.xMax - columns, box.yMax};
-    Result<TerrainModel> model = file_.read({.wanted = [&](const Box2& part) {
+    ARETE_TRY(TerrainModel model, file_.read({.wanted = [&](const Box2& part) {
       return meet(part, moved) ? 0.0 : std::numeric_limits<double>::infinity();
-    }});
-    if (!model) return tl::unexpected(model.error());
+    }}));
     // Not a cut of error 0: errors are those at samples, and between them a triangle without error may be far
     // from the finest ones.
-    std::vector<std::uint32_t> vertices(model->mt.vertexCount());
+    std::vector<std::uint32_t> vertices(model.mt.vertexCount());
     std::iota(vertices.begin(), vertices.end(), 0u);
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    for (std::uint32_t t = 0; t < model->mt.triangleIdCount(); ++t)
-      if (!model->mt.remover(TriangleId(t)).isValid()) triangles.push_back(model->mt.corners(TriangleId(t)));
-    addOnGrid({*model, vertices, triangles}, pixels, columns, all);
+    for (std::uint32_t t = 0; t < model.mt.triangleIdCount(); ++t)
+      if (!model.mt.remover(TriangleId(t)).isValid()) triangles.push_back(model.mt.corners(TriangleId(t)));
+    addOnGrid({model, vertices, triangles}, pixels, columns, all);
     if (turn() == 0 || box.xMin > 0) break;
   }
   return TriangleBins(std::move(all));
@@ -128,11 +122,10 @@ Result<std::shared_ptr<const TriangleBins>> TerrainCuts::tile(int column, int ro
     std::rotate(tiles_.begin(), found, found + 1);
     return tiles_.front().triangles;
   }
-  Result<TriangleBins> finest = runAsGuest([&] {
-    return finestIn({double(column) * kTile, double(row) * kTile, kTile, kTile, kTile, kTile});
-  });
-  if (!finest) return tl::unexpected(finest.error());
-  tiles_.push_front({column, row, std::make_shared<const TriangleBins>(std::move(*finest))});
+  ARETE_TRY(TriangleBins finest, runAsGuest([&] {
+              return finestIn({double(column) * kTile, double(row) * kTile, kTile, kTile, kTile, kTile});
+            }));
+  tiles_.push_front({column, row, std::make_shared<const TriangleBins>(std::move(finest))});
   std::size_t triangles = 0;
   for (std::size_t i = 0; i < tiles_.size(); ++i)
     if ((triangles += tiles_[i].triangles->size()) > kMostTriangles && i > 0) tiles_.resize(i);
@@ -141,9 +134,8 @@ Result<std::shared_ptr<const TriangleBins>> TerrainCuts::tile(int column, int ro
 
 Status TerrainCuts::fillWithFinest(const PixelWindow& window, std::span<double> heights, bool isByTiles) {
   if (!isByTiles) {
-    const Result<TriangleBins> finest = runAsGuest([&] { return finestIn(window); });
-    if (!finest) return tl::unexpected(finest.error());
-    finest->fill(window, heights);
+    ARETE_TRY(const TriangleBins finest, runAsGuest([&] { return finestIn(window); }));
+    finest.fill(window, heights);
     return {};
   }
   // Samples whose middles are in one tile.
@@ -157,14 +149,12 @@ Status TerrainCuts::fillWithFinest(const PixelWindow& window, std::span<double> 
     for (int column = 0, columnEnd = 0; column < window.columns; column = columnEnd) {
       const int across0 = tileOf(window.left, across, column);
       while (columnEnd < window.columns && tileOf(window.left, across, columnEnd) == across0) ++columnEnd;
-      const auto triangles = tile(across0, down0);
-      if (!triangles) return tl::unexpected(triangles.error());
+      ARETE_TRY(const auto triangles, tile(across0, down0));
       const auto stride = static_cast<std::size_t>(window.columns);
-      (*triangles)
-          ->fill({window.left + column * across, window.top + row * down, (columnEnd - column) * across,
-                  (rowEnd - row) * down, columnEnd - column, rowEnd - row},
-                 heights.subspan(static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column)),
-                 stride);
+      (triangles)->fill(
+          {window.left + column * across, window.top + row * down, (columnEnd - column) * across,
+           (rowEnd - row) * down, columnEnd - column, rowEnd - row},
+          heights.subspan(static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column)), stride);
     }
   }
   return {};
@@ -173,14 +163,12 @@ Status TerrainCuts::fillWithFinest(const PixelWindow& window, std::span<double> 
 Status TerrainCuts::fillWithCut(const PixelWindow& window, double error, std::span<double> heights) {
   auto kept = std::ranges::find(kept_, error, &std::pair<double, TriangleBins>::first);
   if (kept == kept_.end()) {
-    const Result<Whole> whole = take(error);
-    if (!whole) return tl::unexpected(whole.error());
+    ARETE_TRY(const Whole whole, take(error));
     if (kept_.size() == kMostKept) kept_.erase(kept_.begin());
     const Box2 pixels{-1, -1, grid_.columns + 1.0, grid_.rows + 1.0};
     GridTriangles all;
-    addOnGrid({whole->model, whole->cut.vertices, whole->cut.triangles}, pixels, 0, all);
-    if (turn() != 0)
-      addOnGrid({whole->model, whole->cut.vertices, whole->cut.triangles}, pixels, -turn(), all);
+    addOnGrid({whole.model, whole.cut.vertices, whole.cut.triangles}, pixels, 0, all);
+    if (turn() != 0) addOnGrid({whole.model, whole.cut.vertices, whole.cut.triangles}, pixels, -turn(), all);
     kept_.emplace_back(error, TriangleBins(std::move(all)));
     kept = kept_.end() - 1;
   }

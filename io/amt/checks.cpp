@@ -54,7 +54,7 @@ Status checkAmtExtras(const AmtFile& file) {
 }
 
 Status checkAmtIndices(const AmtFile& file, const RunContext& context) try {
-  if (Status read = file.loadAllButPacked(); !read) return read;
+  ARETE_CHECK(file.loadAllButPacked());
   if (!file.isPacked())
     if (Status indices = checkMtIndices(file.model().mt, amtGridSamples(file), context); !indices)
       return failure(indices.error().code, indices.error().message, file.path());
@@ -68,7 +68,7 @@ namespace {
 /// All chunks have segments, but for the two that are checked as a whole.
 Status checkSegments(const AmtFile& file, const RunContext& context) {
   for (const AmtTag& tag : {amt_tag::kMetadata, amt_tag::kSegmentChecksums})
-    if (Status chunk = checkAmtChunk(file, tag); !chunk) return chunk;
+    ARETE_CHECK(checkAmtChunk(file, tag));
   AmtSegments segments(file);
   segments.touchAll();
   return segments.check(context);
@@ -78,15 +78,13 @@ Status checkSegments(const AmtFile& file, const RunContext& context) {
 
 Status checkAmtChunk(const AmtFile& file, const AmtTag& tag) {
   const auto chunk = std::ranges::find(file.chunks(), tag, &AmtChunk::tag);
-  if (Status read = file.container().load(file.bytes(*chunk)); !read) return read;
+  ARETE_CHECK(file.container().load(file.bytes(*chunk)));
   return amtChecksum(file.bytes(*chunk)) == chunk->checksum ? Status() : file.container().altered(*chunk);
 }
 
 Status checkAmtChecksums(const AmtFile& file, const RunContext& context) try {
-  if (Status sums = file.hasSegments() ? checkSegments(file, context)
-                                       : file.container().checkSums(amt_tag::kPackedNodes, context);
-      !sums)
-    return sums;
+  ARETE_CHECK(file.hasSegments() ? checkSegments(file, context)
+                                 : file.container().checkSums(amt_tag::kPackedNodes, context));
   return file.container().checkZeros();
 } catch (...) {
   return caughtFailure(file.path());

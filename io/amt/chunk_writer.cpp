@@ -49,7 +49,7 @@ tl::unexpected<Error> AmtChunkWriter::interrupted() const {
 }
 
 Status AmtChunkWriter::write() {
-  if (Status placed = layOut(); !placed) return placed;
+  ARETE_CHECK(layOut());
   if (!seal()) return interrupted();
   return stream();
 }
@@ -103,24 +103,23 @@ void AmtChunkWriter::sealSegments(const AmtChecksums& sums) {
 }
 
 Status AmtChunkWriter::stream() const {
-  Result<FileWriter> out = FileWriter::create(path_);
-  if (!out) return tl::unexpected(out.error());
-  out->write(asText(std::as_bytes(std::span(&header_, 1))));
-  out->write(asText(std::as_bytes(std::span(directory_))));
+  ARETE_TRY(FileWriter out, FileWriter::create(path_));
+  out.write(asText(std::as_bytes(std::span(&header_, 1))));
+  out.write(asText(std::as_bytes(std::span(directory_))));
   std::uint64_t at = header_.directoryOffset + header_.directoryBytes;
   for (const Source& s : sources_) {
-    pad(*out, at);
+    pad(out, at);
     for (std::size_t begin = 0; begin < s.bytes.size(); begin += kWriteBytes) {
       context_.report("write", static_cast<double>(at) / static_cast<double>(header_.fileBytes));
       if (context_.cancelled()) return interrupted();
       const auto span = s.bytes.subspan(begin, std::min(kWriteBytes, s.bytes.size() - begin));
-      out->write(asText(span));
+      out.write(asText(span));
       at += span.size();
     }
   }
-  pad(*out, at);
+  pad(out, at);
   if (context_.cancelled()) return interrupted();
-  if (Status finished = out->finish(); !finished) return finished;
+  ARETE_CHECK(out.finish());
   context_.report("write", 1);
   return {};
 }

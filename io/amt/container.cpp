@@ -63,18 +63,16 @@ Result<std::shared_ptr<const FileImage>> AmtContainer::openImage(const std::stri
       return std::memcmp(front.data(), kAmtMagic.data(), kAmtMagic.size()) == 0 ? header.fileBytes : 0;
     });
   if (options.isCopied) {
-    auto copied = CopiedFile::open(path);
-    if (!copied) return tl::unexpected(copied.error());
-    return std::shared_ptr<const FileImage>(std::move(*copied));
+    ARETE_TRY(auto copied, CopiedFile::open(path));
+    return std::shared_ptr<const FileImage>(std::move(copied));
   }
-  auto mapped = MappedFile::open(path);
-  if (!mapped) return tl::unexpected(mapped.error());
-  return std::shared_ptr<const FileImage>(std::move(*mapped));
+  ARETE_TRY(auto mapped, MappedFile::open(path));
+  return std::shared_ptr<const FileImage>(std::move(mapped));
 }
 
 Status AmtContainer::readHeader(AmtHeader& header) const {
   const auto front = bytes().first(std::min(bytes().size(), sizeof header));
-  if (Status read = load(front); !read) return read;
+  ARETE_CHECK(load(front));
   const std::size_t magicBytes = std::min(bytes().size(), kAmtMagic.size());
   if (std::memcmp(bytes().data(), kAmtMagic.data(), magicBytes) != 0)
     return failure(ErrorCode::unsupported, "is not an .amt file", path_);
@@ -110,7 +108,7 @@ Status AmtContainer::readDirectory(const AmtHeader& header) {
                                header.chunkCount, header.directoryBytes, header.directoryOffset));
   const std::uint64_t directoryEnd = header.directoryOffset + header.directoryBytes;
   if (bytes().size() < directoryEnd) return truncated(std::max(directoryEnd, header.fileBytes));
-  if (Status read = load(bytes().first(directoryEnd)); !read) return read;
+  ARETE_CHECK(load(bytes().first(directoryEnd)));
 
   std::vector<std::byte> front(offsetof(AmtHeader, checksum) + header.directoryBytes);
   std::memcpy(front.data(), bytes().data(), offsetof(AmtHeader, checksum));
@@ -161,7 +159,7 @@ Status AmtContainer::checkMetadata() const {
   if (chunk == nullptr) return corrupt("has no chunk META");
   if (chunk->scalar != AmtScalar::u8 || chunk->elementBytes != 1 || chunk->bytes > kAmtMaxMetadataBytes)
     return corrupt(fmt::format("chunk META is not a text of at most {} bytes", kAmtMaxMetadataBytes));
-  if (Status read = load(bytes(*chunk)); !read) return read;
+  ARETE_CHECK(load(bytes(*chunk)));
   if (amtChecksum(bytes(*chunk)) != chunk->checksum)
     return corrupt("has been altered: the checksum of chunk META does not match");
   return {};
@@ -188,8 +186,7 @@ tl::unexpected<Error> AmtContainer::altered(const AmtChunk& chunk) const {
 
 Status AmtContainer::checkSums(const AmtTag& leftOut, const RunContext& context) const {
   for (const AmtChunk& chunk : chunks_)
-    if (chunk.tag != leftOut)
-      if (Status read = load(bytes(chunk)); !read) return read;
+    if (chunk.tag != leftOut) ARETE_CHECK(load(bytes(chunk)));
   std::vector<const AmtChunk*> chunks;
   std::vector<std::span<const std::byte>> blocks;
   for (const AmtChunk& chunk : chunks_) {
@@ -223,11 +220,10 @@ Status AmtContainer::checkZeros() const {
 }
 
 Result<AmtContainer> AmtContainer::open(const std::string& path, const AmtOpenOptions& options) {
-  auto image = openImage(path, options);
-  if (!image) return tl::unexpected(image.error());
+  ARETE_TRY(auto image, openImage(path, options));
   AmtContainer container;
   container.path_ = path;
-  container.file_ = std::move(*image);
+  container.file_ = std::move(image);
   if (options.randomAccess) container.file_->adviseRandomAccess();
   AmtHeader header;
   Status status = container.readHeader(header);

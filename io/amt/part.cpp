@@ -49,7 +49,7 @@ class PartReader {
         segments_(file) {}
 
   Result<MultiTriangulation> run() {
-    if (Status checksums = checkSegmentChecksums(); !checksums) return tl::unexpected(checksums.error());
+    ARETE_CHECK(checkSegmentChecksums());
     touchBeside();
     choosePages();
     if (isTheSameEverywhere()) return readPrefix();
@@ -112,7 +112,7 @@ class PartReader {
     touchNodes(0, end_, 0, a_.slotBegin[end_]);
     const auto part = prefixOfMt(whole_, end_);
     if (!part) return culprit();
-    if (Status whole = checkSegments(); !whole) return tl::unexpected(whole.error());
+    ARETE_CHECK(checkSegments());
     return checked(*part);
   }
 
@@ -123,14 +123,14 @@ class PartReader {
       // Parents may be nodes of which nothing is loaded.
       for (const std::span<const std::byte> array :
            {std::as_bytes(a_.slotBegin), std::as_bytes(a_.floor), std::as_bytes(a_.creatorHint)})
-        if (Status read = file_.container().load(array); !read) return tl::unexpected(read.error());
+        ARETE_CHECK(file_.container().load(array));
       if (!addParents(whole_, nodes)) return culprit();
       nodes.rank();
       if (!touchSubset(nodes)) return culprit();
       part = subsetOfMt(whole_, nodes);
     }
     if (part.problem != MtSubset::Problem::none) return culprit();
-    if (Status whole = checkSegments(); !whole) return tl::unexpected(whole.error());
+    ARETE_CHECK(checkSegments());
     return checked(part.mt);
   }
 
@@ -223,13 +223,13 @@ class PartReader {
     const Status indices = checkMtIndices(part, amtGridSamples(file_), context_);
     if (!indices && indices.error().code == ErrorCode::interrupted) return interrupted();
     if (!indices) return culprit();
-    if (Status extras = checkAmtExtras(file_); !extras) return tl::unexpected(extras.error());
+    ARETE_CHECK(checkAmtExtras(file_));
     return part;
   }
 
   tl::unexpected<Error> culprit() const {
-    if (Status read = file_.container().loaded(); !read) return tl::unexpected(read.error());
-    if (const Status all = checkAmt(file_, verify_, context_); !all) return tl::unexpected(all.error());
+    ARETE_CHECK(file_.container().loaded());
+    ARETE_CHECK(checkAmt(file_, verify_, context_));
     return failure(ErrorCode::corrupt, "has nodes that contradict each other", file_.path());
   }
   tl::unexpected<Error> interrupted() const {

@@ -56,7 +56,7 @@ Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
     for (const AmtChunk& chunk : all_.chunks()) segments += amtSegmentCount(chunk.tag, chunk.bytes);
     shapes.push_back(amtSegmentShape(segments));
   }
-  if (Status shaped = all_.checkShapes(shapes); !shaped) return shaped;
+  ARETE_CHECK(all_.checkShapes(shapes));
 
   file_.writer_ = metadata.writer;
   file_.model_ = metadata.model;
@@ -97,16 +97,14 @@ Result<AmtFile> AmtOpener::open(AmtContainer container) {
   AmtFile file;
   file.container_ = std::move(container);
   AmtOpener opener(file);
-  const Result<AmtMetadata> metadata = opener.readMetadata();
-  if (!metadata) return tl::unexpected(metadata.error());
-  if (const Status placed = opener.placeArrays(*metadata); !placed) return tl::unexpected(placed.error());
+  ARETE_TRY(const AmtMetadata metadata, opener.readMetadata());
+  ARETE_CHECK(opener.placeArrays(metadata));
   return file;
 }
 
 Status AmtFile::loadAllButPacked() const {
   for (const AmtChunk& chunk : chunks())
-    if (chunk.tag != amt_tag::kPackedNodes)
-      if (Status read = container_.load(bytes(chunk)); !read) return read;
+    if (chunk.tag != amt_tag::kPackedNodes) ARETE_CHECK(container_.load(bytes(chunk)));
   return {};
 }
 
@@ -125,24 +123,22 @@ double AmtFile::errorBeyond(std::uint64_t nodes) const {
 Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const RunContext& context) const {
   const bool isPart = options.wanted && options.verify != AmtVerify::none && !isPacked() && hasSegments();
   if (isPart) return readAmtPart(*this, options.wanted, options.verify, context);
-  if (Status loaded = loadAllButPacked(); !loaded) return tl::unexpected(loaded.error());
-  if (Status checked = checkAmt(*this, options.verify, context); !checked)
-    return tl::unexpected(checked.error());
+  ARETE_CHECK(loadAllButPacked());
+  ARETE_CHECK(checkAmt(*this, options.verify, context));
   if (!isPacked()) return model_.mt;
   const AmtContainer& all = container_;
   Result<MultiTriangulation> mt =
       unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options.wanted, context,
                [&all](std::span<const std::byte> packet) { return all.load(packet).has_value(); });
-  if (Status loaded = container_.loaded(); !loaded) return tl::unexpected(loaded.error());
+  ARETE_CHECK(container_.loaded());
   if (!mt) return failure(mt.error().code, mt.error().message, path());
   return mt;
 }
 
 Result<TerrainModel> AmtFile::read(const AmtReadOptions& options, const RunContext& context) const try {
-  Result<MultiTriangulation> mt = readMt(options, context);
-  if (!mt) return tl::unexpected(mt.error());
+  ARETE_TRY(MultiTriangulation mt, readMt(options, context));
   TerrainModel model = model_;
-  model.mt = std::move(*mt);
+  model.mt = std::move(mt);
   model.options.fixedVertices.assign(fixedVertices_.begin(), fixedVertices_.end());
   model.isolated.reserve(isolatedSamples_.size());
   for (std::size_t i = 0; i < isolatedSamples_.size(); ++i)
@@ -153,9 +149,8 @@ Result<TerrainModel> AmtFile::read(const AmtReadOptions& options, const RunConte
 }
 
 Result<AmtFile> openAmt(const std::string& path, const AmtOpenOptions& options) try {
-  Result<AmtContainer> container = AmtContainer::open(path, options);
-  if (!container) return tl::unexpected(container.error());
-  return AmtOpener::open(std::move(*container));
+  ARETE_TRY(AmtContainer container, AmtContainer::open(path, options));
+  return AmtOpener::open(std::move(container));
 } catch (...) {
   return caughtFailure(path);
 }
@@ -168,9 +163,8 @@ Result<AmtFile> openAmt(AmtContainer container) try {
 
 Result<TerrainModel> loadAmt(const std::string& path, const AmtLoadOptions& options,
                              const RunContext& context) try {
-  const Result<AmtFile> file = openAmt(path, options.open);
-  if (!file) return tl::unexpected(file.error());
-  return file->read({options.verify, options.wanted}, context);
+  ARETE_TRY(const AmtFile file, openAmt(path, options.open));
+  return file.read({options.verify, options.wanted}, context);
 } catch (...) {
   return caughtFailure();
 }

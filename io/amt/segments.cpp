@@ -70,7 +70,7 @@ std::size_t AmtSegments::chunkOf(std::size_t segment) const {
 }
 
 Status AmtSegments::check(const RunContext& context) {
-  if (Status read = file_.container().loaded(); !read) return read;
+  ARETE_CHECK(file_.container().loaded());
   std::vector<std::size_t> segments;
   for (std::size_t i = 0; i < states_.size(); ++i)
     if (states_[i] == kMarked) segments.push_back(i);

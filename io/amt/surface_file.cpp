@@ -49,8 +49,7 @@ class Writing {
 
   Status run(const SurfaceWriteOptions& options) {
     if (const Status valid = model().validate(); !valid) return chunks_.refuse(valid.error().message);
-    if (options.isPacked)
-      if (const Status packed = pack(options.positionBits); !packed) return packed;
+    if (options.isPacked) ARETE_CHECK(pack(options.positionBits));
     SurfaceMetadata metadata =
         surfaceMetadataOf(model(), options.writer.empty() ? "Arete " ARETE_VERSION : options.writer);
     metadata.positionStep = packed_.step;
@@ -178,14 +177,13 @@ class Reading {
       for (const AmtTag tag : {amt_tag::kPackedDirectory, amt_tag::kPackedTables, amt_tag::kPackedNodes,
                                amt_tag::kPackedNumbers})
         addBytes(tag);
-    if (const Status shaped = all_.checkShapes(shapes); !shaped) return tl::unexpected(shaped.error());
+    ARETE_CHECK(all_.checkShapes(shapes));
     if (verify_ == AmtVerify::all) {
       Status sound = all_.checkSums({}, context_);
       if (sound) sound = all_.checkZeros();
       if (!sound) return tl::unexpected(sound.error());
     }
-    if (const Status taken = isPacked ? unpackNodes() : placeNodes(); !taken)
-      return tl::unexpected(taken.error());
+    ARETE_CHECK(isPacked ? unpackNodes() : placeNodes());
     if (verify_ != AmtVerify::none) {
       std::uint64_t finest = 0;
       forFinest(model_.mt, [&](std::uint32_t) { ++finest; });
@@ -193,14 +191,11 @@ class Reading {
         return all_.corrupt(fmt::format("has {} triangles in its finest front instead of {}", finest,
                                         metadata_.finestTriangles));
     }
-    if (!isPacked)
-      if (const Status taken = takeFaces(); !taken) return tl::unexpected(taken.error());
-    if (const Status taken = takeLooks(); !taken) return tl::unexpected(taken.error());
-    if (isPacked)
-      if (const Status taken = unpackNumbers(); !taken) return tl::unexpected(taken.error());
-    if (const Status taken = isPacked ? unpackDisplacement() : takeDisplacement(); !taken)
-      return tl::unexpected(taken.error());
-    if (const Status taken = takeLeftOutFaces(); !taken) return tl::unexpected(taken.error());
+    if (!isPacked) ARETE_CHECK(takeFaces());
+    ARETE_CHECK(takeLooks());
+    if (isPacked) ARETE_CHECK(unpackNumbers());
+    ARETE_CHECK(isPacked ? unpackDisplacement() : takeDisplacement());
+    ARETE_CHECK(takeLeftOutFaces());
     if (const Status valid = model_.validate(); !valid) return all_.corrupt(valid.error().message);
     return std::move(model_);
   }
@@ -238,7 +233,7 @@ class Reading {
   }
   Status takeDisplacement() {
     if (all_.find(amt_tag::kDirections) == nullptr && all_.find(amt_tag::kReaches) == nullptr) return {};
-    if (const Status shaped = all_.checkShapes(displacementShapes(model_.mt)); !shaped) return shaped;
+    ARETE_CHECK(all_.checkShapes(displacementShapes(model_.mt)));
     const auto directions = all_.elements<std::array<std::int8_t, 3>>(amt_tag::kDirections);
     const auto reaches = all_.elements<std::uint8_t>(amt_tag::kReaches);
     model_.displacement.directions.assign(directions.begin(), directions.end());
@@ -250,7 +245,7 @@ class Reading {
     const AmtChunk* const chunk = all_.find(amt_tag::kLeftOutFaces);
     if (chunk == nullptr) return {};
     const std::array shape{leftOutShape(chunk->bytes / sizeof(SurfaceModel::LeftOutFace))};
-    if (const Status shaped = all_.checkShapes(shape); !shaped) return shaped;
+    ARETE_CHECK(all_.checkShapes(shape));
     const auto faces = all_.elements<SurfaceModel::LeftOutFace>(amt_tag::kLeftOutFaces);
     model_.leftOutFaces.assign(faces.begin(), faces.end());
     return {};
@@ -340,26 +335,23 @@ Status writeSurfaceAmt(const std::string& path, const SurfaceModel& model, const
 }
 
 Result<bool> isSurfaceAmt(const std::string& path) try {
-  const Result<AmtContainer> container = AmtContainer::open(path);
-  if (!container) return tl::unexpected(container.error());
-  return container->isOfSurface();
+  ARETE_TRY(const AmtContainer container, AmtContainer::open(path));
+  return container.isOfSurface();
 } catch (...) {
   return caughtFailure(path);
 }
 
 Result<bool> isPackedAmt(const std::string& path) try {
-  const Result<AmtContainer> container = AmtContainer::open(path);
-  if (!container) return tl::unexpected(container.error());
-  return container->isPacked();
+  ARETE_TRY(const AmtContainer container, AmtContainer::open(path));
+  return container.isPacked();
 } catch (...) {
   return caughtFailure(path);
 }
 
 Result<SurfaceModel> loadSurfaceAmt(const std::string& path, AmtVerify verify,
                                     const RunContext& context) try {
-  const Result<AmtContainer> container = AmtContainer::open(path);
-  if (!container) return tl::unexpected(container.error());
-  return loadSurfaceAmt(*container, verify, context);
+  ARETE_TRY(const AmtContainer container, AmtContainer::open(path));
+  return loadSurfaceAmt(container, verify, context);
 } catch (...) {
   return caughtFailure(path);
 }
@@ -368,7 +360,7 @@ Result<SurfaceModel> loadSurfaceAmt(const AmtContainer& container, AmtVerify ver
                                     const RunContext& context) try {
   if (!container.isOfSurface())
     return failure(ErrorCode::unsupported, "is of terrain, and a surface is wanted here", container.path());
-  if (Status read = container.loadAll(); !read) return tl::unexpected(read.error());
+  ARETE_CHECK(container.loadAll());
   const Result<SurfaceMetadata> metadata = fromSurfaceJson(container.metadata());
   if (!metadata) return container.corrupt(fmt::format("chunk META: {}", metadata.error().message));
   return Reading(container, *metadata, verify, context).run();

@@ -37,8 +37,7 @@ class AmtWriting {
           fmt::format("{} bytes of metadata are more than {}", json_.size(), kAmtMaxMetadataBytes));
 
     chunks_.add(amt_tag::kMetadata, bytesOf(json_));
-    if (options.isPacked)
-      if (Status packed = addPacked(); !packed) return packed;
+    if (options.isPacked) ARETE_CHECK(addPacked());
     addShaped(amtShapes(metadata, options.isPacked));
     if (!options.isPacked) chunks_.addSegmentChecksums();
     return chunks_.write();

@@ -91,9 +91,8 @@ class EllipsoidEarth final : public SightEarth {
     const Vec2 stated[2] = {model_.toSource(from), model_.toSource(to)};
     meetAtPole(stated, from, to);
     const Vec2 met[2] = {model_.toSource(from), model_.toSource(to)};
-    const auto places = lonLatOf(met);
-    if (!places) return tl::unexpected(places.error());
-    const auto& ends = *places;
+    ARETE_TRY(const auto places, lonLatOf(met));
+    const auto& ends = places;
     double length = 0, azimuth = 0, arrival = 0;
     geodesic_.Inverse(ends[0].y, ends[0].x, ends[1].y, ends[1].x, length, azimuth, arrival);
     SightTrack track;
@@ -303,14 +302,13 @@ bool isOnEllipsoid(const Georeference& georeference) {
 }
 
 Result<std::unique_ptr<SightEarth>> makeEllipsoidEarth(const TerrainModel& model, double refraction) try {
-  auto lonLat = CrsLonLat::of(model.georeference);
-  if (!lonLat) return tl::unexpected(lonLat.error());
+  ARETE_TRY(auto lonLat, CrsLonLat::of(model.georeference));
   const Georeference& g = model.georeference;
   const bool isEllipsoid = std::isfinite(g.semiMajorAxisMetres) && g.semiMajorAxisMetres > 0 &&
                            (g.inverseFlattening == 0 || g.inverseFlattening > 1);
   if (!isEllipsoid || !std::isfinite(refraction))
     return failure(ErrorCode::invalidData, "the ellipsoid or the refraction is invalid");
-  return std::make_unique<EllipsoidEarth>(model, std::move(*lonLat), refraction);
+  return std::make_unique<EllipsoidEarth>(model, std::move(lonLat), refraction);
 } catch (...) {
   return caughtFailure();
 }

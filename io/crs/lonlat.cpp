@@ -27,11 +27,9 @@ struct ThereAndBack {
 };
 
 Result<ThereAndBack> makeTransforms(const std::string& crs, const std::string& lonLat) {
-  auto there = CrsTransform::between(crs, lonLat);
-  if (!there) return tl::unexpected(there.error());
-  auto back = CrsTransform::between(lonLat, crs);
-  if (!back) return tl::unexpected(back.error());
-  return ThereAndBack{std::move(*there), std::move(*back)};
+  ARETE_TRY(auto there, CrsTransform::between(crs, lonLat));
+  ARETE_TRY(auto back, CrsTransform::between(lonLat, crs));
+  return ThereAndBack{std::move(there), std::move(back)};
 }
 
 /// The geographic CRS of the datum of `crs`. OGR does not give access to the base CRS of a rotated pole; PROJ
@@ -93,24 +91,23 @@ Result<CrsLonLat> CrsLonLat::of(const Georeference& georeference) try {
                    "states it when the DEM is built");
   registerGdal();
   const GdalErrors errors;
-  auto crs = crsFromText(georeference.crsWkt);
-  if (!crs) return tl::unexpected(crs.error());
-  crs->StripVertical();
-  const char* name = crs->GetName();
-  if (!crs->IsProjected() && !crs->IsGeographic() && !crs->IsDerivedGeographic())
+  ARETE_TRY(auto crs, crsFromText(georeference.crsWkt));
+  crs.StripVertical();
+  const char* name = crs.GetName();
+  if (!crs.IsProjected() && !crs.IsGeographic() && !crs.IsDerivedGeographic())
     return failure(ErrorCode::unsupported,
                    fmt::format("the CRS {} has no longitude and latitude", name ? name : "of the DEM"));
   CrsLonLat result;
-  if (crs->IsGeographic() && !crs->IsDerivedGeographic()) {
+  if (crs.IsGeographic() && !crs.IsDerivedGeographic()) {
     result.degreesPerUnit_ = georeference.angularUnitRadians * 180 / std::numbers::pi;
     // Degrees to the last bit: 0.017453292519943295 * 180 / pi is 1 but for rounding.
     if (std::abs(result.degreesPerUnit_ - 1) < 1e-12) result.degreesPerUnit_ = 1;
     return result;
   }
-  const OGRSpatialReference own = ownLonLat(*crs);
+  const OGRSpatialReference own = ownLonLat(crs);
   result.degreesPerUnit_ = own.GetAngularUnits() * 180 / std::numbers::pi;
   result.pool_ = std::make_unique<Pool>();
-  result.pool_->crs = wktOf(*crs);
+  result.pool_->crs = wktOf(crs);
   result.pool_->lonLat = wktOf(own);
   auto first = makeTransforms(result.pool_->crs, result.pool_->lonLat);
   if (!first) return failure(ErrorCode::invalidData, first.error().describe());

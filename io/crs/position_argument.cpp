@@ -126,9 +126,8 @@ Result<PositionArgument> readPositionArgument(const std::string& option, const s
   if (!height) return failure(height.error().code, height.error().message, culprit);
   position.height = height->height;
   position.kind = height->kind;
-  const auto place = placeOf(fields[0], fields[1], toDem, culprit);
-  if (!place) return tl::unexpected(place.error());
-  position.xy = *place;
+  ARETE_TRY(const auto place, placeOf(fields[0], fields[1], toDem, culprit));
+  position.xy = place;
   return position;
 } catch (...) {
   return caughtFailure();

@@ -163,12 +163,11 @@ Result<OGRSpatialReference> chooseCrs(const OGRSpatialReference* own, const std:
   OGRSpatialReference chosen;
   if (isKnownCrs(own)) chosen = *own;
   if (!text.empty()) {
-    auto stated = crsFromUser(text);
-    if (!stated) return tl::unexpected(stated.error());
-    if (isKnownCrs(own) && !own->IsSame(&*stated))
+    ARETE_TRY(auto stated, crsFromUser(text));
+    if (isKnownCrs(own) && !own->IsSame(&stated))
       warnings.push_back(fmt::format("the CRS of the file, {}, is replaced by the one stated, {}",
-                                     nameOf(*own), nameOf(*stated)));
-    chosen = std::move(*stated);
+                                     nameOf(*own), nameOf(stated)));
+    chosen = std::move(stated);
   }
   chosen.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return chosen;

@@ -41,17 +41,16 @@ CrsTransform::~CrsTransform() = default;
 
 Result<CrsTransform> CrsTransform::between(const std::string& from, const std::string& to) try {
   registerGdal();
-  auto source = crsFromText(from), target = crsFromText(to);
-  if (!source) return tl::unexpected(source.error());
-  if (!target) return tl::unexpected(target.error());
-  source->StripVertical();
-  target->StripVertical();
+  ARETE_TRY(auto source, crsFromText(from));
+  ARETE_TRY(auto target, crsFromText(to));
+  source.StripVertical();
+  target.StripVertical();
   CrsTransform result;
-  result.sourceWkt_ = wktOf(*source);
-  if (source->IsSame(&*target)) return result;
+  result.sourceWkt_ = wktOf(source);
+  if (source.IsSame(&target)) return result;
   const GdalErrors errors;
   auto state = std::make_unique<State>();
-  state->transformation.reset(OGRCreateCoordinateTransformation(&*source, &*target));
+  state->transformation.reset(OGRCreateCoordinateTransformation(&source, &target));
   if (!state->transformation)
     return failure(
         ErrorCode::invalidData,
@@ -69,9 +68,8 @@ Result<CrsTransform> CrsTransform::fromLonLat(const Georeference& target) try {
                    "it when the DEM is built");
   if (isOnEarth(target)) return between("OGC:CRS84", target.crsWkt);
   registerGdal();
-  const auto crs = crsFromText(target.crsWkt);
-  if (!crs) return tl::unexpected(crs.error());
-  const std::unique_ptr<OGRSpatialReference> own(crs->CloneGeogCS());
+  ARETE_TRY(const auto crs, crsFromText(target.crsWkt));
+  const std::unique_ptr<OGRSpatialReference> own(crs.CloneGeogCS());
   if (!own) return failure(ErrorCode::invalidData, "the CRS of the DEM has no longitude and latitude");
   return between(wktOf(*own), target.crsWkt);
 } catch (...) {

@@ -73,7 +73,7 @@ Result<bool> describeVertical(const OGRSpatialReference& crs, const VerticalSign
       return failure(ErrorCode::usage,
                      "is not a unit of length that is known; m, ft (0.3048 m) and us-ft are", options.unit);
   }
-  if (Status status = describeCrs(crs, georeference); !status) return tl::unexpected(status.error());
+  ARETE_CHECK(describeCrs(crs, georeference));
 
   const bool isDown = pointsDown(crs);
   if (isDown) {

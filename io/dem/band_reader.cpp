@@ -137,7 +137,7 @@ Status BandReader::transfer(GDALRasterBand& band, int firstRow, int rowCount, vo
 }
 
 Status BandReader::readPlain(int firstRow, int rowCount, std::span<double> raw) {
-  if (Status status = transfer(*band_, firstRow, rowCount, raw.data(), GDT_Float64); !status) return status;
+  ARETE_CHECK(transfer(*band_, firstRow, rowCount, raw.data(), GDT_Float64));
   for (double& value : raw) {
     if (signedByte_ && value > 127) value -= 256;
     if (nodata_(value)) value = kNan;
@@ -148,7 +148,7 @@ Status BandReader::readPlain(int firstRow, int rowCount, std::span<double> raw) 
 template <class Integer>
 Status BandReader::readWide(int firstRow, int rowCount, std::span<double> raw) {
   std::vector<Integer> strip(raw.size());
-  if (Status status = transfer(*band_, firstRow, rowCount, strip.data(), type_); !status) return status;
+  ARETE_CHECK(transfer(*band_, firstRow, rowCount, strip.data(), type_));
   const auto isNodata = [&](Integer value) {
     if (!hasWideNodata_) return nodata_(double(value));
     if constexpr (std::is_signed_v<Integer>) return value == signedNodata_;
@@ -176,8 +176,7 @@ Status BandReader::readWide(int firstRow, int rowCount, std::span<double> raw) {
 
 Status BandReader::applyMask(GDALRasterBand& mask, int firstRow, int rowCount, std::span<double> raw) {
   maskStrip_.resize(raw.size());
-  if (Status status = transfer(mask, firstRow, rowCount, maskStrip_.data(), GDT_Float64); !status)
-    return status;
+  ARETE_CHECK(transfer(mask, firstRow, rowCount, maskStrip_.data(), GDT_Float64));
   for (std::size_t i = 0; i < raw.size(); ++i)
     if (!(maskStrip_[i] > 0)) raw[i] = kNan;
   return {};

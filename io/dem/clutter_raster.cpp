@@ -72,26 +72,25 @@ Result<SightClutter> readClutter(const std::string& text, const TerrainModel& mo
     clutter.height = [height](Vec2) { return height; };
     return clutter;
   }
-  auto read = readRaster(text, {}, context);
-  if (!read) return tl::unexpected(read.error());
+  ARETE_TRY(auto read, readRaster(text, {}, context));
   stateMapScale(
-      read->heightfield.georeference,
-      read->heightfield.georeference.toSource(read->heightfield.columns / 2.0, read->heightfield.rows / 2.0));
-  const Georeference& own = read->heightfield.georeference;
+      read.heightfield.georeference,
+      read.heightfield.georeference.toSource(read.heightfield.columns / 2.0, read.heightfield.rows / 2.0));
+  const Georeference& own = read.heightfield.georeference;
   const Georeference& dem = model.georeference;
   if (own.crsWkt.empty() != dem.crsWkt.empty() || (!own.crsWkt.empty() && own.crsWkt != dem.crsWkt && [&] {
         const auto way = CrsTransform::between(own.crsWkt, dem.crsWkt);
         return !way || !way->isIdentity();
       }()))
     return failure(ErrorCode::usage, "is in another CRS than the DEM; gdalwarp can transform it", text);
-  if (!mayOverlap(model, read->heightfield))
+  if (!mayOverlap(model, read.heightfield))
     return failure(ErrorCode::usage, "lies nowhere over the DEM", text);
-  const Vec2 step = groundStep(own, read->heightfield.columns / 2.0, read->heightfield.rows / 2.0);
+  const Vec2 step = groundStep(own, read.heightfield.columns / 2.0, read.heightfield.rows / 2.0);
   clutter.stepMetres = std::min(step.x, step.y) / 2;
   const double scale = own.verticalUnit.empty() || dem.verticalUnit.empty()
                            ? 1
                            : own.verticalUnitMetres / dem.verticalUnitMetres;
-  const auto samples = std::make_shared<const RasterHeightfield>(std::move(read->heightfield));
+  const auto samples = std::make_shared<const RasterHeightfield>(std::move(read.heightfield));
   const auto georeference = std::make_shared<const Georeference>(dem);
   const bool isRaster = model.isRaster;
   const LongitudeTurns turns(samples->georeference, samples->columns, samples->rows);

@@ -127,11 +127,9 @@ Status checkVirtualRawBands(GDALDataset& dataset) {
     const std::int64_t last =
         std::max<std::int64_t>(0, (columns - 1) * pixel) + std::max<std::int64_t>(0, (rows - 1) * line);
     if (!there) continue;
-    if (Status status = checkLength(
-            std::uint64_t(number("ImageOffset", 0) + last + size), *there,
-            fmt::format("its band of raw samples, of the file '{}',", CPLGetFilename(name.c_str())));
-        !status)
-      return status;
+    ARETE_CHECK(
+        checkLength(std::uint64_t(number("ImageOffset", 0) + last + size), *there,
+                    fmt::format("its band of raw samples, of the file '{}',", CPLGetFilename(name.c_str()))));
   }
   return {};
 }
@@ -165,12 +163,11 @@ Status checkSource(const std::string& path, int nesting) {
 }
 
 Status checkFilesOf(GDALDataset& dataset, int nesting) {
-  if (Status status = checkRawBands(dataset); !status) return status;
-  if (Status status = checkVirtualRawBands(dataset); !status) return status;
+  ARETE_CHECK(checkRawBands(dataset));
+  ARETE_CHECK(checkVirtualRawBands(dataset));
   const std::string driver = dataset.GetDriver() ? dataset.GetDriver()->GetDescription() : "";
   const bool isVirtual = driver == "VRT";
-  if (driver == "ILWIS")
-    if (Status whole = checkIlwis(dataset); !whole) return whole;
+  if (driver == "ILWIS") ARETE_CHECK(checkIlwis(dataset));
   const CPLStringList files(dataset.GetFileList());
   for (int i = 0; i < files.Count(); ++i) {
     const std::string file = files[i];
@@ -180,7 +177,7 @@ Status checkFilesOf(GDALDataset& dataset, int nesting) {
       return failure(whole.error().code,
                      fmt::format("its file '{}' {}", CPLGetFilename(file.c_str()), whole.error().message));
     if (!isVirtual || nesting >= kDeepestNesting) continue;
-    if (Status status = checkSource(file, nesting); !status) return status;
+    ARETE_CHECK(checkSource(file, nesting));
   }
   return {};
 }

@@ -90,9 +90,8 @@ Result<DemRead> readAsRaster(const std::string& path, const SourceReading& readi
   if (!reading.samePlace.empty())
     return failure(ErrorCode::usage,
                    "is a raster, which has one height at a place; `samePlace` is for points", path);
-  auto read = readRaster(path, rasterOptions(reading), context);
-  if (!read) return tl::unexpected(read.error());
-  return DemRead{std::move(read->heightfield), std::move(read->warnings)};
+  ARETE_TRY(auto read, readRaster(path, rasterOptions(reading), context));
+  return DemRead{std::move(read.heightfield), std::move(read.warnings)};
 }
 
 Result<DemRead> readAsPoints(const std::string& path, bool text, const SourceReading& reading,
@@ -113,17 +112,16 @@ Result<DemRead> readAsPoints(const std::string& path, bool text, const SourceRea
   pointOptions.nodata = reading.nodata;
   pointOptions.verticalUnit = reading.verticalUnit;
   pointOptions.isDepth = reading.isDepth;
-  auto read = readPoints(path, pointOptions, context);
-  if (!read) return tl::unexpected(read.error());
+  ARETE_TRY(auto read, readPoints(path, pointOptions, context));
   if (text) {
-    if (auto raster = asRaster(read->heightfield)) {
-      read->warnings.push_back(
+    if (auto raster = asRaster(read.heightfield)) {
+      read.warnings.push_back(
           fmt::format("the points fill a grid of {} columns and {} rows: read as a raster", raster->columns,
                       raster->rows));
-      return DemRead{std::move(*raster), std::move(read->warnings)};
+      return DemRead{std::move(*raster), std::move(read.warnings)};
     }
   }
-  return DemRead{std::move(read->heightfield), std::move(read->warnings)};
+  return DemRead{std::move(read.heightfield), std::move(read.warnings)};
 }
 
 bool isTextOfNumbers(const std::string& path) {
@@ -134,9 +132,8 @@ bool isTextOfNumbers(const std::string& path) {
 /// Reads the only raster in an archive, or its only text of points.
 Result<DemRead> readZipped(const std::string& archive, const SourceReading& reading,
                            const RunContext& context) {
-  const Result<std::string> inside = findZippedRaster(archive, context);
-  if (!inside) return tl::unexpected(inside.error());
-  if (isTextOfNumbers(*inside)) return readAsPoints(*inside, true, reading, context);
+  ARETE_TRY(const std::string inside, findZippedRaster(archive, context));
+  if (isTextOfNumbers(inside)) return readAsPoints(inside, true, reading, context);
   return readAsRaster(archive, reading, context);
 }
 
@@ -171,11 +168,10 @@ Result<DemRead> readSeveral(const std::string& path, const std::vector<std::stri
     openGdal(file, GDAL_OF_RASTER);
     return tl::unexpected(explainOpenFailure(file, "raster", errors));
   }
-  auto read = readRasters(files, rasterOptions(reading), context);
-  if (!read) return tl::unexpected(read.error());
-  read->heightfield.source = nameWithoutQuery(path);
-  addOnce(read->warnings, said);
-  return DemRead{std::move(read->heightfield), std::move(read->warnings)};
+  ARETE_TRY(auto read, readRasters(files, rasterOptions(reading), context));
+  read.heightfield.source = nameWithoutQuery(path);
+  addOnce(read.warnings, said);
+  return DemRead{std::move(read.heightfield), std::move(read.warnings)};
 }
 
 Result<DemRead> readFrom(const std::string& given, const SourceReading& reading, const RunContext& context) {
@@ -184,10 +180,9 @@ Result<DemRead> readFrom(const std::string& given, const SourceReading& reading,
   if (!reading.otherFiles.empty() || namesSeveralFiles(path)) {
     std::vector<std::string> names = {path};
     names.insert(names.end(), reading.otherFiles.begin(), reading.otherFiles.end());
-    const auto files = demFilesOf(names);
-    if (!files) return tl::unexpected(files.error());
-    if (files->size() > 1) return readSeveral(path, *files, reading, context);
-    path = files->front();
+    ARETE_TRY(const auto files, demFilesOf(names));
+    if (files.size() > 1) return readSeveral(path, files, reading, context);
+    path = files.front();
   }
   if (auto problem = findPipeProblem(path)) return tl::unexpected(*problem);
   if (isPointCloud(path))

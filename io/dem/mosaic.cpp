@@ -180,14 +180,13 @@ struct DemMosaic::Parts {
   /// Whether no sample of a part is valid. O(samples) then.
   Result<bool> isEmpty(const Part& part, const RunContext& context) const {
     std::vector<std::string> ignored;
-    auto file = RasterFile::open(part.path, options, ignored, context);
-    if (!file) return tl::unexpected(file.error());
+    ARETE_TRY(auto file, RasterFile::open(part.path, options, ignored, context));
     std::vector<double> heights;
-    for (std::uint32_t row = 0; row < file->rows(); row += file->stripRows()) {
+    for (std::uint32_t row = 0; row < file.rows(); row += file.stripRows()) {
       if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
-      const std::uint32_t count = std::min(file->stripRows(), file->rows() - row);
-      heights.resize(std::size_t{count} * file->columns());
-      if (Status read = file->read(row, count, heights); !read)
+      const std::uint32_t count = std::min(file.stripRows(), file.rows() - row);
+      heights.resize(std::size_t{count} * file.columns());
+      if (Status read = file.read(row, count, heights); !read)
         return failure(read.error().code, read.error().message, part.path);
       if (!std::ranges::all_of(heights, [](double height) { return std::isnan(height); })) return false;
     }
@@ -210,15 +209,13 @@ struct DemMosaic::Parts {
         ++i;
         continue;
       }
-      const auto isOther = isEmpty(parts[i], context);
-      if (!isOther) return tl::unexpected(isOther.error());
-      if (*isOther) {
+      ARETE_TRY(const auto isOther, isEmpty(parts[i], context));
+      if (isOther) {
         leaveOut(i);
         continue;
       }
-      const auto isFirst = isEmpty(parts.front(), context);
-      if (!isFirst) return tl::unexpected(isFirst.error());
-      if (!*isFirst) return fits;
+      ARETE_TRY(const auto isFirst, isEmpty(parts.front(), context));
+      if (!isFirst) return fits;
       leaveOut(0);
       i = 1;
       parts.front().column = parts.front().row = 0;
@@ -229,25 +226,23 @@ struct DemMosaic::Parts {
   Status find(const RunContext& context) {
     for (Part& part : parts) {
       if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
-      auto file = openPart(part, part.warnings, context);
-      if (!file) return tl::unexpected(file.error());
-      part.columns = file->columns();
-      part.rows = file->rows();
-      part.georeference = file->georeference();
-      part.rawScale = file->rawScale();
-      part.rawOffset = file->rawOffset();
-      part.stripRows = file->stripRows();
+      ARETE_TRY(auto file, openPart(part, part.warnings, context));
+      part.columns = file.columns();
+      part.rows = file.rows();
+      part.georeference = file.georeference();
+      part.rawScale = file.rawScale();
+      part.rawOffset = file.rawOffset();
+      part.stripRows = file.stripRows();
       if (parts.size() == 1) {
-        part.file = std::move(*file);
+        part.file = std::move(file);
         break;
       }
     }
-    if (Status fits = fit(context); !fits) return fits;
+    ARETE_CHECK(fit(context));
     if (Part& only = parts.front(); parts.size() == 1 && !only.file) {
       std::vector<std::string> repeated;
-      auto file = openPart(only, repeated, context);
-      if (!file) return tl::unexpected(file.error());
-      only.file = std::move(*file);
+      ARETE_TRY(auto file, openPart(only, repeated, context));
+      only.file = std::move(file);
     }
     joinTurns(parts);
     return {};
@@ -270,8 +265,7 @@ struct DemMosaic::Parts {
       stripRows = std::max(stripRows, part.stripRows);
       if (part.rawScale != left->rawScale || part.rawOffset != left->rawOffset) rawScale = 1, rawOffset = 0;
     }
-    if (Status status = checkSize(double(endColumn - firstColumn), double(endRow - firstRow)); !status)
-      return status;
+    ARETE_CHECK(checkSize(double(endColumn - firstColumn), double(endRow - firstRow)));
     georeference = left->georeference;
     auto& g = georeference.geoTransform;
     const double up = double(left->row - firstRow);
@@ -322,7 +316,7 @@ Result<DemMosaic> DemMosaic::open(const std::vector<std::string>& paths, const R
   auto parts = std::make_unique<Parts>();
   parts->options = options;
   for (const std::string& path : paths) parts->parts.emplace_back().path = path;
-  if (Status status = parts->find(context); !status) return tl::unexpected(status.error());
+  ARETE_CHECK(parts->find(context));
   if (Status status = parts->surround(); !status)
     return failure(status.error().code, status.error().message, paths.front());
   return DemMosaic(std::move(parts));
@@ -363,11 +357,10 @@ Status DemMosaic::read(std::uint32_t firstRow, std::uint32_t rowCount, std::span
     if (begin < end) {
       std::vector<std::string> repeated;  // the warnings of the first opening suffice
       if (!part.file) {
-        auto file = all.openPart(part, repeated, context);
-        if (!file) return tl::unexpected(file.error());
-        if (file->columns() != part.columns || file->rows() != part.rows)
+        ARETE_TRY(auto file, all.openPart(part, repeated, context));
+        if (file.columns() != part.columns || file.rows() != part.rows)
           return failure(ErrorCode::unreadable, "was replaced while it was read", part.path);
-        part.file = std::move(*file);
+        part.file = std::move(file);
       }
       all.strip.resize(std::size_t(end - begin) * part.columns);
       if (Status status =

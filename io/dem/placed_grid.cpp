@@ -17,13 +17,12 @@ Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& m
   // Any band has the grid. Without a stated band readRaster() refuses colour images.
   RasterReadOptions options;
   options.band = 1;
-  auto raster = readRaster(path, options, context);
-  if (!raster) return tl::unexpected(raster.error());
-  warnings = std::move(raster->warnings);
+  ARETE_TRY(auto raster, readRaster(path, options, context));
+  warnings = std::move(raster.warnings);
   PlacedGrid grid;
-  grid.columns = raster->heightfield.columns;
-  grid.rows = raster->heightfield.rows;
-  grid.georeference = std::move(raster->heightfield.georeference);
+  grid.columns = raster.heightfield.columns;
+  grid.rows = raster.heightfield.rows;
+  grid.georeference = std::move(raster.heightfield.georeference);
   const std::string &there = grid.georeference.crsWkt, &here = model.georeference.crsWkt;
   if (there.empty() != here.empty())
     return failure(ErrorCode::invalidData, "only one of it and the DEM has a CRS", path);
@@ -32,9 +31,8 @@ Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& m
     for (std::uint32_t column = 0; column < grid.columns; ++column)
       grid.places.push_back(grid.georeference.toSource(column, row));
   if (there != here) {
-    const auto transform = CrsTransform::between(there, here);
-    if (!transform) return tl::unexpected(transform.error());
-    transform->apply(grid.places);
+    ARETE_TRY(const auto transform, CrsTransform::between(there, here));
+    transform.apply(grid.places);
   }
   LongitudeTurns(model).apply(grid.places);
   bool hasPlace = false;

@@ -73,8 +73,7 @@ class FeatureCollector {
     const OGRwkbGeometryType type = wkbFlatten(geometry->getGeometryType());
     if (type == wkbPoint) return addPoint(feature, *geometry->toPoint());
     if (type == wkbMultiPoint) {
-      for (const OGRPoint* point : *geometry->toMultiPoint())
-        if (Status status = addPoint(feature, *point); !status) return status;
+      for (const OGRPoint* point : *geometry->toMultiPoint()) ARETE_CHECK(addPoint(feature, *point));
       return {};
     }
     return failure(ErrorCode::unsupported,
@@ -127,13 +126,11 @@ Result<int> findZField(OGRLayer& layer, const std::string& name) {
 
 Result<PointRows> readLayer(GDALDataset& dataset, OGRLayer& layer, const PointReadOptions& options,
                             std::vector<std::string>& warnings, const RunContext& context) {
-  auto zField = findZField(layer, options.zField);
-  if (!zField) return tl::unexpected(zField.error());
+  ARETE_TRY(auto zField, findZField(layer, options.zField));
   GdalErrors errors;
-  FeatureCollector collector(layer, *zField);
-  const Status read = forFeatures(dataset, layer, errors, context,
-                                  [&](OGRFeature& feature) { return collector.add(feature); });
-  if (!read) return tl::unexpected(read.error());
+  FeatureCollector collector(layer, zField);
+  ARETE_CHECK(forFeatures(dataset, layer, errors, context,
+                          [&](OGRFeature& feature) { return collector.add(feature); }));
   errors.moveTo(warnings);
   if (collector.skipped > 0)
     warnings.push_back(counted(collector.skipped, "feature without a position or a height is left out",
@@ -251,18 +248,15 @@ Result<PointRead> finish(PointRows rows, std::string_view originName, const OGRS
   if (rows.heights.size() >= kPointLimit)
     return failure(ErrorCode::unsupported,
                    fmt::format("holds {} points; {} can be numbered", rows.heights.size(), kPointLimit - 1));
-  if (Status status = mergeEqual(rows, options.samePlace, originName, read.warnings); !status)
-    return tl::unexpected(status.error());
+  ARETE_CHECK(mergeEqual(rows, options.samePlace, originName, read.warnings));
 
   PointHeightfield& points = read.heightfield;
   points.georeference.geoTransform = {-0.5, 1, 0, -0.5, 0, 1};
   points.georeference.hasGeoTransform = true;
-  auto chosen = chooseCrs(crs, options.crs, read.warnings);
-  if (!chosen) return tl::unexpected(chosen.error());
-  const auto isDepth = describeVertical(*chosen, {}, {options.verticalUnit, options.isDepth},
-                                        points.georeference, read.warnings);
-  if (!isDepth) return tl::unexpected(isDepth.error());
-  if (*isDepth)
+  ARETE_TRY(auto chosen, chooseCrs(crs, options.crs, read.warnings));
+  ARETE_TRY(const auto isDepth, describeVertical(chosen, {}, {options.verticalUnit, options.isDepth},
+                                                 points.georeference, read.warnings));
+  if (isDepth)
     for (double& height : rows.heights) height = 0 - height;
   rows.positions.shrink_to_fit();
   rows.heights.shrink_to_fit();
@@ -270,7 +264,7 @@ Result<PointRead> finish(PointRows rows, std::string_view originName, const OGRS
   points.heights = std::move(rows.heights);
   points.source = nameWithoutQuery(path);
   points.sourceChecksum = heightsChecksum(points);
-  if (Status status = points.validate(); !status) return tl::unexpected(status.error());
+  ARETE_CHECK(points.validate());
   return read;
 }
 
@@ -282,26 +276,21 @@ Result<PointRead> readFrom(const std::string& path, const PointReadOptions& opti
   GdalDatasetPtr dataset;
   bool asText = looksLikePointText(path);
   if (!asText) {
-    auto opened = openVectors(path, "set of points", errors, read.warnings);
-    if (!opened) return tl::unexpected(opened.error());
-    dataset = std::move(*opened);
+    ARETE_TRY(auto opened, openVectors(path, "set of points", errors, read.warnings));
+    dataset = std::move(opened);
   }
   if (asText) {
     if (!options.layer.empty())
       return failure(ErrorCode::usage, fmt::format("is text, which has no layer '{}'", options.layer));
-    auto rows = readPointText(path, options.zField, read.warnings, context);
-    if (!rows) return tl::unexpected(rows.error());
-    if (rows->srid == 0) return finish(std::move(*rows), "line", nullptr, options, path, std::move(read));
-    const auto crs = crsFromText(fmt::format("EPSG:{}", rows->srid));
-    if (!crs) return tl::unexpected(crs.error());
-    return finish(std::move(*rows), "line", &*crs, options, path, std::move(read));
+    ARETE_TRY(auto rows, readPointText(path, options.zField, read.warnings, context));
+    if (rows.srid == 0) return finish(std::move(rows), "line", nullptr, options, path, std::move(read));
+    ARETE_TRY(const auto crs, crsFromText(fmt::format("EPSG:{}", rows.srid)));
+    return finish(std::move(rows), "line", &crs, options, path, std::move(read));
   }
-  auto layer = chooseLayer(*dataset, options.layer, LayerKind::points);
-  if (!layer) return tl::unexpected(layer.error());
-  auto rows = readLayer(*dataset, **layer, options, read.warnings, context);
-  if (!rows) return tl::unexpected(rows.error());
+  ARETE_TRY(auto layer, chooseLayer(*dataset, options.layer, LayerKind::points));
+  ARETE_TRY(auto rows, readLayer(*dataset, *layer, options, read.warnings, context));
   errors.moveTo(read.warnings);
-  return finish(std::move(*rows), "feature", (*layer)->GetSpatialRef(), options, path, std::move(read));
+  return finish(std::move(rows), "feature", layer->GetSpatialRef(), options, path, std::move(read));
 }
 
 }  // namespace

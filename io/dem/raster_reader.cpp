@@ -35,8 +35,7 @@ Status readStrips(DemMosaic& mosaic, std::vector<double>& heights, const RunCont
     const std::uint32_t count = std::min(stripRows, rows - row);
     const std::size_t begin = heights.size();
     heights.resize(begin + columns * count);
-    if (Status status = mosaic.read(row, count, std::span(heights).subspan(begin), context); !status)
-      return status;
+    ARETE_CHECK(mosaic.read(row, count, std::span(heights).subspan(begin), context));
   }
   context.report("reading", 1);
   return {};
@@ -44,27 +43,23 @@ Status readStrips(DemMosaic& mosaic, std::vector<double>& heights, const RunCont
 
 Result<RasterRead> readMosaic(const std::vector<std::string>& paths, const RasterReadOptions& options,
                               NetworkReading& network, const RunContext& context) {
-  auto mosaic = DemMosaic::open(paths, options, context);
-  if (!mosaic) return tl::unexpected(mosaic.error());
-  const double samples = double(mosaic->columns()) * mosaic->rows();
-  if (Status status = checkMemory(samples * sizeof(double),
-                                  fmt::format("{} columns by {} rows", mosaic->columns(), mosaic->rows()));
-      !status)
-    return tl::unexpected(status.error());
+  ARETE_TRY(auto mosaic, DemMosaic::open(paths, options, context));
+  const double samples = double(mosaic.columns()) * mosaic.rows();
+  ARETE_CHECK(checkMemory(samples * sizeof(double),
+                          fmt::format("{} columns by {} rows", mosaic.columns(), mosaic.rows())));
   RasterRead read;
   RasterHeightfield& heightfield = read.heightfield;
-  if (Status status = readStrips(*mosaic, heightfield.heights, context); !status)
-    return tl::unexpected(status.error());
-  if (Status status = network.finish(); !status) return tl::unexpected(status.error());
-  mosaic->report(read.warnings);
-  heightfield.columns = mosaic->columns();
-  heightfield.rows = mosaic->rows();
-  heightfield.georeference = mosaic->georeference();
-  heightfield.rawScale = mosaic->rawScale();
-  heightfield.rawOffset = mosaic->rawOffset();
+  ARETE_CHECK(readStrips(mosaic, heightfield.heights, context));
+  ARETE_CHECK(network.finish());
+  mosaic.report(read.warnings);
+  heightfield.columns = mosaic.columns();
+  heightfield.rows = mosaic.rows();
+  heightfield.georeference = mosaic.georeference();
+  heightfield.rawScale = mosaic.rawScale();
+  heightfield.rawOffset = mosaic.rawOffset();
   heightfield.source = nameWithoutQuery(paths.front());
   heightfield.sourceChecksum = heightsChecksum(heightfield);
-  if (Status status = heightfield.validate(); !status) return tl::unexpected(status.error());
+  ARETE_CHECK(heightfield.validate());
   return read;
 }
 

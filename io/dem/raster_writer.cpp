@@ -50,9 +50,8 @@ CPLStringList creationOptions(GDALDriver& driver, const GeoTiffOptions& options)
 
 Status describe(GDALDataset& dataset, const Georeference& georeference, const GeoTiffOptions& options) {
   if (!georeference.crsWkt.empty()) {
-    auto crs = crsFromText(georeference.crsWkt);
-    if (!crs) return tl::unexpected(crs.error());
-    if (dataset.SetSpatialRef(&*crs) != CE_None)
+    ARETE_TRY(auto crs, crsFromText(georeference.crsWkt));
+    if (dataset.SetSpatialRef(&crs) != CE_None)
       return failure(ErrorCode::unreadable, "the CRS cannot be written");
   }
   if (georeference.hasGeoTransform) {
@@ -154,7 +153,7 @@ Status writeTo(const std::string& path, std::uint32_t columns, std::uint32_t row
   GdalDatasetPtr dataset(driver->Create(path.c_str(), int(written), int(rows), 1, type, list.List()));
   if (!dataset)
     return failure(ErrorCode::unreadable, fmt::format("cannot be created: {}", errors.firstFailure()));
-  if (Status status = describe(*dataset, georeference, options); !status) return status;
+  ARETE_CHECK(describe(*dataset, georeference, options));
   errors.clear();
 
   GDALRasterBand& band = *dataset->GetRasterBand(1);
@@ -192,13 +191,12 @@ Status writeGeoTiff(const std::string& path, std::uint32_t columns, std::uint32_
     return failure(ErrorCode::invalidData,
                    fmt::format("{} values for {} columns and {} rows", values.size(), columns, rows), path);
   registerGdal();
-  auto file = OutputFile::create(path);
-  if (!file) return tl::unexpected(file.error());
+  ARETE_TRY(auto file, OutputFile::create(path));
   // Overviews and masks of an older file do not describe this one.
-  file->removeBeside({".ovr", ".msk"});
+  file.removeBeside({".ovr", ".msk"});
   Status status =
-      writeTo(file->temporaryPath().string(), columns, rows, values, georeference, options, context);
-  if (status) status = file->commit();
+      writeTo(file.temporaryPath().string(), columns, rows, values, georeference, options, context);
+  if (status) status = file.commit();
   if (!status && status.error().culprit.empty()) status.error().culprit = path;
   if (status) context.report("writing", 1);
   return status;

@@ -233,12 +233,10 @@ Result<TransformerPtr> drapeTransformer(GDALDataset& picture, const TerrainModel
     return failure(ErrorCode::invalidData,
                    "has no CRS, and the DEM has one; gdal_translate -a_srs states it in a copy");
   } else {
-    const auto way = CrsTransform::between(wktOf(*own), dem);
-    if (!way) return tl::unexpected(way.error());
-    auto target = crsFromText(dem);
-    if (!target) return tl::unexpected(target.error());
-    target->StripVertical();
-    if (!way->isIdentity()) options.SetNameValue("DST_SRS", wktOf(*target).c_str());
+    ARETE_TRY(const auto way, CrsTransform::between(wktOf(*own), dem));
+    ARETE_TRY(auto target, crsFromText(dem));
+    target.StripVertical();
+    if (!way.isIdentity()) options.SetNameValue("DST_SRS", wktOf(target).c_str());
   }
   const GdalErrors errors;
   TransformerPtr made(

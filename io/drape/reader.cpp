@@ -239,18 +239,18 @@ Status DrapeReader::read(std::uint32_t column, std::uint32_t row, std::uint32_t 
   };
   for (std::size_t b = 0; b < colors; ++b) {
     if (!s.source.isStretched) {
-      if (Status ok = transfer(b, &pixels[0][b], GDT_Byte, sizeof(Pixel)); !ok) return ok;
+      ARETE_CHECK(transfer(b, &pixels[0][b], GDT_Byte, sizeof(Pixel)));
       continue;
     }
     s.values.resize(count);
-    if (Status ok = transfer(b, s.values.data(), GDT_Float32, sizeof(float)); !ok) return ok;
+    ARETE_CHECK(transfer(b, s.values.data(), GDT_Float32, sizeof(float)));
     const Range range = s.ranges[b];
     for (std::size_t i = 0; i < count; ++i) {
       const double part = (double(s.values[i]) - range.low) / (range.high - range.low);
       pixels[i][b] = part > 0 ? static_cast<std::uint8_t>(std::lround(255 * std::min(1.0, part))) : 0;
     }
   }
-  if (Status ok = transfer(colors, &pixels[0][3], GDT_Byte, sizeof(Pixel)); !ok) return ok;
+  ARETE_CHECK(transfer(colors, &pixels[0][3], GDT_Byte, sizeof(Pixel)));
   for (Pixel& p : pixels.first(count)) {
     if (colors == 1) p[1] = p[2] = p[0];
     if (p[3] == 255) continue;

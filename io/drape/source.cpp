@@ -111,18 +111,17 @@ Result<DrapeSource> openLevel(const std::string& path, const std::vector<int>& b
   registerGdal();
   GdalErrors errors;
   if (auto problem = findPipeProblem(path)) return tl::unexpected(*problem);
-  const Result<std::string> gdalPath = rasterPathOf(path);
-  if (!gdalPath) return tl::unexpected(gdalPath.error());
+  ARETE_TRY(const std::string gdalPath, rasterPathOf(path));
   DrapeSource source;
   if (overview) {
     CPLStringList options;
     options.SetNameValue("OVERVIEW_LEVEL", std::to_string(*overview).c_str());
-    source.opened.push(GdalDatasetPtr(GDALDataset::Open(gdalPath->c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY,
+    source.opened.push(GdalDatasetPtr(GDALDataset::Open(gdalPath.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY,
                                                         nullptr, options.List(), nullptr)));
   } else {
-    source.opened.push(openGdal(*gdalPath, GDAL_OF_RASTER));
+    source.opened.push(openGdal(gdalPath, GDAL_OF_RASTER));
   }
-  if (!source.opened.last()) return tl::unexpected(explainOpenFailure(*gdalPath, "raster", errors));
+  if (!source.opened.last()) return tl::unexpected(explainOpenFailure(gdalPath, "raster", errors));
   if (Status ok = chooseColors(source, bands, warnings); !ok)
     return failure(ok.error().code, ok.error().message, path);
   return source;

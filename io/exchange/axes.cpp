@@ -110,7 +110,7 @@ Status placeMesh(MeshFile& mesh, const MeshPlacing& placing, MeshUp wanted) {
     if (!mesh.verticalUnit.empty())
       return failure(ErrorCode::usage,
                      fmt::format("the file states the unit of its heights: {}", mesh.verticalUnit), culprit);
-    if (Status scaled = scaleMesh(mesh, *unit); !scaled) return scaled;
+    ARETE_CHECK(scaleMesh(mesh, *unit));
   }
   if (placing.up == MeshUp::unknown) return {};
   if (!known.empty()) {

@@ -28,10 +28,9 @@ namespace {
 Status stateCrs(MeshFile& mesh, const std::string& text, std::vector<std::string>& warnings) {
   if (text.empty()) return {};
   registerGdal();
-  const auto crs = crsFromUser(text);
-  if (!crs) return tl::unexpected(crs.error());
+  ARETE_TRY(const auto crs, crsFromUser(text));
   Georeference described;
-  if (Status ok = describeCrs(*crs, described); !ok) {
+  if (Status ok = describeCrs(crs, described); !ok) {
     ok.error().culprit = text;
     return ok;
   }
@@ -78,16 +77,14 @@ double movedByFloats(const TriangleMesh& mesh) {
 
 Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& path,
                                   const ConvertOptions& options, const RunContext& context) {
-  const Result<MeshFormat> format = meshFormatOf(path, options.format);
-  if (!format) return tl::unexpected(format.error());
+  ARETE_TRY(const MeshFormat format, meshFormatOf(path, options.format));
   ConvertedMesh converted;
   converted.warnings = std::move(mesh.warnings);
   const bool ofFloats = options.isOfFloats ? *options.isOfFloats : movedByFloats(mesh.mesh) == 0;
-  if (Status placed = place(mesh, options, *format); !placed) return tl::unexpected(placed.error());
-  if (const Status ok = stateCrs(mesh, options.crs, converted.warnings); !ok)
-    return tl::unexpected(ok.error());
-  if (!isYUp(*format))
-    for (std::string& sentence : applyTextureTransforms(mesh.mesh, format->extension != ".obj"))
+  ARETE_CHECK(place(mesh, options, format));
+  ARETE_CHECK(stateCrs(mesh, options.crs, converted.warnings));
+  if (!isYUp(format))
+    for (std::string& sentence : applyTextureTransforms(mesh.mesh, format.extension != ".obj"))
       converted.warnings.push_back(std::move(sentence));
   converted.triangles = mesh.mesh.triangles.size();
   converted.vertices = mesh.mesh.positions.size();
@@ -101,11 +98,11 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
                                  .existing = options.existing,
                                  .up = mesh.up,
                                  .pictureFolder = mesh.folder};
-  std::vector<std::uint32_t> triangleOf = trianglesOfFile(mesh.mesh, *format);
+  std::vector<std::uint32_t> triangleOf = trianglesOfFile(mesh.mesh, format);
   const Result<WrittenMesh> written = writeAndReadBack(mesh.mesh, path, writing, true, context);
   // A CRS that this format needs and GDAL does not understand is a fault of the mesh, not of the output.
   if (!written && written.error().code == ErrorCode::invalidData && !mesh.crsWkt.empty())
-    if (auto crs = crsFromText(mesh.crsWkt); !crs) return tl::unexpected(crs.error());
+    ARETE_CHECK(crsFromText(mesh.crsWkt));
   if (!written) return tl::unexpected(written.error());
   converted.frame = written->frame;
   converted.triangleOf = std::move(triangleOf);
@@ -114,10 +111,10 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   const auto lose = [&](bool isHeld, bool isThere, std::string what) {
     if (!isHeld && isThere) converted.lost.push_back(std::move(what));
   };
-  lose(format->holds.holdsCrs, !mesh.crsWkt.empty(), "the CRS");
-  lose(format->holds.holdsVerticalUnit, !mesh.verticalUnit.empty(), "the unit of the heights");
-  lose(format->holds.holdsErrors, !mesh.triangleErrors.empty(), "the error of each triangle");
-  if (ofFloats && format->extension == ".ply" && mesh.up != MeshUp::z)
+  lose(format.holds.holdsCrs, !mesh.crsWkt.empty(), "the CRS");
+  lose(format.holds.holdsVerticalUnit, !mesh.verticalUnit.empty(), "the unit of the heights");
+  lose(format.holds.holdsErrors, !mesh.triangleErrors.empty(), "the error of each triangle");
+  if (ofFloats && format.extension == ".ply" && mesh.up != MeshUp::z)
     converted.movedByFloats = movedByFloats(mesh.mesh);
   const Vec3& r = converted.frame.rounding;
   const bool wasExact = mesh.frame.rounding == Vec3{};
@@ -129,11 +126,11 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
       (wasExact || !isTerrain) && written->mesh && usedPositions(mesh.mesh) != usedPositions(*written->mesh);
   lose(isNamed, isRounded,
        fmt::format("coordinates finer than {:.2g}, {:.2g}, {:.2g} (x, y, height)", r.x, r.y, r.z));
-  if (const Vec3& off = mesh.frame.rounding; format->holds.isExact && !wasExact && isTerrain)
+  if (const Vec3& off = mesh.frame.rounding; format.holds.isExact && !wasExact && isTerrain)
     converted.warnings.push_back(fmt::format(
         "its coordinates are rounded, by up to {:.2g}, {:.2g}, {:.2g} (x, y, height), which {} cannot "
         "record: arete measure takes them as exact and may find samples in no triangle",
-        off.x, off.y, off.z, format->name));
+        off.x, off.y, off.z, format.name));
   converted.crsWkt = std::move(mesh.crsWkt);
   converted.verticalUnit = std::move(mesh.verticalUnit);
   return converted;

@@ -23,13 +23,12 @@ bool isSoup(const TriangleMesh& mesh) {
 
 Status joinSoup(MeshFile& file, const RunContext& context) {
   if (!isSoup(file.mesh)) return {};
-  Result<JoinedSurface> joined = joinSurface(file.mesh, {.partOf = file.mesh.objectOf}, context);
-  if (!joined) return tl::unexpected(joined.error());
-  file.joinedVertices = joined->joinedVertices;
-  if (joined->joinedVertices == 0) return {};
+  ARETE_TRY(JoinedSurface joined, joinSurface(file.mesh, {.partOf = file.mesh.objectOf}, context));
+  file.joinedVertices = joined.joinedVertices;
+  if (joined.joinedVertices == 0) return {};
   if (!file.vertexOf.empty())
-    for (std::uint32_t& v : joined->vertexOf) v = file.vertexOf[v];
-  file.vertexOf = std::move(joined->vertexOf);
+    for (std::uint32_t& v : joined.vertexOf) v = file.vertexOf[v];
+  file.vertexOf = std::move(joined.vertexOf);
   return {};
 }
 

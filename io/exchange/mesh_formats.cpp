@@ -94,13 +94,12 @@ void nameInUtf8(MeshFile& file) {
 
 Result<MeshFile> readAs(const std::filesystem::path& path, const RunContext& context, std::string_view name,
                         bool needsFaces) {
-  const Result<MeshFormat> format = meshFormatOf(path, name);
-  if (!format) return tl::unexpected(format.error());
-  if (!format->read)
-    return failure(ErrorCode::unsupported, fmt::format("{} files can be written, not read", format->name),
+  ARETE_TRY(const MeshFormat format, meshFormatOf(path, name));
+  if (!format.read)
+    return failure(ErrorCode::unsupported, fmt::format("{} files can be written, not read", format.name),
                    path.string());
-  const bool isPointsToo = !needsFaces && format->read == &readPly;
-  Result<MeshFile> file = isPointsToo ? readPlyOfPoints(path, context) : format->read(path, context);
+  const bool isPointsToo = !needsFaces && format.read == &readPly;
+  Result<MeshFile> file = isPointsToo ? readPlyOfPoints(path, context) : format.read(path, context);
   if (!file) return file;
   nameInUtf8(*file);
   // A NaN, infinite or negative error is invalid; then the file counts as one without errors.
@@ -208,18 +207,17 @@ Result<MeshFile> readMeshOrPoints(const std::filesystem::path& path, const RunCo
 
 Result<MeshWriteReport> writeMesh(MeshRef mesh, const std::filesystem::path& path,
                                   const MeshWriteOptions& options, const RunContext& context) try {
-  const Result<MeshFormat> format = meshFormatOf(path, options.format);
-  if (!format) return tl::unexpected(format.error());
-  if (!format->write)
-    return failure(ErrorCode::unsupported, fmt::format("{} files can be read, not written", format->name),
+  ARETE_TRY(const MeshFormat format, meshFormatOf(path, options.format));
+  if (!format.write)
+    return failure(ErrorCode::unsupported, fmt::format("{} files can be read, not written", format.name),
                    path.string());
-  if (format->write == &writeGpkg && isNoFile(path))
+  if (format.write == &writeGpkg && isNoFile(path))
     return failure(ErrorCode::unsupported, "is not a file, and a GeoPackage is a database that needs one",
                    path.string());
   OutputGroup together;
-  Result<MeshWriteReport> report = writeFitted(*format, mesh, path, options, context);
+  Result<MeshWriteReport> report = writeFitted(format, mesh, path, options, context);
   if (!report) return report;
-  if (const Status named = together.commit(); !named) return tl::unexpected(named.error());
+  ARETE_CHECK(together.commit());
   return report;
 } catch (...) {
   return caughtFailure(path.native());

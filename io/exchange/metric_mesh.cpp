@@ -26,10 +26,9 @@ double heightMetres(const MeshFile& mesh, const Georeference& georeference) {
 }  // namespace
 
 Result<MetricMeshes> toMetres(const MeshFile& first, const MeshFile& second) try {
-  const auto crs = crsFromText(first.crsWkt);
-  if (!crs) return tl::unexpected(crs.error());
+  ARETE_TRY(const auto crs, crsFromText(first.crsWkt));
   Georeference axes;
-  if (Status described = describeCrs(*crs, axes); !described) return tl::unexpected(described.error());
+  ARETE_CHECK(describeCrs(crs, axes));
   double south = std::numeric_limits<double>::infinity(), north = -south;
   for (const MeshFile* file : {&first, &second})
     for (const Vec3& p : file->mesh.positions) {

@@ -84,12 +84,10 @@ class TemporaryMesh {
 
 /// Copies the bytes of a file to a pipe.
 Status passOn(const std::filesystem::path& from, const std::filesystem::path& to) {
-  const Result<FileBytes> bytes = FileBytes::read(from);
-  if (!bytes) return tl::unexpected(bytes.error());
-  Result<FileWriter> pipe = FileWriter::create(to);
-  if (!pipe) return tl::unexpected(pipe.error());
-  pipe->write(bytes->view());
-  return pipe->finish();
+  ARETE_TRY(const FileBytes bytes, FileBytes::read(from));
+  ARETE_TRY(FileWriter pipe, FileWriter::create(to));
+  pipe.write(bytes.view());
+  return pipe.finish();
 }
 
 }  // namespace
@@ -97,33 +95,29 @@ Status passOn(const std::filesystem::path& from, const std::filesystem::path& to
 Result<WrittenMesh> writeAndReadBack(MeshRef mesh, const std::filesystem::path& path,
                                      const MeshWriteOptions& options, bool onGrid,
                                      const RunContext& context) {
-  const Result<MeshFormat> format = meshFormatOf(path, options.format);
-  if (!format) return tl::unexpected(format.error());
-  const bool mustPassOn = !format->holds.isExact && isNoFile(path);
+  ARETE_TRY(const MeshFormat format, meshFormatOf(path, options.format));
+  const bool mustPassOn = !format.holds.isExact && isNoFile(path);
   TemporaryMesh temporary;
-  if (mustPassOn)
-    if (const Status made = temporary.create(format->extension); !made) return tl::unexpected(made.error());
+  if (mustPassOn) ARETE_CHECK(temporary.create(format.extension));
   const std::filesystem::path& written = mustPassOn ? temporary.path() : path;
   OutputGroup together;
-  Result<MeshWriteReport> report = writeMesh(mesh, written, options, context);
-  if (!report) return tl::unexpected(report.error());
-  if (format->holds.isExact) {
-    if (const Status named = together.commit(); !named) return tl::unexpected(named.error());
-    return WrittenMesh{.mesh = {}, .frame = {}, .report = std::move(*report)};
+  ARETE_TRY(MeshWriteReport report, writeMesh(mesh, written, options, context));
+  if (format.holds.isExact) {
+    ARETE_CHECK(together.commit());
+    return WrittenMesh{.mesh = {}, .frame = {}, .report = std::move(report)};
   }
   // An older file of that name stays until this one has been read.
-  Result<MeshFile> file = readMesh(OutputGroup::placeOf(written), context, format->extension.substr(1));
+  Result<MeshFile> file = readMesh(OutputGroup::placeOf(written), context, format.extension.substr(1));
   if (!file) return failure(file.error().code, file.error().message, path.string());
   if (file->mesh.triangles.size() != mesh.shape.triangles.size())
     return failure(ErrorCode::corrupt, "does not hold the triangles that were written to it", path.string());
   // What goes to a pipe gets no name: the group removes it.
-  if (const Status done = mustPassOn ? passOn(OutputGroup::placeOf(written), path) : together.commit(); !done)
-    return tl::unexpected(done.error());
+  ARETE_CHECK(mustPassOn ? passOn(OutputGroup::placeOf(written), path) : together.commit());
   const double change = largestHeightChange(mesh.shape, file->mesh, onGrid);
   return WrittenMesh{.mesh = std::move(file->mesh),
                      .frame = std::move(file->frame),
                      .heightRounding = change,
-                     .report = std::move(*report)};
+                     .report = std::move(report)};
 }
 
 }  // namespace arete

@@ -49,19 +49,18 @@ Result<Vec2> readCameraPlace(const std::string& option, const std::string& text,
 Result<CameraArgument> readCameraArgument(const std::string& option, const std::string& text,
                                           const CrsTransform& toDem, const SurfaceHeights& heights) try {
   const std::string culprit = fmt::format("{} {}", option, text);
-  const auto parts = stated(option, text, toDem);
-  if (!parts) return tl::unexpected(parts.error());
-  const auto height = demHeight(parts->position, heights);
+  ARETE_TRY(const auto parts, stated(option, text, toDem));
+  const auto height = demHeight(parts.position, heights);
   if (!height) return failure(height.error().code, height.error().message, culprit);
 
   CameraArgument argument;
-  argument.positionText = parts->positionText;
+  argument.positionText = parts.positionText;
   Camera& camera = argument.camera;
-  camera.xy = parts->position.xy;
+  camera.xy = parts.position.xy;
   camera.height = *height;
-  argument.statesLook = parts->fields >= 5;
-  argument.statesFieldOfView = parts->fields == 6;
-  std::string_view behind = parts->behind;
+  argument.statesLook = parts.fields >= 5;
+  argument.statesFieldOfView = parts.fields == 6;
+  std::string_view behind = parts.behind;
   for (double* to : {&camera.azimuthDegrees, &camera.pitchDegrees, &camera.verticalFieldOfViewDegrees}) {
     if (behind.empty()) break;
     behind.remove_prefix(1);

@@ -129,10 +129,9 @@ std::string certificateJson(const Certificate& certificate, const TerrainModel& 
 
 Status writeCertificate(const std::string& path, const Certificate& certificate,
                         const TerrainModel& model) try {
-  Result<FileWriter> writer = FileWriter::create(path);
-  if (!writer) return tl::unexpected(writer.error());
-  writer->write(certificateJson(certificate, model));
-  return writer->finish();
+  ARETE_TRY(FileWriter writer, FileWriter::create(path));
+  writer.write(certificateJson(certificate, model));
+  return writer.finish();
 } catch (...) {
   return caughtFailure(path);
 }

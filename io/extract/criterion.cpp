@@ -40,11 +40,10 @@ Result<std::shared_ptr<const BoundedCriterion>> engineCriterion(const ExtractCri
   const double maxError = std::max(0.0, c.maxError.value_or(0) - reserve);
   const double outsideError = std::max(maxError, c.outsideError);
   if (c.camera) {
-    const Result<View> view = viewOf(*c.camera, model);
-    if (!view) return tl::unexpected(view.error());
+    ARETE_TRY(const View view, viewOf(*c.camera, model));
     return std::make_shared<ViewError>(
         ViewError::Options{
-            .view = *view, .pixels = c.pixelError.value_or(kNoPixelsAllowed), .outsideError = outsideError},
+            .view = view, .pixels = c.pixelError.value_or(kNoPixelsAllowed), .outsideError = outsideError},
         metric);
   }
   if (c.focus)
@@ -65,9 +64,8 @@ Result<RequiredError> requiredBy(std::span<const ExtractCriterion> criteria,
   std::vector<std::shared_ptr<const BoundedCriterion>> parts;
   for (const ExtractCriterion& c : criteria) {
     if (!c.maxError || c.camera || c.fit != ExtractFit::none) return RequiredError();
-    const auto part = engineCriterion(c, region, 0, outline);
-    if (!part) return tl::unexpected(part.error());
-    parts.push_back(*part);
+    ARETE_TRY(const auto part, engineCriterion(c, region, 0, outline));
+    parts.push_back(part);
   }
   return RequiredError([parts, metric = outline.mt.arrays().metric](const Box2& box) {
     // None of these criteria depends on heights.
@@ -92,9 +90,8 @@ Result<CutOptions> engineOptions(const ExtractCriterion& c, const TerrainModel& 
   if (c.order == ExtractOrder::depth) options.order = std::make_shared<DepthFirst>();
   if (c.order == ExtractOrder::twoQueues) {
     if (!c.camera) return failure(ErrorCode::usage, "two queues need a camera; state `camera`", "order");
-    const Result<View> view = viewOf(*c.camera, model);
-    if (!view) return tl::unexpected(view.error());
-    options.order = std::make_shared<TwoQueues>(TwoQueues::Options{.view = *view});
+    ARETE_TRY(const View view, viewOf(*c.camera, model));
+    options.order = std::make_shared<TwoQueues>(TwoQueues::Options{.view = view});
   }
   if (c.deadlineMilliseconds)
     options.deadline = Deadline::in(std::chrono::duration<double, std::milli>(*c.deadlineMilliseconds));

@@ -204,10 +204,8 @@ Result<RegionShape> extendedOnGround(const RegionShape& shape, const Georeferenc
     return failure(ErrorCode::usage, fmt::format("a distance above {:.0f} km is too large to be drawn around",
                                                  kLargestGroundDistance / 1000));
   GroundBuffer buffer(georeference, *lonLat, shape.distance);
-  for (const auto& ring : shape.rings)
-    if (Status added = buffer.add(ring, true, context); !added) return tl::unexpected(added.error());
-  for (const auto& line : shape.lines)
-    if (Status added = buffer.add(line, false, context); !added) return tl::unexpected(added.error());
+  for (const auto& ring : shape.rings) ARETE_CHECK(buffer.add(ring, true, context));
+  for (const auto& line : shape.lines) ARETE_CHECK(buffer.add(line, false, context));
   OGRMultiPolygon all = polygonsOf(shape.rings);
   for (const OGRPolygon* polygon : buffer.polygons) all.addGeometry(polygon);
   return RegionShape{.rings = ringsOf(united(repaired(all, warnings), warnings))};

@@ -67,9 +67,8 @@ bool isBudgetAlone(const ExtractRequest& request) {
 }
 
 Result<PartAndCut> readAll(const AmtFile& file, const RunContext& context) {
-  Result<TerrainModel> all = file.read({}, context);
-  if (!all) return tl::unexpected(all.error());
-  return PartAndCut{std::move(*all), std::nullopt};
+  ARETE_TRY(TerrainModel all, file.read({}, context));
+  return PartAndCut{std::move(all), std::nullopt};
 }
 
 /// A criterion for the engine, and the cut of a part by it.
@@ -80,13 +79,10 @@ struct CriterionAndCut {
 
 Result<CriterionAndCut> takeCutOf(const TerrainModel& part, const ExtractCriterion& requested,
                                   const RunContext& context) {
-  auto criterion = engineCriterion(requested, std::nullopt, 0, part);
-  if (!criterion) return tl::unexpected(criterion.error());
-  const auto options = engineOptions(requested, part);
-  if (!options) return tl::unexpected(options.error());
-  Result<Cut> cut = takeCut(part.mt, **criterion, *options, context);
-  if (!cut) return tl::unexpected(cut.error());
-  return CriterionAndCut{std::move(*criterion), std::move(*cut)};
+  ARETE_TRY(auto criterion, engineCriterion(requested, std::nullopt, 0, part));
+  ARETE_TRY(const auto options, engineOptions(requested, part));
+  ARETE_TRY(Cut cut, takeCut(part.mt, *criterion, options, context));
+  return CriterionAndCut{std::move(criterion), std::move(cut)};
 }
 
 Result<PartAndCut> readForBudget(const AmtFile& file, const ExtractCriterion& requested,
@@ -97,11 +93,9 @@ Result<PartAndCut> readForBudget(const AmtFile& file, const ExtractCriterion& re
   for (std::uint64_t guess = *requested.maxTriangles; guess < nodes; guess *= kGuessGrowth) {
     const double error = file.errorBeyond(guess);
     if (!(error > 0)) break;
-    Result<TerrainModel> part = file.read({.wanted = [error](const Box2&) { return error; }}, context);
-    if (!part) return tl::unexpected(part.error());
-    Result<CriterionAndCut> taken = takeCutOf(*part, requested, context);
-    if (!taken) return tl::unexpected(taken.error());
-    if (taken->cut.achievedError > error) return PartAndCut{std::move(*part), std::move(taken->cut)};
+    ARETE_TRY(TerrainModel part, file.read({.wanted = [error](const Box2&) { return error; }}, context));
+    ARETE_TRY(CriterionAndCut taken, takeCutOf(part, requested, context));
+    if (taken.cut.achievedError > error) return PartAndCut{std::move(part), std::move(taken.cut)};
   }
   return readAll(file, context);
 }
@@ -145,18 +139,15 @@ Result<PartAndCut> readForView(const AmtFile& file, const ExtractCriterion& requ
   ExtractCriterion guess = requested;
   guess.pixelError = requested.pixelError.value_or(kFirstGuess);
   for (int i = 0; i < kGuesses; ++i) {
-    const auto view = engineCriterion(guess, std::nullopt, 0, outline);
-    if (!view) return tl::unexpected(view.error());
-    Result<TerrainModel> part =
-        file.read({.wanted = requiredInView(static_cast<const ViewError&>(**view), outline)}, context);
-    if (!part) return tl::unexpected(part.error());
-    Result<CriterionAndCut> taken = takeCutOf(*part, requested, context);
-    if (!taken) return tl::unexpected(taken.error());
-    if (isEnough(part->mt, *taken->criterion, taken->cut))
-      return PartAndCut{std::move(*part), std::move(taken->cut)};
+    ARETE_TRY(const auto view, engineCriterion(guess, std::nullopt, 0, outline));
+    ARETE_TRY(TerrainModel part,
+              file.read({.wanted = requiredInView(static_cast<const ViewError&>(*view), outline)}, context));
+    ARETE_TRY(CriterionAndCut taken, takeCutOf(part, requested, context));
+    if (isEnough(part.mt, *taken.criterion, taken.cut))
+      return PartAndCut{std::move(part), std::move(taken.cut)};
     if (requested.pixelError) break;
-    const double aim = kMore * (1.0 + *requested.maxTriangles - part->mt.rootTriangleCount());
-    *guess.pixelError *= std::clamp(refinedTriangles(*part, **view, context) / aim, kMost, 1 / kMore);
+    const double aim = kMore * (1.0 + *requested.maxTriangles - part.mt.rootTriangleCount());
+    *guess.pixelError *= std::clamp(refinedTriangles(part, *view, context) / aim, kMost, 1 / kMore);
   }
   return readAll(file, context);
 }
@@ -177,11 +168,9 @@ Result<PartAndCut> readForExtract(const AmtFile& file, std::span<const ExtractRe
     return readForBudget(file, requests[0].criterion, context);
   if (requests.size() == 1 && isViewAlone(requests[0]))
     return readForView(file, requests[0].criterion, outline, context);
-  const Result<RequiredError> required = requiredBy(criteria, region, outline);
-  if (!required) return tl::unexpected(required.error());
-  Result<TerrainModel> part = file.read({.wanted = *required}, context);
-  if (!part) return tl::unexpected(part.error());
-  return PartAndCut{std::move(*part), std::nullopt};
+  ARETE_TRY(const RequiredError required, requiredBy(criteria, region, outline));
+  ARETE_TRY(TerrainModel part, file.read({.wanted = required}, context));
+  return PartAndCut{std::move(part), std::nullopt};
 } catch (...) {
   return caughtFailure(file.path());
 }

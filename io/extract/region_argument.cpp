@@ -60,21 +60,18 @@ Result<std::optional<std::vector<Vec2>>> readBox(const RegionText& region, const
                    fmt::format("a box has four numbers, xmin,ymin,xmax,ymax, not {}", box->size()));
   Georeference axes = dem;
   if (!region.crs.empty()) {
-    const auto crs = crsFromUser(region.crs);
-    if (!crs) return tl::unexpected(crs.error());
+    ARETE_TRY(const auto crs, crsFromUser(region.crs));
     axes = {};
-    if (Status described = describeCrs(*crs, axes); !described) return tl::unexpected(described.error());
+    ARETE_CHECK(describeCrs(crs, axes));
   }
-  auto corners = cornersOf({(*box)[0], (*box)[1], (*box)[2], (*box)[3]}, axes);
-  if (!corners) return tl::unexpected(corners.error());
-  if (region.crs.empty()) return std::move(*corners);
+  ARETE_TRY(auto corners, cornersOf({(*box)[0], (*box)[1], (*box)[2], (*box)[3]}, axes));
+  if (region.crs.empty()) return corners;
   if (dem.crsWkt.empty())
     return failure(ErrorCode::usage,
                    "has a CRS and the DEM has none, so the two cannot be brought together; "
                    "state the DEM's with `crs` when it is read");
-  auto projected = reprojectRing(*corners, region.crs, dem.crsWkt);
-  if (!projected) return tl::unexpected(projected.error());
-  return std::move(*projected);
+  ARETE_TRY(auto projected, reprojectRing(corners, region.crs, dem.crsWkt));
+  return projected;
 }
 
 Result<RegionArgument> readFile(const RegionText& region, const std::string& demCrs,
@@ -111,11 +108,10 @@ Result<RegionArgument> readFile(const RegionText& region, const std::string& dem
 
 Result<RegionArgument> readAndPlace(const RegionText& text, const Georeference& dem,
                                     const LongitudeTurns& turns, const RunContext& context) {
-  auto box = readBox(text, dem);
-  if (!box) return tl::unexpected(box.error());
+  ARETE_TRY(auto box, readBox(text, dem));
   RegionArgument region;
-  if (*box) {
-    region.shape.rings = {std::move(**box)};
+  if (box) {
+    region.shape.rings = {std::move(*box)};
   } else {
     auto read = readFile(text, dem.crsWkt, context);
     if (!read) return read;
@@ -123,9 +119,8 @@ Result<RegionArgument> readAndPlace(const RegionText& text, const Georeference& 
   }
   region.shape.distance = text.distance;
   if (text.distance > 0 && !dem.crsWkt.empty()) {
-    auto extended = extendedOnGround(region.shape, dem, region.warnings, context);
-    if (!extended) return tl::unexpected(extended.error());
-    region.shape = std::move(*extended);
+    ARETE_TRY(auto extended, extendedOnGround(region.shape, dem, region.warnings, context));
+    region.shape = std::move(extended);
   }
   turnOnto(turns, region);
   return region;

@@ -91,7 +91,7 @@ Status collectLayer(GDALDataset& dataset, OGRLayer& layer, Shapes& all, std::vec
   if (errors.anyFailure())
     return failure(ErrorCode::unreadable,
                    fmt::format("the layer '{}' cannot be read: {}", layer.GetName(), errors.firstFailure()));
-  if (Status whole = checkFeatureCount(dataset, layer, n); !whole) return whole;
+  ARETE_CHECK(checkFeatureCount(dataset, layer, n));
   errors.moveTo(warnings);
   // Some of GDAL's drivers say so, once in a process; here it is counted.
   std::erase_if(warnings, [](const std::string& warning) {
@@ -133,7 +133,7 @@ class Reprojection {
     chains_.forward = mapBy(*there_);
     chains_.back = mapBy(*back_);
     Georeference onTarget;
-    if (Status described = describeCrs(target, onTarget); !described) return described;
+    ARETE_CHECK(describeCrs(target, onTarget));
     chains_.turn = turnOf(onTarget);
     // In a cylindrical map no pole is nearer than this; in some it is infinitely far.
     chains_.pole = target.IsGeographic() ? chains_.turn / 4 : chains_.turn;
@@ -174,8 +174,7 @@ Status checkFinite(const Chain& chain) {
 Status checkFinite(const OGRMultiPolygon& polygons) {
   for (const OGRPolygon* polygon : polygons)
     for (const OGRLinearRing* ring : *polygon)
-      for (const OGRPoint& point : *ring)
-        if (Status ok = checkFinite(Chain{{point.getX(), point.getY()}}); !ok) return ok;
+      for (const OGRPoint& point : *ring) ARETE_CHECK(checkFinite(Chain{{point.getX(), point.getY()}}));
   return {};
 }
 
@@ -226,12 +225,11 @@ void takeShortWays(Chain& line, double turn) {
 /// The polygons as rings that the even-odd rule understands, before they are reprojected.
 Result<std::vector<Chain>> regionRings(const OGRMultiPolygon& polygons, const OGRSpatialReference& source,
                                        bool isReprojected, std::vector<std::string>& warnings) {
-  if (Status ok = checkFinite(polygons); !ok) return tl::unexpected(ok.error());
+  ARETE_CHECK(checkFinite(polygons));
   OGRMultiPolygon all = united(repaired(polygons, warnings), warnings);
   if (isReprojected) {
     Georeference onSource;
-    if (Status described = describeCrs(source, onSource); !described)
-      return tl::unexpected(described.error());
+    ARETE_CHECK(describeCrs(source, onSource));
     all = withinOneTurn(all, turnOf(onSource), warnings);
   }
   return ringsOf(all);
@@ -242,53 +240,44 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
   registerGdal();
   GdalErrors errors;
   RegionRead read;
-  const auto dataset = openVectors(path, "set of polygons", errors, read.warnings);
-  if (!dataset) return tl::unexpected(dataset.error());
-  auto layer = chooseLayer(**dataset, options.layer,
-                           options.takesPoints  ? LayerKind::shapes
-                           : options.takesLines ? LayerKind::polygonsAndLines
-                                                : LayerKind::polygons);
-  if (!layer) return tl::unexpected(layer.error());
+  ARETE_TRY(const auto dataset, openVectors(path, "set of polygons", errors, read.warnings));
+  ARETE_TRY(auto layer, chooseLayer(*dataset, options.layer,
+                                    options.takesPoints  ? LayerKind::shapes
+                                    : options.takesLines ? LayerKind::polygonsAndLines
+                                                         : LayerKind::polygons));
   Shapes shapes{.takesLines = options.takesLines, .takesPoints = options.takesPoints};
-  if (Status status = collectLayer(**dataset, **layer, shapes, read.warnings, context); !status)
-    return tl::unexpected(status.error());
+  ARETE_CHECK(collectLayer(*dataset, *layer, shapes, read.warnings, context));
 
-  auto source = chooseCrs((*layer)->GetSpatialRef(), options.crs, read.warnings);
-  if (!source) return tl::unexpected(source.error());
-  auto target = targetCrs.empty() ? OGRSpatialReference() : crsFromText(targetCrs);
-  if (!target) return tl::unexpected(target.error());
+  ARETE_TRY(auto source, chooseCrs(layer->GetSpatialRef(), options.crs, read.warnings));
+  ARETE_TRY(auto target, targetCrs.empty() ? OGRSpatialReference() : crsFromText(targetCrs));
   Reprojection reproject;
-  if (!source->IsEmpty() && !target->IsEmpty()) {
-    if (Status status = reproject.prepare(*source, *target); !status) return tl::unexpected(status.error());
-  } else if (source->IsEmpty() != target->IsEmpty()) {
+  if (!source.IsEmpty() && !target.IsEmpty()) {
+    ARETE_CHECK(reproject.prepare(source, target));
+  } else if (source.IsEmpty() != target.IsEmpty()) {
     read.lacksCrs = true;
     read.warnings.push_back(fmt::format("the CRS of the {} is not known; coordinates are taken as the DEM's",
-                                        source->IsEmpty() ? "region" : "DEM"));
+                                        source.IsEmpty() ? "region" : "DEM"));
   }
   errors.moveTo(read.warnings);  // of the layer's CRS
-  const double turn = turnOfDegrees(*source);
+  const double turn = turnOfDegrees(source);
   warnOfLongEdges(shapes.polygons, turn, read.warnings);
-  const auto rings = regionRings(shapes.polygons, *source, !reproject.isIdentity(), read.warnings);
-  if (!rings) return tl::unexpected(rings.error());
-  for (const Chain& ring : *rings) {
-    auto projected = reproject(ring, true);
-    if (!projected) return tl::unexpected(projected.error());
-    read.rings.push_back(std::move(*projected));
+  ARETE_TRY(const auto rings, regionRings(shapes.polygons, source, !reproject.isIdentity(), read.warnings));
+  for (const Chain& ring : rings) {
+    ARETE_TRY(auto projected, reproject(ring, true));
+    read.rings.push_back(std::move(projected));
   }
   for (const OGRLineString* line : shapes.lines) {
     Chain chain = chainOf(*line);
     takeShortWays(chain, turn);
-    if (Status ok = checkFinite(chain); !ok) return tl::unexpected(ok.error());
+    ARETE_CHECK(checkFinite(chain));
     if (chain.size() < 2) continue;
-    auto projected = reproject(chain, false);
-    if (!projected) return tl::unexpected(projected.error());
-    read.lines.push_back(std::move(*projected));
+    ARETE_TRY(auto projected, reproject(chain, false));
+    read.lines.push_back(std::move(projected));
   }
   for (const Vec2& point : shapes.points) {
-    if (Status ok = checkFinite(Chain{point}); !ok) return tl::unexpected(ok.error());
-    const auto projected = reproject(Chain{point}, false);
-    if (!projected) return tl::unexpected(projected.error());
-    read.points.push_back(projected->front());
+    ARETE_CHECK(checkFinite(Chain{point}));
+    ARETE_TRY(const auto projected, reproject(Chain{point}, false));
+    read.points.push_back(projected.front());
   }
   if (read.rings.empty() && read.lines.empty() && read.points.empty())
     return failure(ErrorCode::invalidData, options.takesLines
@@ -322,12 +311,10 @@ Result<RegionRead> regionOf(const std::vector<std::vector<std::vector<Vec2>>>& p
       const OGRPolygon polygon = polygonOf(rings);
       all.addGeometry(&polygon);
     }
-  const auto source = crs.empty() ? OGRSpatialReference() : crsFromText(crs);
-  if (!source) return tl::unexpected(source.error());
-  warnOfLongEdges(all, turnOfDegrees(*source), read.warnings);
-  auto rings = regionRings(all, *source, false, read.warnings);
-  if (!rings) return tl::unexpected(rings.error());
-  read.rings = std::move(*rings);
+  ARETE_TRY(const auto source, crs.empty() ? OGRSpatialReference() : crsFromText(crs));
+  warnOfLongEdges(all, turnOfDegrees(source), read.warnings);
+  ARETE_TRY(auto rings, regionRings(all, source, false, read.warnings));
+  read.rings = std::move(rings);
   if (read.rings.empty()) return failure(ErrorCode::invalidData, "has no polygon with an area");
   return read;
 } catch (...) {
@@ -346,11 +333,10 @@ Result<RegionRead> readRegion(const std::string& path, const std::string& target
 Result<std::vector<Vec2>> reprojectRing(const std::vector<Vec2>& ring, const std::string& fromCrs,
                                         const std::string& toCrs) try {
   registerGdal();
-  const auto source = crsFromUser(fromCrs), target = crsFromText(toCrs);
-  if (!source) return tl::unexpected(source.error());
-  if (!target) return tl::unexpected(target.error());
+  ARETE_TRY(const auto source, crsFromUser(fromCrs));
+  ARETE_TRY(const auto target, crsFromText(toCrs));
   Reprojection reproject;
-  if (Status status = reproject.prepare(*source, *target); !status) return tl::unexpected(status.error());
+  ARETE_CHECK(reproject.prepare(source, target));
   return reproject(ring, true);
 } catch (...) {
   return caughtFailure();

@@ -130,18 +130,15 @@ Result<TinExport> takeTin(const TerrainModel& model, const ExtractCriterion& c,
     if (!fewest || !c.maxTriangles || fewest->cut.triangles.size() <= *c.maxTriangles) return finish(fewest);
     // Where the budget ends the cut, the fit makes its error as small as so many triangles allow.
   }
-  const auto criterion = engineCriterion(c, region, reserve, model);
-  if (!criterion) return tl::unexpected(criterion.error());
+  ARETE_TRY(const auto criterion, engineCriterion(c, region, reserve, model));
   if (!taken) {
-    const auto options = engineOptions(c, model);
-    if (!options) return tl::unexpected(options.error());
-    Result<Cut> cut = takeCut(model.mt, **criterion, *options, context);
-    if (!cut) return tl::unexpected(cut.error());
-    taken = std::move(*cut);
+    ARETE_TRY(const auto options, engineOptions(c, model));
+    ARETE_TRY(Cut cut, takeCut(model.mt, *criterion, options, context));
+    taken = std::move(cut);
   }
   if (c.fit == ExtractFit::error || (c.fit == ExtractFit::triangles && !region))
     return finish(fitLeastError(model, *taken, {}, context));
-  if (c.camera) tin.pixels = worstSeverity(model.mt, **criterion, *taken);
+  if (c.camera) tin.pixels = worstSeverity(model.mt, *criterion, *taken);
   // Where a triangle passed by the bound over a node's ball, its own bound may be the looser of the two.
   if (c.camera && c.pixelError && taken->isComplete) tin.pixels = std::min(*tin.pixels, *c.pixelError);
   describe(*taken);
@@ -163,10 +160,9 @@ const TinExtractor::Samples& TinExtractor::samples() {
 Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, double reserve,
                                                std::optional<Cut> taken, ExtractedTin& tin,
                                                const RunContext& context) const {
-  Result<TinExport> made =
-      takeTin(model_, request.criterion, request.region, reserve, std::move(taken), tin, context);
-  if (!made) return tl::unexpected(made.error());
-  TinExport& exported = *made;
+  ARETE_TRY(TinExport made,
+            takeTin(model_, request.criterion, request.region, reserve, std::move(taken), tin, context));
+  TinExport& exported = made;
   if (isRaster(request)) {
     tin.format = {.name = "GeoTIFF",
                   .saysCrs = !model_.georeference.crsWkt.empty(),
@@ -191,9 +187,8 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
 
 Status TinExtractor::deepen(double maxError, double reserve, const RunContext& context) {
   if (!readAll_ || reserve <= kReadReserve * maxError) return {};
-  Result<TerrainModel> whole = readAll_(context);
-  if (!whole) return tl::unexpected(whole.error());
-  model_ = std::move(*whole);
+  ARETE_TRY(TerrainModel whole, readAll_(context));
+  model_ = std::move(whole);
   readAll_ = {};
   return {};
 }
@@ -209,17 +204,15 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
   const double promised = tin.promisedError;
   if (reserve > 0 && request.criterion.promisesMaxError(tin.isComplete) && reserve < promised &&
       tin.storedError + reserve > promised) {
-    if (Status deep = deepen(promised, reserve, context); !deep) return tl::unexpected(deep.error());
+    ARETE_CHECK(deepen(promised, reserve, context));
     mesh = cutAndWrite(request, reserve, std::nullopt, tin, context);
     if (!mesh) return tl::unexpected(mesh.error());
   }
   // A fit promises nothing before it is measured.
   const bool needsMeasure =
       tin.fit || isRaster(request) || !request.certificate.empty() || !request.errorRaster.empty();
-  if (needsMeasure)
-    if (Status measured = measureAndWrite(request, *mesh, tin, context); !measured)
-      return tl::unexpected(measured.error());
-  if (Status named = together.commit(); !named) return tl::unexpected(named.error());
+  if (needsMeasure) ARETE_CHECK(measureAndWrite(request, *mesh, tin, context));
+  ARETE_CHECK(together.commit());
   return tin;
 } catch (...) {
   return caughtFailure(request.output);
@@ -235,17 +228,15 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
     return std::visit([&](const auto& field) { return measure(mesh, field, options, context, into); },
                       samples());
   };
-  Result<MeasureReport> all = measureWith({}, wantsRasters ? &rasters : nullptr);
-  if (!all) return tl::unexpected(all.error());
-  tin.measured = std::move(*all);
+  ARETE_TRY(MeasureReport all, measureWith({}, wantsRasters ? &rasters : nullptr));
+  tin.measured = std::move(all);
   if (request.region) {
     const auto mask =
         std::visit([&](const auto& field) { return samplesInside(*request.region, field); }, samples());
     MeasureOptions options;
     options.mask = mask;
-    Result<MeasureReport> inside = measureWith(options, nullptr);
-    if (!inside) return tl::unexpected(inside.error());
-    tin.measuredInside = std::move(*inside);
+    ARETE_TRY(MeasureReport inside, measureWith(options, nullptr));
+    tin.measuredInside = std::move(inside);
   }
   const ExpectOptions expect{.allowCoveredNodata = model_.options.rimTolerance > 0};
   tin.isKept =
@@ -254,7 +245,7 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
   if (!isRaster(request))
     tin.format.planTolerancePixels =
         planTolerancePixels({.planRounding = {rounding.x, rounding.y}}, model_.georeference);
-  if (Status written = writeRasters(request, rasters, tin, context); !written) return written;
+  ARETE_CHECK(writeRasters(request, rasters, tin, context));
   if (request.certificate.empty()) return {};
   const Certificate certificate{
       .file = request.output,

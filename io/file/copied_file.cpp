@@ -39,15 +39,14 @@ CopiedFile::~CopiedFile() {
 }
 
 Result<std::shared_ptr<const CopiedFile>> CopiedFile::open(const std::string& path) {
-  Result<PlainFile> file = openPlain(path);
-  if (!file) return tl::unexpected(file.error());
-  const auto size = static_cast<std::size_t>(file->status.st_size);
+  ARETE_TRY(PlainFile file, openPlain(path));
+  const auto size = static_cast<std::size_t>(file.status.st_size);
   void* const begin =
       ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (begin == MAP_FAILED)
     return failure(ErrorCode::outOfMemory, fmt::format("its {} bytes do not fit into memory", size), path);
-  return std::shared_ptr<const CopiedFile>(new CopiedFile(path, std::exchange(file->descriptor.value, -1),
-                                                          file->status, static_cast<std::byte*>(begin)));
+  return std::shared_ptr<const CopiedFile>(new CopiedFile(path, std::exchange(file.descriptor.value, -1),
+                                                          file.status, static_cast<std::byte*>(begin)));
 }
 
 Status CopiedFile::checkUnchanged() const {

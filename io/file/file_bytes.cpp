@@ -67,7 +67,7 @@ Result<FileBytes> FileBytes::read(const std::filesystem::path& path) {
 Result<FileBytes> FileBytes::readText(const std::filesystem::path& path) {
   Result<FileBytes> file = read(path);
   if (!file) return file;
-  if (const Status ok = file->decodeText(path); !ok) return tl::unexpected(ok.error());
+  ARETE_CHECK(file->decodeText(path));
   return file;
 }
 

@@ -39,9 +39,8 @@ Result<FileWriter> FileWriter::create(const std::filesystem::path& path) {
   if (path == kStandardOutput) {
     descriptor = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
   } else {
-    Result<OutputFile> created = OutputFile::create(path);
-    if (!created) return tl::unexpected(created.error());
-    file = std::move(*created);
+    ARETE_TRY(OutputFile created, OutputFile::create(path));
+    file = std::move(created);
     descriptor = ::open(file->temporaryPath().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   }
   if (descriptor < 0)
@@ -103,8 +102,7 @@ Status FileWriter::finish() {
                    fmt::format("cannot be written: {}", std::generic_category().message(error_)),
                    path_.string());
   if (!file_) return {};
-  if (hash_)
-    if (Status same = readBack(); !same) return same;
+  if (hash_) ARETE_CHECK(readBack());
   return file_->commit();
 }
 

@@ -148,15 +148,14 @@ Result<std::string> runIsolated(const std::function<Result<std::string>()>& work
   const Child child(id, ends[0]);
 
   std::array<char, kHeadBytes> head{};
-  if (const Status ok = child.read(head.data(), head.size(), context); !ok) return tl::unexpected(ok.error());
+  ARETE_CHECK(child.read(head.data(), head.size(), context));
   std::uint64_t size = 0;
   std::memcpy(&size, head.data() + 1, sizeof size);
   const bool isValue = head[0] == kValue;
   if (size > (isValue ? limits.answerBytes : kLongestMessage) || (!isValue && size == 0))
     return failure(ErrorCode::corrupt, "it decodes to more than it announces");
   std::string bytes(size, '\0');
-  if (const Status ok = child.read(bytes.data(), bytes.size(), context); !ok)
-    return tl::unexpected(ok.error());
+  ARETE_CHECK(child.read(bytes.data(), bytes.size(), context));
   if (isValue) return bytes;
   const auto code = static_cast<unsigned char>(bytes[0]);
   return failure(

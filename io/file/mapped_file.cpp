@@ -17,11 +17,10 @@ namespace arete {
 static_assert(sizeof(std::size_t) == 8, "files beyond 4 GiB are mapped whole");
 
 Result<std::shared_ptr<const MappedFile>> MappedFile::open(const std::string& path) {
-  const Result<PlainFile> file = openPlain(path);
-  if (!file) return tl::unexpected(file.error());
-  const auto size = static_cast<std::size_t>(file->status.st_size);
+  ARETE_TRY(const PlainFile file, openPlain(path));
+  const auto size = static_cast<std::size_t>(file.status.st_size);
   watchInputFile(path);
-  void* const begin = ::mmap(nullptr, size, PROT_READ, MAP_SHARED, file->descriptor.value, 0);
+  void* const begin = ::mmap(nullptr, size, PROT_READ, MAP_SHARED, file.descriptor.value, 0);
   if (begin == MAP_FAILED)
     return failure(ErrorCode::unreadable,
                    fmt::format("cannot be read: {}", std::generic_category().message(errno)), path);

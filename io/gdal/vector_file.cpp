@@ -12,7 +12,7 @@ namespace arete {
 Result<GdalDatasetPtr> openVectors(const std::string& path, std::string_view kind, GdalErrors& errors,
                                    std::vector<std::string>& warnings) {
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
-  if (Status whole = checkLengthByContent(networkPathOf(path)); !whole) return tl::unexpected(whole.error());
+  ARETE_CHECK(checkLengthByContent(networkPathOf(path)));
   GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR);
   if (!dataset) return tl::unexpected(explainOpenFailure(path, kind, errors));
   if (const std::string said = errors.firstFileFailure(); !said.empty())
@@ -24,9 +24,7 @@ Result<GdalDatasetPtr> openVectors(const std::string& path, std::string_view kin
     return failure(ErrorCode::corrupt, whole ? fmt::format("has a damaged record: {}", errors.firstFailure())
                                              : whole.error().message);
   }
-  if (driver)
-    if (Status whole = checkWholeText(path, driver->GetDescription(), warnings); !whole)
-      return tl::unexpected(whole.error());
+  if (driver) ARETE_CHECK(checkWholeText(path, driver->GetDescription(), warnings));
   errors.moveTo(warnings);
   return dataset;
 }

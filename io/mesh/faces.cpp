@@ -156,7 +156,7 @@ void MeshFaces::add(SurfaceMesh& mesh, std::span<const std::uint32_t> corners,
 }
 
 Status MeshFaces::finish(MeshFile& file, const RunContext& context) {
-  if (Status ok = triangulate(file, context); !ok) return ok;
+  ARETE_CHECK(triangulate(file, context));
   // Not by faceOf, which is empty if no triangle is left.
   if (listsFaces_) listByTriangle(file.mesh);
   return {};

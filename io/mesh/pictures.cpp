@@ -137,14 +137,13 @@ Result<PictureBytes> PictureSource::read(const std::string& picture) const {
                         .mimeType = mimeTypeOf(viewOf(embedded.bytes), names_[number], embedded.mimeType),
                         .bytes = embedded.bytes};
   }
-  const Result<std::string> path = files_.find(picture);
-  if (!path) return tl::unexpected(path.error());
-  const Result<FileBytes> file = FileBytes::read(files_.folder() / *path);
+  ARETE_TRY(const std::string path, files_.find(picture));
+  const Result<FileBytes> file = FileBytes::read(files_.folder() / path);
   if (!file) return failure(file.error().code, file.error().message, picture);
   const auto* const first = reinterpret_cast<const std::byte*>(file->begin());
-  return PictureBytes{.name = path->substr(path->find_last_of('/') + 1),
-                      .path = *path,
-                      .mimeType = mimeTypeOf(file->view(), *path, {}),
+  return PictureBytes{.name = path.substr(path.find_last_of('/') + 1),
+                      .path = path,
+                      .mimeType = mimeTypeOf(file->view(), path, {}),
                       .bytes = {first, first + file->size()}};
 }
 
@@ -191,10 +190,9 @@ Result<std::string> PicturePlacer::write(const PictureBytes& picture) {
       continue;
     if (const fs::path below = (folder / path).parent_path(); !below.empty())
       fs::create_directories(below, error);
-    Result<FileWriter> file = FileWriter::create(folder / path);
-    if (!file) return tl::unexpected(file.error());
-    file->write(bytes);
-    if (const Status written = file->finish(); !written) return tl::unexpected(written.error());
+    ARETE_TRY(FileWriter file, FileWriter::create(folder / path));
+    file.write(bytes);
+    ARETE_CHECK(file.finish());
     return use(path);
   }
   return failure(ErrorCode::unreadable,

@@ -29,12 +29,12 @@ Result<MeshFile> MeshTextReader::read() {
       context_.report("reading the mesh", double(at_ - begin_) / double(end_ - begin_));
       if (context_.cancelled()) return failure(ErrorCode::interrupted, "reading was interrupted", path_);
     }
-    if (const Status ok = readLine(); !ok) return tl::unexpected(ok.error());
+    ARETE_CHECK(readLine());
     if (at_ < end_) ++at_;
   }
   if (isOurs_ && !hasEnd_)
     return failure(ErrorCode::corrupt, "is truncated: its last line, \"# end\", is missing", path_);
-  if (const Status ok = finish(); !ok) return tl::unexpected(ok.error());
+  ARETE_CHECK(finish());
   if (const Status ok = faces_.finish(mesh_, context_); !ok)
     return failure(ok.error().code, ok.error().message, path_);
   leaveOutUnusedNumbers(mesh_);

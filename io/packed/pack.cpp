@@ -225,22 +225,20 @@ bool hasOneFinestError(const MtArrays& a) {
 
 Result<PackedSurfaceMt> packSurface(const MultiTriangulation& mt, const SurfacePackOptions& options,
                                     const RunContext& context) {
-  Result<RoundedSurface> rounded = roundedSurface(mt, options.positionBits);
-  if (!rounded) return tl::unexpected(rounded.error());
-  const MtArrays& a = rounded->mt.arrays();
+  ARETE_TRY(RoundedSurface rounded, roundedSurface(mt, options.positionBits));
+  const MtArrays& a = rounded.mt.arrays();
   if (!hasOneFinestError(a))
     return failure(ErrorCode::invalidData, "has triangles that stay with different errors");
   MtKind kind;
   kind.isSurface = true;
   kind.hasDoubles = !a.vertices.places64.empty();
-  kind.step = rounded->step;
+  kind.step = rounded.step;
   kind.scale = a.scale;
   kind.metric = a.metric;
-  Packer packer(rounded->mt, kind, context);
-  Result<PackedMt> packed = packer.run();
-  if (!packed) return tl::unexpected(packed.error());
-  return PackedSurfaceMt{std::move(*packed), packer.takeOrder(), kind.hasDoubles,
-                         kind.step,          rounded->moved,     a.scale};
+  Packer packer(rounded.mt, kind, context);
+  ARETE_TRY(PackedMt packed, packer.run());
+  return PackedSurfaceMt{std::move(packed), packer.takeOrder(), kind.hasDoubles,
+                         kind.step,         rounded.moved,      a.scale};
 }
 
 }  // namespace

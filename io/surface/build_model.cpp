@@ -48,8 +48,7 @@ Result<BuiltSurface> buildSurfaceModel(MeshInput input, const std::string& sourc
                                        const SurfaceFileOptions& options, const RunContext& context) {
   BuiltSurface built;
   MeshFile& file = input.file;
-  if (Status dropped = dropAttributes(file.mesh, options.dropAttributes); !dropped)
-    return tl::unexpected(dropped.error());
+  ARETE_CHECK(dropAttributes(file.mesh, options.dropAttributes));
   built.warnings = embedPictures(file);
 
   Stopwatch building;
@@ -62,9 +61,8 @@ Result<BuiltSurface> buildSurfaceModel(MeshInput input, const std::string& sourc
   built.secondsToBuild = building.seconds();
   if (options.isDisplaced) {
     Stopwatch displacing;
-    Result<SurfaceDisplacement> displacement = findDisplacement(*model, context);
-    if (!displacement) return tl::unexpected(displacement.error());
-    model->displacement = std::move(*displacement);
+    ARETE_TRY(SurfaceDisplacement displacement, findDisplacement(*model, context));
+    model->displacement = std::move(displacement);
     built.secondsToDisplace = displacing.seconds();
   }
   model->source = std::filesystem::path(source).filename().string();

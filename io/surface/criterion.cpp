@@ -25,11 +25,10 @@ Result<std::unique_ptr<const BoundedCriterion>> engineCriterion(const SurfaceCri
   if (c.region)
     return std::make_unique<SpaceRegionError>(c.region, metric, c.maxError.value_or(0), c.outsideError);
   if (c.camera) {
-    const Result<View> view = viewOf(*c.camera, model);
-    if (!view) return tl::unexpected(view.error());
+    ARETE_TRY(const View view, viewOf(*c.camera, model));
     const double pixels = c.pixelError.value_or(c.maxTriangles ? kLeastPixels : 1);
     return std::make_unique<ViewError>(
-        ViewError::Options{.view = *view, .pixels = pixels, .outsideError = c.outsideError}, metric);
+        ViewError::Options{.view = view, .pixels = pixels, .outsideError = c.outsideError}, metric);
   }
   return std::make_unique<UniformError>(c.maxError.value_or(0));
 }

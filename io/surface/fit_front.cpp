@@ -12,21 +12,19 @@ namespace arete {
 Result<FitOutcome> fitFront(SurfaceFront& front, const TriangleMesh& source, const ChartsOfCut& charts,
                             bool keepsBorders, double cutError, std::optional<double> maxError,
                             const RunContext& context, double positionError) {
-  const Result<FittedSurface> fitted =
-      fitSurface(front.mesh.shape(), heldVertices(front.mesh, keepsBorders), source, {}, context);
-  if (!fitted) return tl::unexpected(fitted.error());
-  FitOutcome outcome{fitted->rmsBefore + positionError, fitted->rmsAfter + positionError, cutError, 1};
+  ARETE_TRY(const FittedSurface fitted,
+            fitSurface(front.mesh.shape(), heldVertices(front.mesh, keepsBorders), source, {}, context));
+  FitOutcome outcome{fitted.rmsBefore + positionError, fitted.rmsAfter + positionError, cutError, 1};
   // What is not moved has the error of the cut.
-  if (fitted->steps == 0) return outcome;
+  if (fitted.steps == 0) return outcome;
   const std::vector<Vec3> before = front.mesh.positions;
   for (const double part : {1.0, 0.5, 0.25, 0.125}) {
     outcome.part = part;
     for (std::size_t v = 0; v < before.size(); ++v)
       front.mesh.positions[v] =
-          part == 1 ? fitted->positions[v] : before[v] + part * (fitted->positions[v] - before[v]);
-    const Result<double> distance = distanceByChart(source, front.mesh.shape(), charts, context);
-    if (!distance) return tl::unexpected(distance.error());
-    outcome.distance = *distance + positionError;
+          part == 1 ? fitted.positions[v] : before[v] + part * (fitted.positions[v] - before[v]);
+    ARETE_TRY(const double distance, distanceByChart(source, front.mesh.shape(), charts, context));
+    outcome.distance = distance + positionError;
     if (!maxError || outcome.distance <= *maxError) return outcome;
   }
   front.mesh.positions = before;

@@ -60,11 +60,9 @@ double float32RoundingOf(const TriangleMesh& mesh, double Vec3::*axis) {
 }  // namespace
 
 Result<MeshInput> readMeshInput(const std::string& path, const RunContext& context) {
-  const Result<MeshFormat> format = meshFormatOf(path);
-  if (!format) return tl::unexpected(format.error());
-  Result<MeshFile> file = readMesh(path, context);
-  if (!file) return tl::unexpected(file.error());
-  MeshInput input{.file = std::move(*file), .format = format->name, .numbers = {}};
+  ARETE_TRY(const MeshFormat format, meshFormatOf(path));
+  ARETE_TRY(MeshFile file, readMesh(path, context));
+  MeshInput input{.file = std::move(file), .format = format.name, .numbers = {}};
   SurfaceMesh& mesh = input.file.mesh;
   input.rounding = roundingOf(input.file);
   input.fileVertices = mesh.positions.size() + input.file.joinedVertices;
@@ -74,16 +72,15 @@ Result<MeshInput> readMeshInput(const std::string& path, const RunContext& conte
         std::max(input.fileVertices, std::uint64_t{*std::ranges::max_element(input.file.vertexOf)} + 1);
   input.fileFaces =
       mesh.faceOf.empty() ? mesh.triangles.size() : std::uint64_t{*std::ranges::max_element(mesh.faceOf)} + 1;
-  input.numbers.first = format->extension == ".obj" || format->extension == ".2dm" ? 1 : 0;
+  input.numbers.first = format.extension == ".obj" || format.extension == ".2dm" ? 1 : 0;
   input.numbers.faceOf = mesh.faceOf;
   input.numbers.vertexOf = input.file.vertexOf;
-  const bool isGltf = format->extension == ".glb" || format->extension == ".gltf";
+  const bool isGltf = format.extension == ".glb" || format.extension == ".gltf";
   if (!isGltf && mesh.vertexAttributes.empty()) return input;
-  const Result<JoinedSurface> joined = joinSurface(mesh, {.partOf = mesh.objectOf}, context);
-  if (!joined) return tl::unexpected(joined.error());
-  input.joinedAtSeams = joined->joinedVertices;
-  if (joined->joinedVertices == 0) return input;
-  std::vector<std::uint32_t> numbers = joined->vertexOf;
+  ARETE_TRY(const JoinedSurface joined, joinSurface(mesh, {.partOf = mesh.objectOf}, context));
+  input.joinedAtSeams = joined.joinedVertices;
+  if (joined.joinedVertices == 0) return input;
+  std::vector<std::uint32_t> numbers = joined.vertexOf;
   if (!input.numbers.vertexOf.empty())
     for (std::uint32_t& v : numbers) v = input.numbers.vertexOf[v];
   input.numbers.vertexOf = std::move(numbers);
@@ -99,13 +96,13 @@ double roundingOf(const MeshFile& file) {
 }
 
 Status warnOfGaps(MeshInput& input, const RunContext& context) {
-  const Result<MeshDiagnosis> d = diagnose(
-      input.file.mesh, {.mostPlaces = 1, .selfIntersections = false, .rounding = input.rounding}, context);
-  if (!d) return tl::unexpected(d.error());
+  ARETE_TRY(const MeshDiagnosis d,
+            diagnose(input.file.mesh,
+                     {.mostPlaces = 1, .selfIntersections = false, .rounding = input.rounding}, context));
   std::vector<std::string> found;
-  if (d->tJunctions.count > 0) found.push_back(counted(d->tJunctions.count, "T-junction", "T-junctions"));
-  if (d->nearBorders.count > 0)
-    found.push_back(counted(d->nearBorders.count, "border edge that is another one but for rounding",
+  if (d.tJunctions.count > 0) found.push_back(counted(d.tJunctions.count, "T-junction", "T-junctions"));
+  if (d.nearBorders.count > 0)
+    found.push_back(counted(d.nearBorders.count, "border edge that is another one but for rounding",
                             "border edges that are others but for rounding"));
   if (!found.empty())
     input.file.warnings.push_back(fmt::format(

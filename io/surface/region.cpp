@@ -20,9 +20,8 @@ Result<std::shared_ptr<const SpaceRegion>> regionOfNumbers(std::span<const doubl
 
 Result<std::shared_ptr<const SpaceRegion>> readRegionMesh(const std::string& path,
                                                           const RunContext& context) {
-  const Result<MeshFile> file = readMesh(path, context);
-  if (!file) return tl::unexpected(file.error());
-  const auto region = ClosedMeshRegion::create(file->mesh);
+  ARETE_TRY(const MeshFile file, readMesh(path, context));
+  const auto region = ClosedMeshRegion::create(file.mesh);
   if (!region) return failure(region.error().code, region.error().message, path);
   return std::shared_ptr<const SpaceRegion>(*region);
 }

@@ -54,12 +54,12 @@ Status forFeatures(GDALDataset& dataset, OGRLayer& layer, const GdalErrors& erro
     }
     const OGRFeatureUniquePtr feature(layer.GetNextFeature());
     if (!feature) break;
-    if (Status added = add(*feature); !added) return added;
+    ARETE_CHECK(add(*feature));
   }
   if (errors.anyFailure())
     return failure(ErrorCode::unreadable,
                    fmt::format("the layer '{}' cannot be read: {}", layer.GetName(), errors.firstFailure()));
-  if (Status whole = checkFeatureCount(dataset, layer, n); !whole) return whole;
+  ARETE_CHECK(checkFeatureCount(dataset, layer, n));
   context.report("reading", 1);
   return {};
 }

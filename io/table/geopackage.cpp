@@ -65,11 +65,10 @@ Status checkDatabase(const std::string& path, const GdalErrors& errors) {
 Status writeGeoPackage(const std::filesystem::path& path, ExistingFile existing, const OwnLayer& layer,
                        const GeoPackageFill& fill, const RunContext& context) {
   registerGdal();
-  Result<OutputFile> file = OutputFile::create(path);
-  if (!file) return tl::unexpected(file.error());
+  ARETE_TRY(OutputFile file, OutputFile::create(path));
   std::optional<GeoPackageCopy> copy;
   if (existing == ExistingFile::keepsOtherLayers && mayHoldLayers(path)) {
-    auto made = GeoPackageCopy::make(path, file->temporaryPath(), layer, context);
+    auto made = GeoPackageCopy::make(path, file.temporaryPath(), layer, context);
     if (!made) return failure(made.error().code, made.error().message, path.string());
     copy = std::move(*made);
   }
@@ -79,7 +78,7 @@ Status writeGeoPackage(const std::filesystem::path& path, ExistingFile existing,
   GdalErrors errors;
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
   if (!driver) return failure(ErrorCode::unsupported, "this GDAL cannot write GeoPackages");
-  const std::string temporary = file->temporaryPath().string();
+  const std::string temporary = file.temporaryPath().string();
   GdalDatasetPtr dataset =
       copy && copy->isMade()
           ? openToAdd(temporary)
@@ -93,17 +92,16 @@ Status writeGeoPackage(const std::filesystem::path& path, ExistingFile existing,
   dataset.reset();
   if (!filled) return filled;
   if (errors.anyFailure()) return cannotBeWritten(errors);
-  if (Status sound = checkDatabase(temporary, errors); !sound) return sound;
-  return file->commit();
+  ARETE_CHECK(checkDatabase(temporary, errors));
+  return file.commit();
 }
 
 Result<OGRLayer*> addLayer(GDALDataset& dataset, const std::string& name, const std::string& crsWkt,
                            OGRwkbGeometryType type, const GdalErrors& errors, char** options) {
   std::optional<OGRSpatialReference> crs;
   if (!crsWkt.empty()) {
-    auto parsed = crsFromText(crsWkt);
-    if (!parsed) return tl::unexpected(parsed.error());
-    crs = std::move(*parsed);
+    ARETE_TRY(auto parsed, crsFromText(crsWkt));
+    crs = std::move(parsed);
   }
   OGRLayer* layer = dataset.CreateLayer(name.c_str(), crs ? &*crs : nullptr, type, options);
   if (!layer) return cannotBeWritten(errors);

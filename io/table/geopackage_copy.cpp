@@ -205,12 +205,10 @@ Result<GeoPackageCopy> GeoPackageCopy::make(const fs::path& original, const fs::
                  to = openDatabase(copy, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
   if (!from) return failureOf(nullptr, original);
   if (!to || sqlite3_errcode(to.get()) != SQLITE_OK) return failureOf(to.get(), copy);
-  if (Status copied = copyPages(from.get(), to.get(), original, copy, context); !copied)
-    return tl::unexpected(copied.error());
+  ARETE_CHECK(copyPages(from.get(), to.get(), original, copy, context));
   std::error_code ignored;
   fs::permissions(copy, fs::status(original, ignored).permissions(), ignored);
-  if (hasOlder)
-    if (Status removed = removeTable(to.get(), layer, copy); !removed) return tl::unexpected(removed.error());
+  if (hasOlder) ARETE_CHECK(removeTable(to.get(), layer, copy));
   result.isMade_ = true;
   return result;
 }

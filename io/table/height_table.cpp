@@ -28,11 +28,10 @@ constexpr std::size_t kRowsPerReport = 4096;
 
 Status writeCsv(const std::string& path, const PointTable& table,
                 std::span<const std::optional<SurfaceHeight>> heights, const RunContext& context) {
-  auto file = FileWriter::create(path);
-  if (!file) return tl::unexpected(file.error());
+  ARETE_TRY(auto file, FileWriter::create(path));
   context.report("writing", 0);
-  forCsvLines(table, heights, [&](std::string_view line) { file->write(line); });
-  if (Status finished = file->finish(); !finished) return finished;
+  forCsvLines(table, heights, [&](std::string_view line) { file.write(line); });
+  ARETE_CHECK(file.finish());
   context.report("writing", 1);
   return {};
 }
@@ -44,16 +43,15 @@ class GeoPackageRows {
       : table_(table), heights_(heights) {}
 
   Status fill(GDALDataset& dataset, const GdalErrors& errors, const RunContext& context) {
-    const Result<OGRLayer*> layer =
-        addLayer(dataset, kLayer, table_.crsWkt, table_.z.empty() ? wkbPoint : wkbPoint25D, errors);
-    if (!layer) return tl::unexpected(layer.error());
-    if (!createFields(**layer) || dataset.StartTransaction() != OGRERR_NONE) return cannotBeWritten(errors);
+    ARETE_TRY(OGRLayer* const layer,
+              addLayer(dataset, kLayer, table_.crsWkt, table_.z.empty() ? wkbPoint : wkbPoint25D, errors));
+    if (!createFields(*layer) || dataset.StartTransaction() != OGRERR_NONE) return cannotBeWritten(errors);
     for (std::size_t row = 0; row < table_.stated.size(); ++row) {
       if (row % kRowsPerReport == 0) {
         if (context.cancelled()) return failure(ErrorCode::interrupted, "writing was stopped");
         context.report("writing", double(row) / double(table_.stated.size()));
       }
-      if (!addRow(**layer, row)) return cannotBeWritten(errors);
+      if (!addRow(*layer, row)) return cannotBeWritten(errors);
     }
     if (dataset.CommitTransaction() != OGRERR_NONE) return cannotBeWritten(errors);
     context.report("writing", 1);

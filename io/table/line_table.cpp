@@ -27,11 +27,10 @@ std::vector<std::string> inputNames(const LineTable& table) {
 }
 
 Status writeCsv(const std::string& path, const LineTable& table, const RunContext& context) {
-  auto file = FileWriter::create(path);
-  if (!file) return tl::unexpected(file.error());
+  ARETE_TRY(auto file, FileWriter::create(path));
   context.report("writing", 0);
-  forCsvLines(table, [&](std::string_view line) { file->write(line); });
-  if (Status finished = file->finish(); !finished) return finished;
+  forCsvLines(table, [&](std::string_view line) { file.write(line); });
+  ARETE_CHECK(file.finish());
   context.report("writing", 1);
   return {};
 }
@@ -39,9 +38,8 @@ Status writeCsv(const std::string& path, const LineTable& table, const RunContex
 /// Writes all rows in one transaction.
 Status fill(GDALDataset& dataset, const LineTable& table, const GdalErrors& errors,
             const RunContext& context) {
-  const Result<OGRLayer*> added = addLayer(dataset, table.layer, table.crsWkt, wkbLineString, errors);
-  if (!added) return tl::unexpected(added.error());
-  OGRLayer& layer = **added;
+  ARETE_TRY(OGRLayer* const added, addLayer(dataset, table.layer, table.crsWkt, wkbLineString, errors));
+  OGRLayer& layer = *added;
   const std::vector<std::string> names = inputNames(table);
   for (std::size_t c = 0; c < names.size(); ++c)
     if (!addField(layer, names[c], table.inputs->columns[c].kind)) return cannotBeWritten(errors);

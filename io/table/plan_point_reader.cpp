@@ -52,8 +52,7 @@ Status addGeometry(const OGRGeometry& geometry, const CrsTransform& toTarget, st
   if (type != wkbMultiPoint)
     return failure(ErrorCode::unsupported,
                    fmt::format("holds a {}, not a point", geometry.getGeometryName()));
-  for (const OGRPoint* point : *geometry.toMultiPoint())
-    if (Status added = addPoint(*point, toTarget, positions); !added) return added;
+  for (const OGRPoint* point : *geometry.toMultiPoint()) ARETE_CHECK(addPoint(*point, toTarget, positions));
   return {};
 }
 
@@ -64,31 +63,23 @@ Result<PlanPoints> readFrom(const std::string& path, const std::string& targetCr
   PlanPoints read;
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
   if (looksLikePointText(path)) {
-    auto rows = readPointText(path, {}, read.warnings, context, PointTextColumns::plan);
-    if (!rows) return tl::unexpected(rows.error());
-    if (rows->srid != 0) {
-      const auto crs = crsFromText(fmt::format("EPSG:{}", rows->srid));
-      if (!crs) return tl::unexpected(crs.error());
-      const auto toTarget = transformation(&*crs, targetCrs, read.warnings);
-      if (!toTarget) return tl::unexpected(toTarget.error());
-      for (const Vec2 place : rows->positions)
-        if (Status added = addPoint({place.x, place.y}, *toTarget, read.positions); !added)
-          return tl::unexpected(added.error());
+    ARETE_TRY(auto rows, readPointText(path, {}, read.warnings, context, PointTextColumns::plan));
+    if (rows.srid != 0) {
+      ARETE_TRY(const auto crs, crsFromText(fmt::format("EPSG:{}", rows.srid)));
+      ARETE_TRY(const auto toTarget, transformation(&crs, targetCrs, read.warnings));
+      for (const Vec2 place : rows.positions)
+        ARETE_CHECK(addPoint({place.x, place.y}, toTarget, read.positions));
     } else {
-      read.positions = std::move(rows->positions);
+      read.positions = std::move(rows.positions);
     }
   } else {
-    const auto dataset = openVectors(path, "set of points", errors, read.warnings);
-    if (!dataset) return tl::unexpected(dataset.error());
-    const auto layer = chooseLayer(**dataset, {}, LayerKind::points);
-    if (!layer) return tl::unexpected(layer.error());
-    const auto toTarget = transformation((*layer)->GetSpatialRef(), targetCrs, read.warnings);
-    if (!toTarget) return tl::unexpected(toTarget.error());
-    const Status all = forFeatures(**dataset, **layer, errors, context, [&](OGRFeature& feature) -> Status {
+    ARETE_TRY(const auto dataset, openVectors(path, "set of points", errors, read.warnings));
+    ARETE_TRY(const auto layer, chooseLayer(*dataset, {}, LayerKind::points));
+    ARETE_TRY(const auto toTarget, transformation(layer->GetSpatialRef(), targetCrs, read.warnings));
+    ARETE_CHECK(forFeatures(*dataset, *layer, errors, context, [&](OGRFeature& feature) -> Status {
       const OGRGeometry* geometry = feature.GetGeometryRef();
-      return geometry ? addGeometry(*geometry, *toTarget, read.positions) : Status();
-    });
-    if (!all) return tl::unexpected(all.error());
+      return geometry ? addGeometry(*geometry, toTarget, read.positions) : Status();
+    }));
     errors.moveTo(read.warnings);
   }
   if (read.positions.empty()) return failure(ErrorCode::invalidData, "holds no point");

@@ -108,24 +108,19 @@ Result<PointTable> readFrom(const std::string& path, const Georeference& dem,
   if (isText) {
     if (!options.layer.empty())
       return failure(ErrorCode::usage, fmt::format("is text, which has no layer '{}'", options.layer));
-    auto rows =
-        readPointText(path, {}, table.warnings, context, PointTextColumns::planRows, &table.attributes);
-    if (!rows) return tl::unexpected(rows.error());
-    table.stated = std::move(rows->positions);
-    table.z = std::move(rows->heights);
-    table.withoutPlace = rows->withoutPlace;
+    ARETE_TRY(auto rows, readPointText(path, {}, table.warnings, context, PointTextColumns::planRows,
+                                       &table.attributes));
+    table.stated = std::move(rows.positions);
+    table.z = std::move(rows.heights);
+    table.withoutPlace = rows.withoutPlace;
     table.attributes.findKinds();
-    const auto crs = crsOfSrid(rows->srid);
-    if (!crs) return tl::unexpected(crs.error());
-    transform = transformOf(&*crs, dem, options.lonLat, isText, table.warnings);
+    ARETE_TRY(const auto crs, crsOfSrid(rows.srid));
+    transform = transformOf(&crs, dem, options.lonLat, isText, table.warnings);
   } else {
-    const auto dataset = openVectors(path, "set of points", errors, table.warnings);
-    if (!dataset) return tl::unexpected(dataset.error());
-    const auto layer = chooseLayer(**dataset, options.layer, LayerKind::points);
-    if (!layer) return tl::unexpected(layer.error());
-    if (Status read = readLayer(**dataset, **layer, table, context); !read)
-      return tl::unexpected(read.error());
-    transform = transformOf((*layer)->GetSpatialRef(), dem, options.lonLat, isText, table.warnings);
+    ARETE_TRY(const auto dataset, openVectors(path, "set of points", errors, table.warnings));
+    ARETE_TRY(const auto layer, chooseLayer(*dataset, options.layer, LayerKind::points));
+    ARETE_CHECK(readLayer(*dataset, *layer, table, context));
+    transform = transformOf(layer->GetSpatialRef(), dem, options.lonLat, isText, table.warnings);
   }
   if (!transform) return tl::unexpected(transform.error());
   if (table.stated.empty()) return failure(ErrorCode::invalidData, "holds no point");

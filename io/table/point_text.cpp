@@ -137,7 +137,7 @@ class TextParser {
     ++nextLine_;
     if (line.find('\n') != std::string_view::npos) {
       nextLine_ += std::uint64_t(std::count(line.begin(), line.end(), '\n'));
-      if (Status ok = checkQuotes(line); !ok) return ok;
+      ARETE_CHECK(checkQuotes(line));
     }
     line = line.substr(0, findComment(line));
     if (trimmed(line).empty()) return {};
@@ -219,8 +219,7 @@ class TextParser {
   bool isPlan() const { return kind_ != PointTextColumns::spatial; }
 
   Status addPoint(std::string_view line) {
-    if (namedColumns_ > 0)
-      if (Status ok = checkCommas(line); !ok) return ok;
+    if (namedColumns_ > 0) ARETE_CHECK(checkCommas(line));
     std::array<double, 3> values{};
     std::array<bool, 3> isMissing{};
     const bool hasWkt = columns_.wkt != kNoColumn;
@@ -234,8 +233,7 @@ class TextParser {
         return failure(ErrorCode::invalidData,
                        fmt::format("{} holds {} of the {} fields needed", quoted(trimmed(line)), i, last + 1),
                        where());
-      if (i == columns_.wkt)
-        if (Status ok = takeWkt(field, values, isMissing); !ok) return ok;
+      if (i == columns_.wkt) ARETE_CHECK(takeWkt(field, values, isMissing));
       for (std::size_t k = 0; k < 3; ++k) {
         if (columns_.at[k] != i) continue;
         const CellNumber number = readCell(field);
@@ -249,7 +247,7 @@ class TextParser {
         if (number.kind == CellNumber::Kind::missing || !std::isfinite(number.value))
           return failure(ErrorCode::invalidData, fmt::format("{} is not a finite number", quoted(field)),
                          where());
-        if (Status ok = takeDecimalSign(field, number); !ok) return ok;
+        ARETE_CHECK(takeDecimalSign(field, number));
         values[k] = number.value;
       }
     }
@@ -476,7 +474,7 @@ Result<PointRows> readPointText(const std::string& path, const std::string& zCol
         if (more) break;
         end = text.size();
       }
-      if (Status added = parser.addRecord(text.substr(0, end)); !added) return tl::unexpected(added.error());
+      ARETE_CHECK(parser.addRecord(text.substr(0, end)));
       text.remove_prefix(std::min(end + 1, text.size()));
     }
     if (text.size() > kLongestRecord)

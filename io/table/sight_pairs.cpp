@@ -114,13 +114,12 @@ class PairReader {
     std::array<SightSite, 2> row;
     for (SightSite& site : row) site.stated = {kNone, kNone};
     if (hasGeometry_) {
-      if (Status read = readGeometry(feature, row); !read) return read;
+      ARETE_CHECK(readGeometry(feature, row));
     } else {
       for (int end = 0; end < 2; ++end)
         for (const auto& [column, value] :
              {std::pair{x_[end], &row[end].stated.x}, {y_[end], &row[end].stated.y}})
-          if (column >= 0)
-            if (Status read = readNumber(feature, column, *value); !read) return read;
+          if (column >= 0) ARETE_CHECK(readNumber(feature, column, *value));
     }
     for (int end = 0; end < 2; ++end) {
       if (height_[end] < 0) continue;
@@ -132,8 +131,8 @@ class PairReader {
     }
     std::array<double, 2> direction = {kNone, kNone};
     if (hasDirection()) {
-      if (Status read = readNumber(feature, azimuth_, direction[0]); !read) return read;
-      if (Status read = readNumber(feature, range_, direction[1]); !read) return read;
+      ARETE_CHECK(readNumber(feature, azimuth_, direction[0]));
+      ARETE_CHECK(readNumber(feature, range_, direction[1]));
       // A negative range would be another azimuth.
       if (!std::isfinite(row[1].stated.x) && direction[1] <= 0)
         return failure(ErrorCode::invalidData, "has a range that is not above 0", where(feature));
@@ -239,26 +238,24 @@ Result<SightPairs> readFrom(const std::string& path, const Georeference& dem,
   if (!opened && opened.error().culprit.starts_with("CSV:")) opened.error().culprit = path;
   if (!opened) return tl::unexpected(opened.error());
   const GdalDatasetPtr dataset = std::move(*opened);
-  const auto layer = chooseLayer(*dataset, options.layer, LayerKind::linesOrTable);
-  if (!layer) return tl::unexpected(layer.error());
-  const bool isTable = (*layer)->GetGeomType() == wkbNone;
-  PairReader reader(**layer, pairs);
-  if (Status checked = reader.check(); !checked) return tl::unexpected(checked.error());
-  const Status read = forFeatures(*dataset, **layer, errors, context, [&](OGRFeature& feature) -> Status {
+  ARETE_TRY(const auto layer, chooseLayer(*dataset, options.layer, LayerKind::linesOrTable));
+  const bool isTable = layer->GetGeomType() == wkbNone;
+  PairReader reader(*layer, pairs);
+  ARETE_CHECK(reader.check());
+  ARETE_CHECK(forFeatures(*dataset, *layer, errors, context, [&](OGRFeature& feature) -> Status {
     if (Status added = reader.add(feature); !added)
       return failure(
           added.error().code, added.error().message,
           added.error().culprit.empty() ? path : fmt::format("{}, {}", path, added.error().culprit));
     return {};
-  });
-  if (!read) return tl::unexpected(read.error());
+  }));
   if (pairs.rows.empty()) return failure(ErrorCode::invalidData, "holds no line");
   if (isTable) pairs.attributes.findKinds();
-  const auto transform = transformOf((*layer)->GetSpatialRef(), dem, options.lonLat, isTable, pairs.warnings);
-  if (!transform) return tl::unexpected(transform.error());
+  ARETE_TRY(const auto transform,
+            transformOf(layer->GetSpatialRef(), dem, options.lonLat, isTable, pairs.warnings));
   errors.moveTo(pairs.warnings);
-  pairs.crsWkt = transform->sourceWkt().empty() ? dem.crsWkt : transform->sourceWkt();
-  setPositions(pairs, reader, *transform, dem);
+  pairs.crsWkt = transform.sourceWkt().empty() ? dem.crsWkt : transform.sourceWkt();
+  setPositions(pairs, reader, transform, dem);
   return pairs;
 }
 
@@ -275,12 +272,11 @@ Result<SightPairs> readSightPairs(const std::string& path, const Georeference& d
 
 Result<SightPairs> readSightSites(const std::string& path, const Georeference& dem,
                                   const PointTableOptions& options, const RunContext& context) try {
-  auto table = readPointTable(path, dem, options, context);
-  if (!table) return tl::unexpected(table.error());
+  ARETE_TRY(auto table, readPointTable(path, dem, options, context));
   SightPairs sites;
-  sites.attributes = std::move(table->attributes);
-  sites.crsWkt = std::move(table->crsWkt);
-  sites.warnings = std::move(table->warnings);
+  sites.attributes = std::move(table.attributes);
+  sites.crsWkt = std::move(table.crsWkt);
+  sites.warnings = std::move(table.warnings);
   const auto nameOf = [&](std::size_t i) { return std::string_view(sites.attributes.columns[i].name); };
   int column = -1;
   for (int end = 0; end < 2 && column < 0; ++end)
@@ -295,10 +291,10 @@ Result<SightPairs> readSightSites(const std::string& path, const Georeference& d
                      fmt::format("{}, row {}", path, row + 1));
     return *number;
   };
-  for (std::size_t i = 0; i < table->stated.size(); ++i) {
+  for (std::size_t i = 0; i < table.stated.size(); ++i) {
     std::array<SightSite, 2> row;
-    row[0].stated = table->stated[i];
-    row[0].xy = table->positions[i];
+    row[0].stated = table.stated[i];
+    row[0].xy = table.positions[i];
     row[1].stated = row[1].xy = {kNone, kNone};
     if (column >= 0)
       if (const std::string_view text = sites.attributes.at(i, std::size_t(column)); !text.empty()) {

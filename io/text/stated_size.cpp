@@ -34,9 +34,8 @@ Result<std::vector<StatedSize>> parseStatedSizes(std::string_view text, const st
   std::vector<StatedSize> sizes;
   while (true) {
     const std::size_t comma = text.find(',');
-    Result<StatedSize> size = parseStatedSize(text.substr(0, comma), culprit);
-    if (!size) return tl::unexpected(size.error());
-    sizes.push_back(std::move(*size));
+    ARETE_TRY(StatedSize size, parseStatedSize(text.substr(0, comma), culprit));
+    sizes.push_back(std::move(size));
     if (comma == text.npos) return sizes;
     text.remove_prefix(comma + 1);
   }

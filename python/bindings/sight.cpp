@@ -78,30 +78,24 @@ py::tuple los(const Terrain& terrain, const Doubles& from, const Doubles& to, do
   const auto answers = call(progress, [&](const RunContext& context) -> Result<std::vector<SightPathAnswer>> {
     const TerrainModel& model = terrain.model();
     const SightRequest request{earthName, nodata, refraction};
-    const auto earth = makeEarth(request, model);
-    if (!earth) return tl::unexpected(earth.error());
-    const auto gaps = nodataOf(request);
-    if (!gaps) return tl::unexpected(gaps.error());
+    ARETE_TRY(const auto earth, makeEarth(request, model));
+    ARETE_TRY(const auto gaps, nodataOf(request));
     const LongitudeTurns turns(model);
     std::vector<SightPath> paths;
     for (std::size_t i = 0; i < count; ++i) {
-      const auto first = endOf(terrain, turns, from.data() + 3 * i, fmt::format("observer {}", i));
-      if (!first) return tl::unexpected(first.error());
-      const auto second = endOf(terrain, turns, to.data() + 3 * i, fmt::format("target {}", i));
-      if (!second) return tl::unexpected(second.error());
-      paths.push_back({first->first, second->first, first->second, second->second});
+      ARETE_TRY(const auto first, endOf(terrain, turns, from.data() + 3 * i, fmt::format("observer {}", i)));
+      ARETE_TRY(const auto second, endOf(terrain, turns, to.data() + 3 * i, fmt::format("target {}", i)));
+      paths.push_back({first.first, second.first, first.second, second.second});
     }
-    const auto engine = makeSightEngine(methodFor(count, maxError, model), model, {}, context);
-    if (!engine) return tl::unexpected(engine.error());
+    ARETE_TRY(const auto engine, makeSightEngine(methodFor(count, maxError, model), model, {}, context));
     const Profiles profiles(model, nullptr);
     SightPathOptions options;
-    options.sight.nodata = *gaps;
+    options.sight.nodata = gaps;
     options.sight.maxError = maxError;
-    const auto found = answerPaths(paths, **earth, **engine, profiles, options, context);
-    if (!found) return tl::unexpected(found.error());
+    ARETE_TRY(const auto found, answerPaths(paths, *earth, *engine, profiles, options, context));
     std::vector<SightPathAnswer> all;
     for (std::size_t i = 0; i < count; ++i) {
-      const Result<SightPathAnswer>& one = (*found)[i];
+      const Result<SightPathAnswer>& one = found[i];
       if (!one)
         return failure(one.error().code, one.error().message,
                        fmt::format("line {}: {}", i, one.error().culprit));
@@ -132,19 +126,17 @@ py::tuple profile(const Terrain& terrain, const Doubles& line, double maxError, 
                   std::optional<double> refraction, const py::object& progress) {
   const Profile found = call(progress, [&](const RunContext&) -> Result<Profile> {
     const TerrainModel& model = terrain.model();
-    const auto earth = makeEarth({earthName, "unknown", refraction}, model);
-    if (!earth) return tl::unexpected(earth.error());
+    ARETE_TRY(const auto earth, makeEarth({earthName, "unknown", refraction}, model));
     const LongitudeTurns turns(model);
     std::vector<Vec2> places;
     for (py::ssize_t i = 0; i < line.shape(0); ++i)
       places.push_back({line.data()[2 * i], line.data()[2 * i + 1]});
     turns.apply(places);
     for (Vec2& place : places) place = sightPlan(model, place);
-    const auto track = trackAlong(places, **earth);
-    if (!track) return tl::unexpected(track.error());
+    ARETE_TRY(const auto track, trackAlong(places, *earth));
     const Profiles profiles(
         model, maxError == 0 && model.isRaster ? std::make_shared<const SightGrid>(model) : nullptr);
-    return profiles.along(*track, maxError);
+    return profiles.along(track, maxError);
   });
   const auto count = static_cast<py::ssize_t>(found.vertices.size());
   Doubles distances(count), heights(count), places(std::vector<py::ssize_t>{count, 2});
@@ -170,19 +162,15 @@ py::array_t<std::uint8_t> viewshed(const Terrain& terrain, const std::array<doub
   const Viewshed seen = call(progress, [&](const RunContext& context) -> Result<Viewshed> {
     const TerrainModel& model = terrain.model();
     const SightRequest request{earthName, nodata, refraction};
-    const auto earth = makeEarth(request, model);
-    if (!earth) return tl::unexpected(earth.error());
-    const auto gaps = nodataOf(request);
-    if (!gaps) return tl::unexpected(gaps.error());
-    const auto end = endOf(terrain, LongitudeTurns(model), observer.data(), "observer");
-    if (!end) return tl::unexpected(end.error());
-    const auto maker = ViewshedMaker::make(model, **earth, {}, context);
-    if (!maker) return tl::unexpected(maker.error());
+    ARETE_TRY(const auto earth, makeEarth(request, model));
+    ARETE_TRY(const auto gaps, nodataOf(request));
+    ARETE_TRY(const auto end, endOf(terrain, LongitudeTurns(model), observer.data(), "observer"));
+    ARETE_TRY(const auto maker, ViewshedMaker::make(model, *earth, {}, context));
     ViewshedOptions options;
     options.targetHeight = targetHeight;
     options.field.greatestMetres = radius;
-    options.nodata = *gaps;
-    return maker->from({end->first, end->second}, options, context);
+    options.nodata = gaps;
+    return maker.from({end.first, end.second}, options, context);
   });
   if (seen.withoutLine > 0)
     warn(std::array{fmt::format("{} passes a pole or a seam of the CRS",

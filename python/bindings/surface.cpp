@@ -52,8 +52,7 @@ SurfacePtr buildFile(const std::string& path, const SurfaceFileOptions& options,
     Result<MeshInput> read = readMeshInput(path, context);
     if (read && read->file.mesh.triangles.empty())
       return failure(ErrorCode::invalidData, "has no faces: it is no surface", path);
-    if (read)
-      if (const Status looked = warnOfGaps(*read, context); !looked) return tl::unexpected(looked.error());
+    if (read) ARETE_CHECK(warnOfGaps(*read, context));
     return read;
   });
   warn(input.file.warnings);
@@ -91,39 +90,36 @@ void sayWhatRoundingLeft(const SurfaceModel& model, const CutRequest& request, c
 }
 
 Result<Tin> takeSurfaceTin(const SurfaceModel& model, const CutRequest& request, const RunContext& context) {
-  const auto criterion = engineCriterion(request.criterion, model);
-  if (!criterion) return tl::unexpected(criterion.error());
-  const Result<Cut> cut = takeCut(model.mt, **criterion, engineOptions(request.criterion), context);
-  if (!cut) return tl::unexpected(cut.error());
+  ARETE_TRY(const auto criterion, engineCriterion(request.criterion, model));
+  ARETE_TRY(const Cut cut, takeCut(model.mt, *criterion, engineOptions(request.criterion), context));
   Tin tin;
-  tin.error = cut->achievedError;
-  tin.isComplete = cut->isComplete;
+  tin.error = cut.achievedError;
+  tin.isComplete = cut.isComplete;
   tin.crsWkt = model.crsWkt;
-  tin.triangles = cut->triangles;
-  if (request.criterion.camera) tin.pixels = worstSeverity(model.mt, **criterion, *cut);
+  tin.triangles = cut.triangles;
+  if (request.criterion.camera) tin.pixels = worstSeverity(model.mt, *criterion, cut);
   if (request.isFitted) {
-    SurfaceFront front = surfaceOf(model, *cut);
-    const auto fit = fitFront(front, finestSurfaceOf(model).mesh.shape(),
-                              chartsOfCut(model, frontOfPrefix(model.mt, model.mt.nodeCount()), *cut),
-                              model.options.keepsBorders, cut->achievedError, request.criterion.maxError,
-                              context, model.positionError);
-    if (!fit) return tl::unexpected(fit.error());
+    SurfaceFront front = surfaceOf(model, cut);
+    ARETE_TRY(const auto fit, fitFront(front, finestSurfaceOf(model).mesh.shape(),
+                                       chartsOfCut(model, frontOfPrefix(model.mt, model.mt.nodeCount()), cut),
+                                       model.options.keepsBorders, cut.achievedError,
+                                       request.criterion.maxError, context, model.positionError));
     tin.vertices = std::move(front.mesh.positions);
-    tin.error = fit->distance;
-    if (request.criterion.maxError && fit->distance > *request.criterion.maxError)
-      sayWhatRoundingLeft(model, request, **criterion, *cut, tin);
-    tin.errors.assign(tin.triangles.size(), floatAtLeast(fit->distance));
+    tin.error = fit.distance;
+    if (request.criterion.maxError && fit.distance > *request.criterion.maxError)
+      sayWhatRoundingLeft(model, request, *criterion, cut, tin);
+    tin.errors.assign(tin.triangles.size(), floatAtLeast(fit.distance));
     return tin;
   }
-  sayWhatRoundingLeft(model, request, **criterion, *cut, tin);
+  sayWhatRoundingLeft(model, request, *criterion, cut, tin);
   if (request.isDisplaced && !model.displacement.isEmpty()) {
-    const std::vector<double> promised = promisedErrors(model.mt, *cut, criterion->get());
-    tin.vertices = displacedPlaces(model.mt, model.displacement, *cut, promised);
+    const std::vector<double> promised = promisedErrors(model.mt, cut, criterion.get());
+    tin.vertices = displacedPlaces(model.mt, model.displacement, cut, promised);
     for (const double error : promised) tin.errors.push_back(floatAtLeast(error));
     return tin;
   }
-  for (const std::uint32_t v : cut->vertices) tin.vertices.push_back(model.mt.position(VertexId(v)));
-  for (const std::uint32_t t : cut->ids)
+  for (const std::uint32_t v : cut.vertices) tin.vertices.push_back(model.mt.position(VertexId(v)));
+  for (const std::uint32_t t : cut.ids)
     tin.errors.push_back(static_cast<float>(model.mt.error(TriangleId(t))));
   return tin;
 }
@@ -259,9 +255,8 @@ void defineSurface(py::module_& module) {
     return std::make_shared<SurfaceModel>(
         call(progress, [&](const RunContext& context) -> Result<SurfaceModel> {
           // Not mapped: another program may truncate the file while this one goes on.
-          const Result<AmtContainer> container = AmtContainer::open(path, {.isCopied = true});
-          if (!container) return tl::unexpected(container.error());
-          return loadSurfaceAmt(*container, AmtVerify::all, context);
+          ARETE_TRY(const AmtContainer container, AmtContainer::open(path, {.isCopied = true}));
+          return loadSurfaceAmt(container, AmtVerify::all, context);
         }));
   });
 }

@@ -59,9 +59,8 @@ Result<TerrainModel> buildFrom(DemRead dem, const std::string& source, const Bui
   return std::visit(
       [&](auto& field) -> Result<TerrainModel> {
         if (!source.empty()) field.source = source;
-        const Result<FixedVertices> fixed = chooseFixedVertices(field, fixedOptions, context);
-        if (!fixed) return tl::unexpected(fixed.error());
-        options.fixedVertices = fixed->vertices;
+        ARETE_TRY(const FixedVertices fixed, chooseFixedVertices(field, fixedOptions, context));
+        options.fixedVertices = fixed.vertices;
         return build(field, options, context);
       },
       dem.heightfield);
@@ -156,10 +155,9 @@ Result<Region> planRegionOf(const AskedRegion& asked, const TerrainModel& model,
       }
     }
   }
-  auto argument = regionArgumentOf(stated, model.georeference, LongitudeTurns(model));
-  if (!argument) return tl::unexpected(argument.error());
-  warnings = std::move(argument->warnings);
-  Region region = planRegion(std::move(argument->shape), model);
+  ARETE_TRY(auto argument, regionArgumentOf(stated, model.georeference, LongitudeTurns(model)));
+  warnings = std::move(argument.warnings);
+  Region region = planRegion(std::move(argument.shape), model);
   if (region.isEmpty() || !meetsDomain(region, model.mt))
     return failure(ErrorCode::usage, "does not meet the terrain", "region");
   return region;
@@ -186,25 +184,22 @@ Tin takeTinOf(const Terrain& terrain, const CutRequest& request, const py::objec
     criterion.outsideError = request.outsideError;
     std::optional<Region> region;
     if (request.region) {
-      auto inPlan = planRegionOf(*request.region, model, warnings);
-      if (!inPlan) return tl::unexpected(inPlan.error());
-      region = std::move(*inPlan);
+      ARETE_TRY(auto inPlan, planRegionOf(*request.region, model, warnings));
+      region = std::move(inPlan);
     }
     if (request.camera) {
-      const auto camera = cameraOf(*request.camera, terrain);
-      if (!camera) return tl::unexpected(camera.error());
-      criterion.camera = *camera;
+      ARETE_TRY(const auto camera, cameraOf(*request.camera, terrain));
+      criterion.camera = camera;
       criterion.pixelError = request.pixelError;
       if (!request.pixelError && !request.maxTriangles) criterion.pixelError = 1;
     }
     if (request.fit == "triangles") criterion.fit = ExtractFit::triangles;
     if (request.fit == "error") criterion.fit = ExtractFit::error;
     ExtractedTin said;
-    Result<TinExport> tin = takeTin(model, criterion, region, 0, std::nullopt, said, context);
-    if (!tin) return tl::unexpected(tin.error());
-    return Tin{std::move(tin->mesh.positions),
-               std::move(tin->mesh.triangles),
-               std::move(tin->errors),
+    ARETE_TRY(TinExport tin, takeTin(model, criterion, region, 0, std::nullopt, said, context));
+    return Tin{std::move(tin.mesh.positions),
+               std::move(tin.mesh.triangles),
+               std::move(tin.errors),
                said.storedError,
                said.isComplete,
                said.pixels,

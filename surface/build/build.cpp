@@ -114,10 +114,9 @@ class SurfaceBuild {
       : options_(options), context_(context), fewEnough_(fewEnough) {}
 
   Result<SurfaceModel> run(SurfaceMesh source) {
-    if (const Status valid = checkOptions(options_); !valid) return tl::unexpected(valid.error());
-    Result<PreparedSurface> prepared = prepareSurface(std::move(source), context_);
-    if (!prepared) return tl::unexpected(prepared.error());
-    prepared_ = std::move(*prepared);
+    ARETE_CHECK(checkOptions(options_));
+    ARETE_TRY(PreparedSurface prepared, prepareSurface(std::move(source), context_));
+    prepared_ = std::move(prepared);
     const TriangleMesh& mesh = prepared_.mesh;
     if (mesh.triangles.size() > LiveMesh::kMostTriangles / 2)
       return failure(ErrorCode::unsupported,
@@ -127,7 +126,7 @@ class SurfaceBuild {
                      fmt::format("a diagonal of {} is not between 1e-30 and 1e30", diagonal));
     sortFaces(prepared_, orderAlongCurve(mesh, prepared_.boxLow, prepared_.boxHigh));
     giveFreeHeapBack();
-    if (const Status done = simplify(); !done) return tl::unexpected(done.error());
+    ARETE_CHECK(simplify());
     return std::move(model_);
   }
 
@@ -163,8 +162,7 @@ class SurfaceBuild {
     for (std::uint32_t f = 0; f < faceCount; ++f)
       state.labels.set(
           f, {f, prepared_.mesh.hasWedges() ? prepared_.mesh.wedges[f] : std::array<std::uint32_t, 3>{}});
-    const Result<SurfaceRoot> root = simplifySurface(state, isFixed, context_);
-    if (!root) return tl::unexpected(root.error());
+    ARETE_TRY(const SurfaceRoot root, simplifySurface(state, isFixed, context_));
     state.pieces = {};
     live = {};
     state.records = {};
@@ -173,7 +171,7 @@ class SurfaceBuild {
     prepared_.mesh.triangles = {};
     giveFreeHeapBack();
     context_.report("finish", 0);
-    finish(*root, recorder, state);
+    finish(root, recorder, state);
     context_.report("finish", 1);
     return {};
   }

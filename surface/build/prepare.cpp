@@ -60,15 +60,14 @@ MeshAttributes takeFaceAttributes(SurfaceMesh& mesh) {
 
 Result<PreparedSurface> prepareSurface(SurfaceMesh source, const RunContext& context) {
   forgetUnusedNumbers(source);
-  if (const Status valid = source.validate(); !valid) return tl::unexpected(valid.error());
+  ARETE_CHECK(source.validate());
   // A surface that faces inwards, as a room, stays so.
   RepairOptions options{.splitsAtTJunctions = false, .turnsOutwards = false, .partOf = source.objectOf};
-  Result<RepairedMesh> repaired = repair(source, options, context);
-  if (!repaired) return tl::unexpected(repaired.error());
-  if (repaired->mesh.triangles.empty())
+  ARETE_TRY(RepairedMesh repaired, repair(source, options, context));
+  if (repaired.mesh.triangles.empty())
     return failure(ErrorCode::degenerate,
                    source.triangles.empty() ? "the mesh has no face" : "no face of the mesh has an area");
-  const MeshDiagnosis& d = repaired->diagnosis;
+  const MeshDiagnosis& d = repaired.diagnosis;
   if (d.nonManifoldEdges.count > 0) {
     // What does not help is no advice.
     options.splitsSheets = true;
@@ -83,10 +82,10 @@ Result<PreparedSurface> prepareSurface(SurfaceMesh source, const RunContext& con
                   left)
             : "they have to be taken apart by hand: their faces meet again around both ends";
     return tl::unexpected(
-        refuse(d.nonManifoldEdges, *repaired, "{} more than two faces", remedy.c_str()).error());
+        refuse(d.nonManifoldEdges, repaired, "{} more than two faces", remedy.c_str()).error());
   }
   if (d.nonOrientable.count > 0)
-    return tl::unexpected(refuse(d.nonOrientable, *repaired, "{} two faces that no turns make agree",
+    return tl::unexpected(refuse(d.nonOrientable, repaired, "{} two faces that no turns make agree",
                                  "cut the surface there, as a Moebius strip has to be")
                               .error());
   PreparedSurface prepared;
@@ -95,7 +94,7 @@ Result<PreparedSurface> prepareSurface(SurfaceMesh source, const RunContext& con
   prepared.boxLow = d.boxLow;
   prepared.boxHigh = d.boxHigh;
   prepared.diagonal = d.diagonal;
-  const RepairCounts& c = repaired->counts;
+  const RepairCounts& c = repaired.counts;
   prepared.mending = {.duplicateFaces = c.duplicateTriangles,
                       .degenerateFaces = c.degenerateTriangles,
                       .splitFaces = c.splitTriangles,
@@ -103,18 +102,17 @@ Result<PreparedSurface> prepareSurface(SurfaceMesh source, const RunContext& con
                       .turnedFaces = c.turnedTriangles,
                       .addedVertices = c.addedVertices,
                       .unusedVertices = c.unusedVertices};
-  prepared.vertexOf = std::move(repaired->vertexOf);
-  prepared.faceOf = std::move(repaired->triangleOf);
-  prepared.leftOutFaces = leftOutFacesOf(source, repaired->mesh, prepared.faceOf);
+  prepared.vertexOf = std::move(repaired.vertexOf);
+  prepared.faceOf = std::move(repaired.triangleOf);
+  prepared.leftOutFaces = leftOutFacesOf(source, repaired.mesh, prepared.faceOf);
   prepared.ofSource = takeFaceAttributes(source);
   prepared.partOf = partsOf(prepared.ofSource, prepared.faceOf);
   if (c.isNothing()) {
     prepared.mesh = std::move(source);
   } else {
-    Result<SurfaceMesh> mesh =
-        transferAttributes(source, std::move(repaired->mesh), prepared.vertexOf, prepared.faceOf);
-    if (!mesh) return tl::unexpected(mesh.error());
-    prepared.mesh = std::move(*mesh);
+    ARETE_TRY(SurfaceMesh mesh,
+              transferAttributes(source, std::move(repaired.mesh), prepared.vertexOf, prepared.faceOf));
+    prepared.mesh = std::move(mesh);
   }
   if (prepared.mesh.hasWedges()) {
     moveToVertices(prepared.mesh);

@@ -90,7 +90,7 @@ class Contractions {
     if (isForWide_) mostAround_ = mostAround;
     addCandidates();
     if (options_.forbidsCrossings) crossings_.emplace(mesh_);
-    if (const Status contracted = contractAll(); !contracted) return tl::unexpected(contracted.error());
+    ARETE_CHECK(contractAll());
     if (takesFaces_ && mesh_.triangleCount() > options_.maxTriangles) {
       // A triangle beside a vertex of three triangles cannot be contracted. Then edges are.
       takesFaces_ = false;
@@ -98,12 +98,12 @@ class Contractions {
       for (auto& ids : candidatesOf_) ids.clear();
       for (auto& ids : waitingAt_) ids.clear();
       addCandidates();
-      if (const Status contracted = contractAll(); !contracted) return tl::unexpected(contracted.error());
+      ARETE_CHECK(contractAll());
     }
     if (!isForWide_ && mesh_.triangleCount() > options_.maxTriangles && hasWide()) {
       mostAround_ = kMostAroundAtLast;
       for (std::uint32_t id = 0; id < candidates_.size(); ++id) wake(id);
-      if (const Status contracted = contractAll(); !contracted) return tl::unexpected(contracted.error());
+      ARETE_CHECK(contractAll());
     }
     context_.report("decimate", 1);
     DecimatedMesh& decimated = result_.decimated;

@@ -46,14 +46,14 @@ Result<DecimatedMesh> decimateFramed(const SurfaceMesh& mesh, const DecimateOpti
     p = p - origin;
   }
   framed.rounding = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
-  Result<FramedResult> result =
-      options.method == DecimateOperator::cluster         ? decimateByClusters(framed, options, context)
-      : options.method == DecimateOperator::lindstromTurk ? decimateByLindstromTurk(framed, options, context)
-                                                          : decimateByContractions(framed, options, context);
-  if (!result) return tl::unexpected(result.error());
-  follow(result->joinedTo);
-  DecimatedMesh& decimated = result->decimated;
-  decimated.triangleFor = trianglesFor(framed, decimated, result->joinedTo);
+  ARETE_TRY(FramedResult result, options.method == DecimateOperator::cluster
+                                     ? decimateByClusters(framed, options, context)
+                                 : options.method == DecimateOperator::lindstromTurk
+                                     ? decimateByLindstromTurk(framed, options, context)
+                                     : decimateByContractions(framed, options, context));
+  follow(result.joinedTo);
+  DecimatedMesh& decimated = result.decimated;
+  decimated.triangleFor = trianglesFor(framed, decimated, result.joinedTo);
   for (std::size_t v = 0; v < decimated.vertexOf.size(); ++v) {
     Vec3& p = decimated.mesh.positions[v];
     const std::uint32_t of = decimated.vertexOf[v];
@@ -65,19 +65,16 @@ Result<DecimatedMesh> decimateFramed(const SurfaceMesh& mesh, const DecimateOpti
 /// Of a mesh without its triangles without area.
 Result<DecimatedMesh> decimateMended(const SurfaceMesh& mesh, const DecimateOptions& options,
                                      const RunContext& context) {
-  Result<RepairedMesh> repaired = repair(mesh, {.splitsAtTJunctions = false}, context);
-  if (!repaired) return tl::unexpected(repaired.error());
-  const std::vector<std::uint32_t> vertexOf = repaired->vertexOf, faceOf = repaired->triangleOf;
-  const Result<SurfaceMesh> mended = transferAttributes(mesh, std::move(repaired->mesh), vertexOf, faceOf);
-  if (!mended) return tl::unexpected(mended.error());
-  if (mended->triangles.empty()) return failure(ErrorCode::degenerate, "no face of the mesh has an area");
-  Result<DecimatedMesh> result = decimateFramed(*mended, options, context);
-  if (!result) return tl::unexpected(result.error());
+  ARETE_TRY(RepairedMesh repaired, repair(mesh, {.splitsAtTJunctions = false}, context));
+  const std::vector<std::uint32_t> vertexOf = repaired.vertexOf, faceOf = repaired.triangleOf;
+  ARETE_TRY(const SurfaceMesh mended, transferAttributes(mesh, std::move(repaired.mesh), vertexOf, faceOf));
+  if (mended.triangles.empty()) return failure(ErrorCode::degenerate, "no face of the mesh has an area");
+  ARETE_TRY(DecimatedMesh result, decimateFramed(mended, options, context));
   std::vector<std::uint32_t> triangleFor(mesh.triangles.size(), kNone);
-  for (std::size_t t = faceOf.size(); t-- > 0;) triangleFor[faceOf[t]] = result->triangleFor[t];
-  result->triangleFor = std::move(triangleFor);
-  for (std::uint32_t& v : result->vertexOf) v = vertexOf[v];
-  for (std::uint32_t& f : result->faceOf) f = faceOf[f];
+  for (std::size_t t = faceOf.size(); t-- > 0;) triangleFor[faceOf[t]] = result.triangleFor[t];
+  result.triangleFor = std::move(triangleFor);
+  for (std::uint32_t& v : result.vertexOf) v = vertexOf[v];
+  for (std::uint32_t& f : result.faceOf) f = faceOf[f];
   return result;
 }
 
@@ -85,7 +82,7 @@ Result<DecimatedMesh> decimateMended(const SurfaceMesh& mesh, const DecimateOpti
 
 Result<DecimatedMesh> decimate(const SurfaceMesh& mesh, const DecimateOptions& options,
                                const RunContext& context) {
-  if (const Status valid = mesh.validate(); !valid) return tl::unexpected(valid.error());
+  ARETE_CHECK(mesh.validate());
   if (options.maxTriangles == 0)
     return failure(ErrorCode::invalidData, "maxTriangles is 0", "`maxTriangles`");
   // Quadrics multiply four lengths.

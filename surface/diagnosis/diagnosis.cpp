@@ -21,7 +21,7 @@ namespace {
 
 Result<MeshDiagnosis> diagnoseHere(const TriangleMesh& mesh, const DiagnosisOptions& options,
                                    const RunContext& context) {
-  if (const Status valid = mesh.validate(); !valid) return tl::unexpected(valid.error());
+  ARETE_CHECK(mesh.validate());
   if (mesh.triangles.size() >= std::numeric_limits<std::uint32_t>::max() / 3)
     return failure(ErrorCode::unsupported,
                    "the mesh has more triangles than 32-bit numbers of corners allow");

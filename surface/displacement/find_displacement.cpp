@@ -144,15 +144,14 @@ Result<SurfaceDisplacement> find(const SurfaceModel& model, const RunContext& co
   SurfaceDisplacement displacement;
   {
     Pulls pulls(model, replay.original());
-    if (const Status done = replay.run(pulls, "displace", context); !done)
-      return tl::unexpected(done.error());
+    ARETE_CHECK(replay.run(pulls, "displace", context));
     std::vector<Vec3> directions = pulls.directions();
     if (model.options.keepsBorders) holdBorders(model.mt, directions);
     displacement.directions.reserve(directions.size());
     for (const Vec3& direction : directions) displacement.directions.push_back(stored(direction));
   }
   Reaches reaches(model, replay.original(), displacement);
-  if (const Status done = replay.run(reaches, "bound", context); !done) return tl::unexpected(done.error());
+  ARETE_CHECK(replay.run(reaches, "bound", context));
   return displacement;
 }
 

@@ -241,10 +241,10 @@ Status checkBox(const Box3& box) {
 
 Result<CroppedMesh> crop(const SurfaceMesh& mesh, const Box3& box, const CropOptions& options,
                          const RunContext& context) try {
-  if (Status checked = checkBox(box); !checked) return tl::unexpected(checked.error());
-  if (const Status valid = mesh.validate(); !valid) return tl::unexpected(valid.error());
+  ARETE_CHECK(checkBox(box));
+  ARETE_CHECK(mesh.validate());
   Crop work(mesh, box, options);
-  if (Status done = work.run(context); !done) return tl::unexpected(done.error());
+  ARETE_CHECK(work.run(context));
   if (work.isEmpty())
     return mesh.triangles.empty()
                ? failure(ErrorCode::invalidData, "the mesh has no triangles")

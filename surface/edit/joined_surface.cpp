@@ -13,14 +13,13 @@ namespace arete {
 
 Result<JoinedSurface> joinSurface(SurfaceMesh& mesh, const WeldOptions& options,
                                   const RunContext& context) try {
-  Result<WeldedMesh> welded = weld(mesh, options, context);
-  if (!welded) return tl::unexpected(welded.error());
-  JoinedSurface joined{std::move(welded->vertexOf), welded->joinedVertices, welded->joinedEdges,
-                       welded->farthestMove};
+  ARETE_TRY(WeldedMesh welded, weld(mesh, options, context));
+  JoinedSurface joined{std::move(welded.vertexOf), welded.joinedVertices, welded.joinedEdges,
+                       welded.farthestMove};
   if (joined.joinedVertices == 0) return joined;
   const bool hasAttributes = mesh.hasWedges() || !mesh.vertexAttributes.empty();
   if (hasAttributes) moveToWedges(mesh);
-  mesh.shape() = std::move(welded->mesh);
+  mesh.shape() = std::move(welded.mesh);
   if (hasAttributes) moveToVertices(mesh);
   return joined;
 } catch (...) {

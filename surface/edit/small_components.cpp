@@ -40,9 +40,9 @@ Result<SmallComponents> withoutSmallComponents(const SurfaceMesh& source, double
     shape.triangles.push_back(corners);
     result.triangleOf.push_back(t);
   }
-  Result<SurfaceMesh> mesh = transferAttributes(source, std::move(shape), result.vertexOf, result.triangleOf);
-  if (!mesh) return tl::unexpected(mesh.error());
-  result.mesh = std::move(*mesh);
+  ARETE_TRY(SurfaceMesh mesh,
+            transferAttributes(source, std::move(shape), result.vertexOf, result.triangleOf));
+  result.mesh = std::move(mesh);
   return result;
 }
 

@@ -75,8 +75,7 @@ class Fitting {
     FittedSurface result;
     double sum = assign(all);
     result.rmsBefore = all.rmsOf(sum) / scale_;
-    if (sum > all.squaresOf(roundingOf(source) * scale_))
-      if (const Status done = take(all, sum, options, result); !done) return tl::unexpected(done.error());
+    if (sum > all.squaresOf(roundingOf(source) * scale_)) ARETE_CHECK(take(all, sum, options, result));
     context_.report("fit", 1);
     result.rmsAfter = all.rmsOf(sum) / scale_;
     for (std::size_t v = 0; v < positions_.size(); ++v)
@@ -232,8 +231,7 @@ class Fitting {
 Result<FittedSurface> fitSurface(const TriangleMesh& cut, const std::vector<std::uint8_t>& isHeld,
                                  const TriangleMesh& source, const SurfaceFitOptions& options,
                                  const RunContext& context) {
-  for (const TriangleMesh* mesh : {&cut, &source})
-    if (const Status valid = mesh->validate(); !valid) return tl::unexpected(valid.error());
+  for (const TriangleMesh* mesh : {&cut, &source}) ARETE_CHECK(mesh->validate());
   if (cut.triangles.empty()) return FittedSurface{cut.positions, 0, 0, 0};
   return withThreads(context, [&] { return Fitting(cut, isHeld, context).run(source, options); });
 }

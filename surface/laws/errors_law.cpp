@@ -174,7 +174,7 @@ Status checkDisplacedErrors(const SurfaceModel& model, const Cut& front, const S
   for (const bool isEverywhere : {false, true}) {
     if (isEverywhere) drawn.errors.assign(front.ids.size(), front.achievedError);
     drawn.places = displacedPlaces(model.mt, model.displacement, front, drawn.errors);
-    if (Status kept = check(drawn, "displaced front", samples, context); !kept) return kept;
+    ARETE_CHECK(check(drawn, "displaced front", samples, context));
   }
   return {};
 }

@@ -36,9 +36,8 @@ Result<ExaminedFront> examine(const MultiTriangulation& mt, const Cut& cut, cons
   ExaminedFront front;
   for (const std::uint32_t v : cut.vertices) front.mesh.positions.push_back(mt.position(VertexId(v)));
   front.mesh.triangles = cut.triangles;
-  Result<MeshDiagnosis> diagnosis = diagnose(front.mesh, {.selfIntersections = false}, context);
-  if (!diagnosis) return tl::unexpected(diagnosis.error());
-  front.diagnosis = std::move(*diagnosis);
+  ARETE_TRY(MeshDiagnosis diagnosis, diagnose(front.mesh, {.selfIntersections = false}, context));
+  front.diagnosis = std::move(diagnosis);
   const MeshDiagnosis& d = front.diagnosis;
   const auto refuse = [&](const MeshFindings& found, const char* what) {
     std::string vertices;
@@ -83,12 +82,11 @@ Status checkFaces(const SurfaceModel& model) {
 
 Result<SurfaceTopology> SurfaceTopology::of(const MultiTriangulation& mt, const RunContext& context) {
   const Cut finest = frontOfPrefix(mt, mt.nodeCount());
-  const Result<ExaminedFront> front = examine(mt, finest, context);
-  if (!front) return tl::unexpected(front.error());
+  ARETE_TRY(const ExaminedFront front, examine(mt, finest, context));
   SurfaceTopology topology;
   topology.mt_ = mt;
   topology.componentOf_.assign(mt.vertexCount(), kNone);
-  const MeshDiagnosis& d = front->diagnosis;
+  const MeshDiagnosis& d = front.diagnosis;
   topology.doubleSided_ = d.doubleSided.count;
   for (const ComponentDiagnosis& c : d.components) topology.components_.push_back({c.eulerNumber, c.borders});
   for (std::size_t t = 0; t < finest.triangles.size(); ++t)
@@ -98,9 +96,8 @@ Result<SurfaceTopology> SurfaceTopology::of(const MultiTriangulation& mt, const 
 }
 
 Status SurfaceTopology::check(const Cut& cut, const RunContext& context) const {
-  const Result<ExaminedFront> front = examine(mt_, cut, context);
-  if (!front) return tl::unexpected(front.error());
-  const MeshDiagnosis& d = front->diagnosis;
+  ARETE_TRY(const ExaminedFront front, examine(mt_, cut, context));
+  const MeshDiagnosis& d = front.diagnosis;
   if (d.doubleSided.count > doubleSided_)
     return broken(fmt::format(
         "{} on others, {} of the finest one",
@@ -134,21 +131,20 @@ Status SurfaceTopology::check(const Cut& cut, const RunContext& context) const {
 
 Status validateSurface(const SurfaceModel& model, const SurfaceLawOptions& options,
                        const RunContext& context) {
-  if (Status valid = model.validate(); !valid) return valid;
+  ARETE_CHECK(model.validate());
   const MultiTriangulation& mt = model.mt;
-  if (Status valid = validate(mt, {}, context); !valid) return valid;
-  if (Status valid = checkFaces(model); !valid) return valid;
-  const Result<SurfaceTopology> topology = SurfaceTopology::of(mt, context);
-  if (!topology) return tl::unexpected(topology.error());
+  ARETE_CHECK(validate(mt, {}, context));
+  ARETE_CHECK(checkFaces(model));
+  ARETE_TRY(const SurfaceTopology topology, SurfaceTopology::of(mt, context));
   const SourceSamples samples = samplesOfSource(model, options.everySample);
   constexpr std::uint64_t kFronts = 16;
   for (std::uint64_t i = 0; i < kFronts; ++i) {
     const auto nodes = static_cast<std::uint32_t>(mt.nodeCount() * i / kFronts);
     const Cut front = frontOfPrefix(mt, nodes);
-    if (Status valid = topology->check(front, context); !valid) return valid;
-    if (Status valid = checkErrors(mt, front, samples, context); !valid) return valid;
+    ARETE_CHECK(topology.check(front, context));
+    ARETE_CHECK(checkErrors(mt, front, samples, context));
     if (model.displacement.isEmpty()) continue;
-    if (Status valid = checkDisplacedErrors(model, front, samples, context); !valid) return valid;
+    ARETE_CHECK(checkDisplacedErrors(model, front, samples, context));
   }
   return {};
 }

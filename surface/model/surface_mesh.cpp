@@ -26,7 +26,7 @@ Status checkNumbers(const std::vector<std::uint32_t>& numbers, std::size_t trian
 
 Status checkAttributes(const std::vector<Attribute>& attributes, std::size_t elements) {
   for (const Attribute& attribute : attributes) {
-    if (Status valid = checkAttribute(attribute, elements); !valid) return valid;
+    ARETE_CHECK(checkAttribute(attribute, elements));
     if (std::ranges::count(attributes, attribute.name, &Attribute::name) != 1)
       return failure(ErrorCode::invalidData, fmt::format("there are two attributes '{}'", attribute.name));
   }
@@ -48,10 +48,10 @@ Status SurfaceMesh::validate() const {
 Status MeshRef::validate() const try {
   const MeshAttributes& of = attributes;
   const std::size_t triangles = shape.triangles.size();
-  if (Status valid = shape.validate(); !valid) return valid;
-  if (Status valid = checkAttributes(of.vertexAttributes, shape.positions.size()); !valid) return valid;
-  if (Status valid = checkAttributes(of.wedgeAttributes, of.wedgeCount); !valid) return valid;
-  if (Status valid = checkAttributes(of.triangleAttributes, triangles); !valid) return valid;
+  ARETE_CHECK(shape.validate());
+  ARETE_CHECK(checkAttributes(of.vertexAttributes, shape.positions.size()));
+  ARETE_CHECK(checkAttributes(of.wedgeAttributes, of.wedgeCount));
+  ARETE_CHECK(checkAttributes(of.triangleAttributes, triangles));
   if (of.hasWedges() && of.wedges.size() != triangles)
     return failure(ErrorCode::invalidData,
                    fmt::format("{} wedges, of {}",
@@ -67,8 +67,8 @@ Status MeshRef::validate() const try {
     return failure(ErrorCode::invalidData,
                    fmt::format("{} a face, of {}",
                                counted(of.faceOf.size(), "triangle has", "triangles have"), triangles));
-  if (Status valid = checkNumbers(of.objectOf, triangles, of.objects.size(), "object"); !valid) return valid;
-  if (Status valid = checkNumbers(of.groupOf, triangles, of.groups.size(), "group"); !valid) return valid;
+  ARETE_CHECK(checkNumbers(of.objectOf, triangles, of.objects.size(), "object"));
+  ARETE_CHECK(checkNumbers(of.groupOf, triangles, of.groups.size(), "group"));
   return checkNumbers(of.materialOf, triangles, of.materials.size(), "material");
 } catch (...) {
   return caughtFailure();

@@ -55,11 +55,9 @@ Status SurfaceModel::validate() const {
   if (hasWedges() == (a.wedgeCount == 0))
     return refuse("wedges are counted and not listed, or the other way");
   for (const Attribute& attribute : a.vertexAttributes)
-    if (const Status valid = checkAttribute(attribute, mt.vertexCount()); !valid) return valid;
-  for (const Attribute& attribute : a.wedgeAttributes)
-    if (const Status valid = checkAttribute(attribute, a.wedgeCount); !valid) return valid;
-  for (const Attribute& attribute : a.triangleAttributes)
-    if (const Status valid = checkAttribute(attribute, sourceFaces); !valid) return valid;
+    ARETE_CHECK(checkAttribute(attribute, mt.vertexCount()));
+  for (const Attribute& attribute : a.wedgeAttributes) ARETE_CHECK(checkAttribute(attribute, a.wedgeCount));
+  for (const Attribute& attribute : a.triangleAttributes) ARETE_CHECK(checkAttribute(attribute, sourceFaces));
   const auto isListOf = [&](const std::vector<std::uint32_t>& numbers, std::size_t count) {
     if (numbers.empty()) return true;
     return numbers.size() == sourceFaces && std::ranges::all_of(numbers, [&](std::uint32_t i) {
@@ -73,7 +71,7 @@ Status SurfaceModel::validate() const {
     return refuse("a vertex has a number that the source does not have");
   if (std::ranges::any_of(faceOf, [&](std::uint32_t f) { return f >= sourceFaces; }))
     return refuse("a triangle has a face that the source does not have");
-  if (const Status left = checkLeftOutFaces(*this); !left) return left;
+  ARETE_CHECK(checkLeftOutFaces(*this));
   for (const auto& wedges : wedgesOf)
     for (const std::uint32_t w : wedges)
       if (w >= a.wedgeCount) return refuse(fmt::format("a corner has wedge {} of {}", w, a.wedgeCount));

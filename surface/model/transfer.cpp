@@ -147,8 +147,8 @@ class Transfer {
 Result<SurfaceMesh> transferAttributes(const SurfaceMesh& source, TriangleMesh shape,
                                        std::span<const std::uint32_t> vertexOf,
                                        std::span<const std::uint32_t> triangleOf) try {
-  if (const Status valid = source.validate(); !valid) return tl::unexpected(valid.error());
-  if (const Status valid = shape.validate(); !valid) return tl::unexpected(valid.error());
+  ARETE_CHECK(source.validate());
+  ARETE_CHECK(shape.validate());
   const auto isWithin = [](std::span<const std::uint32_t> numbers, std::size_t count, bool mayBeNone) {
     return std::ranges::all_of(
         numbers, [&](std::uint32_t n) { return n < count || (mayBeNone && n == SurfaceMesh::kNone); });

@@ -15,7 +15,7 @@ namespace arete {
 
 Result<RepairedMesh> repair(const TriangleMesh& mesh, const RepairOptions& options,
                             const RunContext& context) try {
-  if (const Status valid = mesh.validate(); !valid) return tl::unexpected(valid.error());
+  ARETE_CHECK(mesh.validate());
   if (!options.partOf.empty() && options.partOf.size() != mesh.triangles.size())
     return failure(ErrorCode::invalidData, "there must be one part for each triangle", "partOf");
   repair_passes::Draft draft(mesh);
@@ -39,12 +39,11 @@ Result<RepairedMesh> repair(const TriangleMesh& mesh, const RepairOptions& optio
   }
   draft.removeUnusedVertices();
 
-  Result<MeshDiagnosis> diagnosis = diagnose(draft.mesh,
-                                             {.selfIntersections = false,
-                                              .tJunctionTolerance = options.tJunctionTolerance,
-                                              .rounding = options.rounding},
-                                             context);
-  if (!diagnosis) return tl::unexpected(diagnosis.error());
+  ARETE_TRY(MeshDiagnosis diagnosis, diagnose(draft.mesh,
+                                              {.selfIntersections = false,
+                                               .tJunctionTolerance = options.tJunctionTolerance,
+                                               .rounding = options.rounding},
+                                              context));
   RepairedMesh repaired;
   repaired.mesh = std::move(draft.mesh);
   repaired.vertexOf = std::move(draft.vertexOf);
@@ -52,7 +51,7 @@ Result<RepairedMesh> repair(const TriangleMesh& mesh, const RepairOptions& optio
   repaired.counts = draft.counts;
   repaired.openHoles = draft.openHoles;
   repaired.crossingParts = draft.crossingParts;
-  repaired.diagnosis = std::move(*diagnosis);
+  repaired.diagnosis = std::move(diagnosis);
   context.report("repair", 1);
   return repaired;
 } catch (...) {

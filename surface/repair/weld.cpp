@@ -245,7 +245,7 @@ WeldedMesh weldEqual(const TriangleMesh& mesh, std::span<const Vec3> positions,
 }  // namespace
 
 Result<WeldedMesh> weld(const TriangleMesh& mesh, const WeldOptions& options, const RunContext& context) try {
-  if (const Status valid = mesh.validate(); !valid) return tl::unexpected(valid.error());
+  ARETE_CHECK(mesh.validate());
   if (!(options.distance >= 0 && std::isfinite(options.distance)))
     return failure(ErrorCode::usage, "the distance must be 0 or more", "distance");
   if (!options.partOf.empty() && options.partOf.size() != mesh.triangles.size())

@@ -74,7 +74,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
   metric.scale = {step.x, step.y, field.georeference.verticalUnitMetres};
   const Vec3 span{(box.xMax - box.xMin) * step.x, (box.yMax - box.yMin) * step.y,
                   (high - low) * metric.scale.z};
-  if (const Status valid = checkSpan(span, field.source); !valid) return tl::unexpected(valid.error());
+  ARETE_CHECK(checkSpan(span, field.source));
   const double stretch = finest.xStretch;
   model.metricP = stretch >= 1 ? static_cast<std::uint32_t>(stretch) : 1;
   model.metricQ = stretch >= 1 ? 1 : static_cast<std::uint32_t>(1 / stretch);
@@ -101,9 +101,8 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
                                                .heightRange = high - low,
                                                .roundingSlack = slack,
                                                .boundSlack = slack};
-    Result<SimplifiedRoot> simplified = Simplifier(state, tiles, context).run(isFixed);
-    if (!simplified) return tl::unexpected(simplified.error());
-    root = std::move(*simplified);
+    ARETE_TRY(SimplifiedRoot simplified, Simplifier(state, tiles, context).run(isFixed));
+    root = std::move(simplified);
   }
   mesh = {};
   model.levels = root.levels;
@@ -141,8 +140,8 @@ Result<TerrainModel> buildChecked(const PointHeightfield& field, FinestPoints fi
 }  // namespace
 
 Status checkBuild(const PointHeightfield& field, const BuildOptions& options) try {
-  if (Status valid = field.validate(); !valid) return valid;
-  if (Status valid = checkOptions(options, field.size()); !valid) return valid;
+  ARETE_CHECK(field.validate());
+  ARETE_CHECK(checkOptions(options, field.size()));
   if (options.rimTolerance > 0)
     return failure(ErrorCode::usage, "scattered points have no NODATA rims to simplify", "rimTolerance");
   return {};
@@ -159,7 +158,7 @@ Result<TerrainModel> build(const PointHeightfield& heightfield, const BuildOptio
 
 Result<TerrainModel> build(const PointHeightfield& heightfield, FinestPoints finest,
                            const BuildOptions& options, const RunContext& context) try {
-  if (const Status valid = checkBuild(heightfield, options); !valid) return tl::unexpected(valid.error());
+  ARETE_CHECK(checkBuild(heightfield, options));
   return buildChecked(heightfield, std::move(finest), options, TileOptions::of(options.shape), context);
 } catch (...) {
   return caughtFailure();
@@ -167,10 +166,9 @@ Result<TerrainModel> build(const PointHeightfield& heightfield, FinestPoints fin
 
 Result<TerrainModel> buildInTiles(const PointHeightfield& heightfield, const BuildOptions& options,
                                   const TileOptions& tiles, const RunContext& context) {
-  if (const Status valid = checkBuild(heightfield, options); !valid) return tl::unexpected(valid.error());
-  Result<FinestPoints> finest = finestPoints(heightfield, context);
-  if (!finest) return tl::unexpected(finest.error());
-  return buildChecked(heightfield, std::move(*finest), options, tiles, context);
+  ARETE_CHECK(checkBuild(heightfield, options));
+  ARETE_TRY(FinestPoints finest, finestPoints(heightfield, context));
+  return buildChecked(heightfield, std::move(finest), options, tiles, context);
 }
 
 }  // namespace arete

@@ -95,9 +95,9 @@ struct OwnedVertices {
 
 Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOptions& options,
                                const TileOptions& tiles, const RunContext& context) {
-  if (const Status valid = field.validate(); !valid) return tl::unexpected(valid.error());
-  if (const Status valid = checkOptions(options, field.size()); !valid) return tl::unexpected(valid.error());
-  if (const Status valid = checkPositions(field); !valid) return tl::unexpected(valid.error());
+  ARETE_CHECK(field.validate());
+  ARETE_CHECK(checkOptions(options, field.size()));
+  ARETE_CHECK(checkPositions(field));
   if (field.size() > LiveMesh::kMostTriangles / 2)
     return failure(
         ErrorCode::unsupported,
@@ -152,7 +152,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   metric.origin = {(field.columns - 1) / 2.0, (field.rows - 1) / 2.0, (low + high) / 2};
   metric.scale = {step.x, step.y, field.georeference.verticalUnitMetres};
   const Vec3 span{field.columns * step.x, field.rows * step.y, (high - low) * metric.scale.z};
-  if (const Status valid = checkSpan(span, field.source); !valid) return tl::unexpected(valid.error());
+  ARETE_CHECK(checkSpan(span, field.source));
 
   const LatticePlan plan(field.columns, ratio.p, ratio.q);
   MtRecorder recorder(finestCount, sampleCount, OutwardScale(high - low), metric);
@@ -174,9 +174,8 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
                                                   .heightRange = high - low,
                                                   .roundingSlack = roundingSlack(low, high),
                                                   .boundSlack = crossing};
-    Result<SimplifiedRoot> simplified = Simplifier(state, tiles, context).run(isFixed);
-    if (!simplified) return tl::unexpected(simplified.error());
-    root = std::move(*simplified);
+    ARETE_TRY(SimplifiedRoot simplified, Simplifier(state, tiles, context).run(isFixed));
+    root = std::move(simplified);
   }
   mesh = {};
   model.levels = root.levels;

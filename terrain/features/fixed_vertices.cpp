@@ -161,9 +161,8 @@ Result<FixedVertices> chooseFixedVertices(const RasterHeightfield& field, const 
 Result<FixedVertices> chooseFixedVertices(const PointHeightfield& field, const FixedVertexOptions& options,
                                           const RunContext& context) try {
   if (selectsNothing(options) || field.size() == 0) return FixedVertices{};
-  const Result<FinestPoints> finest = finestPoints(field, context);
-  if (!finest) return tl::unexpected(finest.error());
-  return chooseFixedVertices(field, *finest, options, context);
+  ARETE_TRY(const FinestPoints finest, finestPoints(field, context));
+  return chooseFixedVertices(field, finest, options, context);
 } catch (...) {
   return caughtFailure();
 }

@@ -52,9 +52,8 @@ void fixHeights(const TerrainModel& model, FitMesh& mesh) {
 
 Result<FitMesh> meshOf(const TerrainModel& model, const Cut& cut, FitBounds bounds, const FitOptions& options,
                        const RunContext& context) {
-  auto samples = shareSamples(model.mt, cut, nodesOf(model.mt, cut), context);
-  if (!samples) return tl::unexpected(samples.error());
-  FitMesh mesh(model.mt, cut, std::move(*samples), std::move(bounds));
+  ARETE_TRY(auto samples, shareSamples(model.mt, cut, nodesOf(model.mt, cut), context));
+  FitMesh mesh(model.mt, cut, std::move(samples), std::move(bounds));
   if (options.keepsFixedHeights) fixHeights(model, mesh);
   return mesh;
 }
@@ -127,30 +126,25 @@ Result<FittedCut> fitFewestTriangles(const TerrainModel& model, const FitToleran
   if (!(tolerance.outsideError >= tolerance.maxError))
     return failure(ErrorCode::usage, "the tolerance outside the region must not be smaller than inside",
                    "outsideError");
-  const Result<Cut> cut = leastCut(model, tolerance, context);
-  if (!cut) return tl::unexpected(cut.error());
-  FitBounds bounds = boundsOf(model, tolerance, *cut);
-  auto mesh = meshOf(model, *cut, std::move(bounds), options, context);
-  if (!mesh) return tl::unexpected(mesh.error());
+  ARETE_TRY(const Cut cut, leastCut(model, tolerance, context));
+  FitBounds bounds = boundsOf(model, tolerance, cut);
+  ARETE_TRY(auto mesh, meshOf(model, cut, std::move(bounds), options, context));
   // With the tolerance 0 no height can change, and with an infinite one the cut is the root already.
   if (tolerance.maxError > 0 && std::isfinite(tolerance.maxError)) {
-    mesh->setAccepted(1 + kRounding);
-    if (Status removed = removeWhatFits(*mesh, std::max(1u, options.rings), context); !removed)
-      return tl::unexpected(removed.error());
+    mesh.setAccepted(1 + kRounding);
+    ARETE_CHECK(removeWhatFits(mesh, std::max(1u, options.rings), context));
   }
-  return fittedCut(*mesh, *cut, tolerance.maxError);
+  return fittedCut(mesh, cut, tolerance.maxError);
 } catch (...) {
   return caughtFailure();
 }
 
 Result<FittedCut> fitLeastError(const TerrainModel& model, const Cut& cut, const FitOptions& options,
                                 const RunContext& context) try {
-  auto mesh =
-      meshOf(model, cut, {.everywhere = 1, .rounding = kRounding * cut.achievedError}, options, context);
-  if (!mesh) return tl::unexpected(mesh.error());
-  if (Status done = lessenWorst(*mesh, std::max(1u, options.rings), context); !done)
-    return tl::unexpected(done.error());
-  return fittedCut(*mesh, cut, 0);
+  ARETE_TRY(auto mesh, meshOf(model, cut, {.everywhere = 1, .rounding = kRounding * cut.achievedError},
+                              options, context));
+  ARETE_CHECK(lessenWorst(mesh, std::max(1u, options.rings), context));
+  return fittedCut(mesh, cut, 0);
 } catch (...) {
   return caughtFailure();
 }

@@ -33,9 +33,8 @@ class Lessening {
     while (reached > unit_.rounding && missed < kEnough * reached && std::isfinite(reached)) {
       const double bound = missed > 0 ? (missed + reached) / 2 : kFirstStep * reached;
       if (!(missed < bound && bound < reached)) break;  // neighbouring doubles
-      const Result<bool> isReached = reach(bound);
-      if (!isReached) return tl::unexpected(isReached.error());
-      if (*isReached) {
+      ARETE_TRY(const bool isReached, reach(bound));
+      if (isReached) {
         reached = std::min(bound, worst());
         best = mesh_.heights();
       } else {

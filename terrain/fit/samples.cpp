@@ -189,7 +189,7 @@ Result<FitSamples> onPoints(const MultiTriangulation& mt, const Cut& cut, const 
 
 Result<FitSamples> shareSamples(const MultiTriangulation& mt, const Cut& cut, const NodeSet& nodes,
                                 const RunContext& context) {
-  if (Status checked = checkTriangles(mt, cut); !checked) return tl::unexpected(checked.error());
+  ARETE_CHECK(checkTriangles(mt, cut));
   return mt.vertices().isLattice() ? onLattice(mt, cut, context) : onPoints(mt, cut, nodes, context);
 }
 

@@ -86,11 +86,10 @@ Status law7(const TerrainModel& model) {
 /// every vertex. With cocircular points the triangles are not unique, but their number is. Law 9 is checked
 /// on the same front where it applies.
 Status law8OfPoints(const TerrainModel& model, const Cut& finest) {
-  const auto expected = finestPoints(model.pointSamples());
-  if (!expected) return tl::unexpected(expected.error());
-  if (finest.triangles.size() != expected->triangles.size())
+  ARETE_TRY(const auto expected, finestPoints(model.pointSamples()));
+  if (finest.triangles.size() != expected.triangles.size())
     return broken(fmt::format("law 8: the finest front has {} triangles, the points give {}",
-                              finest.triangles.size(), expected->triangles.size()));
+                              finest.triangles.size(), expected.triangles.size()));
   std::vector<std::uint8_t> seen(model.mt.vertexCount(), 0);
   for (const auto& t : finest.triangles)
     for (const std::uint32_t v : t) seen[finest.vertices[v]] = 1;
@@ -112,7 +111,7 @@ Status law8OfHeights(const TerrainModel& model, const RasterHeightfield& samples
 Status law8(const TerrainModel& model, const Cut& finest) {
   if (!model.isRaster) return law8OfPoints(model, finest);
   const RasterHeightfield samples = model.rasterSamples();
-  if (Status s = law8OfHeights(model, samples); !s) return s;
+  ARETE_CHECK(law8OfHeights(model, samples));
   std::vector<std::array<std::uint32_t, 3>> found, expected = finestTriangulation(samples);
   found.reserve(finest.triangles.size());
   const auto smallestFirst = [](std::array<std::uint32_t, 3>& t) {
@@ -153,16 +152,15 @@ Status validateModel(const TerrainModel& model, const ValidateModelOptions& opti
   const ValidateOptions engineOptions{.allowsFills = model.options.rimTolerance > 0};
   const bool isDelaunay = model.options.shape == HoleShape::delaunay && !engineOptions.allowsFills;
   context.report("validate", 0);
-  if (Status s = validate(model.mt, engineOptions, context); !s) return s;
-  if (Status s = law5OfTriangles(model.mt); !s) return s;
-  if (Status s = law7(model); !s) return s;
+  ARETE_CHECK(validate(model.mt, engineOptions, context));
+  ARETE_CHECK(law5OfTriangles(model.mt));
+  ARETE_CHECK(law7(model));
   const MultiTriangulation& mt = model.mt;
   {
     const Cut finest = frontOfPrefix(mt, mt.nodeCount());
-    if (Status s = law8(model, finest); !s) return s;
-    const auto errors = validateErrors(model, finest, options.everyTriangle, options.seed, context);
-    if (!errors) return tl::unexpected(errors.error());
-    if (checked) *checked = *errors;
+    ARETE_CHECK(law8(model, finest));
+    ARETE_TRY(const auto errors, validateErrors(model, finest, options.everyTriangle, options.seed, context));
+    if (checked) *checked = errors;
   }
   const DomainExtent domain = domainExtent(mt);
   const auto check = [&](const Cut& cut, const std::string& which) -> Status {
@@ -176,7 +174,7 @@ Status validateModel(const TerrainModel& model, const ValidateModelOptions& opti
   for (std::uint32_t i = 0; i <= ladder; ++i) {
     if (context.cancelled()) return failure(ErrorCode::interrupted, "the validation was interrupted");
     const auto nodes = static_cast<std::uint32_t>(std::uint64_t(mt.nodeCount()) * i * i / (ladder * ladder));
-    if (Status s = check(frontOfPrefix(mt, nodes), fmt::format("the first {} nodes", nodes)); !s) return s;
+    ARETE_CHECK(check(frontOfPrefix(mt, nodes), fmt::format("the first {} nodes", nodes)));
     context.report("validate", 0.3 + 0.3 * i / ladder);
   }
   std::uint64_t state = options.seed;
@@ -185,10 +183,8 @@ Status validateModel(const TerrainModel& model, const ValidateModelOptions& opti
     const std::uint64_t seed = splitmix(state);
     // From a few nodes to a tenth of them; with their ancestors the sets are much larger.
     const double fraction = std::pow(0.1, 1 + double(seed % 5));
-    if (Status s = check(front(mt, randomClosedSet(mt, seed, fraction)),
-                         fmt::format("random closed set, seed {}, fraction {}", seed, fraction));
-        !s)
-      return s;
+    ARETE_CHECK(check(front(mt, randomClosedSet(mt, seed, fraction)),
+                      fmt::format("random closed set, seed {}, fraction {}", seed, fraction)));
     context.report("validate", 0.6 + 0.4 * (i + 1) / options.randomFronts);
   }
   return {};

@@ -35,7 +35,7 @@ struct BandRange {
 
 Status checkInputs(const Inputs& in, const Status& heightfield, std::size_t samples) {
   if (!heightfield) return heightfield;
-  if (Status ok = in.mesh.validate(); !ok) return ok;
+  ARETE_CHECK(in.mesh.validate());
   const std::size_t triangles = in.mesh.triangles.size(), values = in.options.mask.size();
   const double tolerance = in.options.planTolerancePixels;
   if (triangles >= std::numeric_limits<std::uint32_t>::max())
@@ -179,9 +179,8 @@ SampleRecorder::SampleRecorder(const Inputs& in, std::size_t samples)
 Result<MeasureReport> measureBands(const Inputs& in, const TriangleBands& bands,
                                    const std::function<BandTotals(std::size_t band)>& scan) {
   std::vector<BandTotals> totals(bands.count());
-  const Status scanned = forEachBand(totals.size(), in.context, "measuring",
-                                     [&](std::size_t band) { totals[band] = scan(band); });
-  if (!scanned) return tl::unexpected(scanned.error());
+  ARETE_CHECK(forEachBand(totals.size(), in.context, "measuring",
+                          [&](std::size_t band) { totals[band] = scan(band); }));
 
   BandTotals all;
   for (const BandTotals& band : totals) all.add(band);

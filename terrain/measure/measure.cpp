@@ -47,7 +47,7 @@ class RasterMeasurement {
         tolerance_(planTolerancePixels(in.options, dem.georeference)) {}
 
   Result<MeasureReport> run() {
-    if (const Status ok = toGrid(); !ok) return tl::unexpected(ok.error());
+    ARETE_CHECK(toGrid());
     constexpr std::int64_t kSamplesPerBand = 1 << 17;
     rowsPerBand_ = std::clamp<std::int64_t>(kSamplesPerBand / std::max(dem_.columns, 1u), 8, 1024);
     bands_ = measuring::sortIntoBands(in_.mesh, grid_, dem_.rows, 1.0, rowsPerBand_, tolerance_);
@@ -235,8 +235,7 @@ Result<MeasureReport> measure(const TriangleMesh& mesh, const RasterHeightfield&
                               const MeasureOptions& options, const RunContext& context,
                               MeasureRasters* rasters) try {
   const measuring::Inputs in{mesh, options, context, rasters};
-  if (const Status ok = measuring::checkInputs(in, dem.validate(), dem.size()); !ok)
-    return tl::unexpected(ok.error());
+  ARETE_CHECK(measuring::checkInputs(in, dem.validate(), dem.size()));
   return RasterMeasurement(in, dem).run();
 } catch (...) {
   return caughtFailure();

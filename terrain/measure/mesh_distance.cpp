@@ -281,7 +281,7 @@ struct Pair {
 
 Result<Pair> pairOf(const TriangleMesh& first, const TriangleMesh& second) {
   for (const auto& [mesh, which] : {std::pair(&first, "first"), std::pair(&second, "second")})
-    if (const Status ok = check(*mesh, which); !ok) return tl::unexpected(ok.error());
+    ARETE_CHECK(check(*mesh, which));
   Pair pair{boxOf(first), {}, {}};
   const Box3 other = boxOf(second);
   pair.box.include(other.low);
@@ -294,7 +294,7 @@ Result<Pair> pairOf(const TriangleMesh& first, const TriangleMesh& second) {
   pair.surfaces = {surfaceOf(first, pair.origin), surfaceOf(second, pair.origin)};
   for (const auto& [surface, which] :
        {std::pair(&pair.surfaces[0], "first"), std::pair(&pair.surfaces[1], "second")})
-    if (const Status ok = check(*surface, which); !ok) return tl::unexpected(ok.error());
+    ARETE_CHECK(check(*surface, which));
   return pair;
 }
 
@@ -307,14 +307,12 @@ std::uint64_t usualSamples(const TriangleMesh& first, const TriangleMesh& second
 
 Result<double> farthestDistance(const TriangleMesh& first, const TriangleMesh& second,
                                 const RunContext& context, std::uint64_t samples) try {
-  const Result<Pair> pair = pairOf(first, second);
-  if (!pair) return tl::unexpected(pair.error());
+  ARETE_TRY(const Pair pair, pairOf(first, second));
   const MeshDistanceOptions options;
-  OneWay way(pair->surfaces[0], pair->surfaces[1], options,
-             samples > 0 ? samples : usualSamples(first, second), context);
-  const Result<DistanceOneWay> found = way.measure("from the first to the second", nullptr, false);
-  if (!found) return tl::unexpected(found.error());
-  return found->atMost;
+  OneWay way(pair.surfaces[0], pair.surfaces[1], options, samples > 0 ? samples : usualSamples(first, second),
+             context);
+  ARETE_TRY(const DistanceOneWay found, way.measure("from the first to the second", nullptr, false));
+  return found.atMost;
 } catch (...) {
   return caughtFailure();
 }
@@ -322,11 +320,10 @@ Result<double> farthestDistance(const TriangleMesh& first, const TriangleMesh& s
 Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const TriangleMesh& second,
                                            const MeshDistanceOptions& options, const RunContext& context,
                                            std::vector<double>* vertexDistances) try {
-  const Result<Pair> pair = pairOf(first, second);
-  if (!pair) return tl::unexpected(pair.error());
-  const Box3& box = pair->box;
-  const Vec3& origin = pair->origin;
-  const std::array<Surface, 2>& surfaces = pair->surfaces;
+  ARETE_TRY(const Pair pair, pairOf(first, second));
+  const Box3& box = pair.box;
+  const Vec3& origin = pair.origin;
+  const std::array<Surface, 2>& surfaces = pair.surfaces;
   const std::uint64_t samples = options.samples > 0 ? options.samples : usualSamples(first, second);
   const auto measureOneWay = [&](int from, const char* stage,
                                  std::vector<double>* distances) -> Result<DistanceOneWay> {
@@ -339,16 +336,14 @@ Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const Tria
     }
     return found;
   };
-  const Result<DistanceOneWay> forward = measureOneWay(0, "from the first to the second", vertexDistances);
-  if (!forward) return tl::unexpected(forward.error());
-  const Result<DistanceOneWay> backward = measureOneWay(1, "from the second to the first", nullptr);
-  if (!backward) return tl::unexpected(backward.error());
+  ARETE_TRY(const DistanceOneWay forward, measureOneWay(0, "from the first to the second", vertexDistances));
+  ARETE_TRY(const DistanceOneWay backward, measureOneWay(1, "from the second to the first", nullptr));
 
   MeshDistanceReport report;
   report.first = surfaces[0].summary;
   report.second = surfaces[1].summary;
-  report.forward = *forward;
-  report.backward = *backward;
+  report.forward = forward;
+  report.backward = backward;
   report.seed = options.seed;
   for (const Vec3& p : {box.low, box.high})
     report.largestCoordinate =

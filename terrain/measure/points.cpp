@@ -231,8 +231,7 @@ Result<MeasureReport> measure(const TriangleMesh& mesh, const PointHeightfield& 
                               const MeasureOptions& options, const RunContext& context,
                               MeasureRasters* rasters) try {
   const measuring::Inputs in{mesh, options, context, rasters};
-  if (const Status ok = measuring::checkInputs(in, points.validate(), points.size()); !ok)
-    return tl::unexpected(ok.error());
+  ARETE_CHECK(measuring::checkInputs(in, points.validate(), points.size()));
   return PointMeasurement(in, points).run();
 } catch (...) {
   return caughtFailure();

@@ -33,10 +33,9 @@ Result<CellGrid> cellGridOf(const TerrainModel& model, double cell) {
   for (const double x : {plan.xMin - rim, plan.xMax - repeated + rim})
     for (const double y : {plan.yMin - rim, plan.yMax + rim}) corners.push_back(model.toSource({x, y}));
   const Box2 box = planBox(corners);
-  const Result<int> columns = sizeOf(box.xMax - box.xMin, cell), rows = sizeOf(box.yMax - box.yMin, cell);
-  if (!columns) return tl::unexpected(columns.error());
-  if (!rows) return tl::unexpected(rows.error());
-  return CellGrid{*columns, *rows, {box.xMin, cell, 0, box.yMax, 0, -cell}};
+  ARETE_TRY(const int columns, sizeOf(box.xMax - box.xMin, cell));
+  ARETE_TRY(const int rows, sizeOf(box.yMax - box.yMin, cell));
+  return CellGrid{columns, rows, {box.xMin, cell, 0, box.yMax, 0, -cell}};
 }
 
 }  // namespace arete

@@ -50,11 +50,10 @@ Result<std::vector<CurvePoint>> errorCurve(const MultiTriangulation& mt, std::sp
     context.report("curve", static_cast<double>(i) / static_cast<double>(tolerances.size()));
     CurvePoint point{.maxError = tolerances[i]};
     point.saturatedTriangles = uniformTriangleCount(mt, tolerances[i]);
-    const Result<NodeCut> cut = takeNodes(mt, UniformError(tolerances[i]), {}, context);
-    if (!cut) return tl::unexpected(cut.error());
+    ARETE_TRY(const NodeCut cut, takeNodes(mt, UniformError(tolerances[i]), {}, context));
     point.minimalTriangles = mt.rootTriangleCount();
-    for (std::uint32_t n = 0; n < cut->nodes.size(); ++n)
-      if (cut->nodes[n]) point.minimalTriangles += mt.isOpen(NodeId(n)) ? 1 : 2;
+    for (std::uint32_t n = 0; n < cut.nodes.size(); ++n)
+      if (cut.nodes[n]) point.minimalTriangles += mt.isOpen(NodeId(n)) ? 1 : 2;
     curve.push_back(point);
   }
   context.report("curve", 1);

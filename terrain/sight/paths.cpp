@@ -114,29 +114,26 @@ Vec2 sightPlan(const TerrainModel& model, Vec2 xy) {
 }
 
 Result<SightLine> sightLine(const SightPath& path, const SightEarth& earth, const TerrainModel& model) try {
-  auto track = earth.track(path.from, path.to);
-  if (!track) return tl::unexpected(track.error());
+  ARETE_TRY(auto track, earth.track(path.from, path.to));
   const double unit = model.georeference.verticalUnitMetres;
-  if (const Status status = checkSightHeights(*track, path.fromHeight, path.toHeight, unit); !status)
-    return tl::unexpected(status.error());
-  return SightLine(std::move(*track), path.fromHeight, path.toHeight, unit);
+  ARETE_CHECK(checkSightHeights(track, path.fromHeight, path.toHeight, unit));
+  return SightLine(std::move(track), path.fromHeight, path.toHeight, unit);
 } catch (...) {
   return caughtFailure();
 }
 
 Result<SightPathAnswer> answerPath(const SightPath& path, const SightEarth& earth, const SightEngine& engine,
                                    const Profiles& profiles, const SightPathOptions& options) try {
-  const auto line = sightLine(path, earth, profiles.heights().model());
-  if (!line) return tl::unexpected(line.error());
-  const SightTrack& track = line->track();
+  ARETE_TRY(const auto line, sightLine(path, earth, profiles.heights().model()));
+  const SightTrack& track = line.track();
   SightPathAnswer answer;
-  answer.distanceMetres = line->length();
+  answer.distanceMetres = line.length();
   answer.azimuthDegrees = track.azimuthDegrees;
-  const double unit = line->heightUnitMetres(), from = path.fromHeight * unit, to = path.toHeight * unit;
+  const double unit = line.heightUnitMetres(), from = path.fromHeight * unit, to = path.toHeight * unit;
   constexpr double kDegrees = 180 / std::numbers::pi;
-  if (line->length() > 0) {
+  if (line.length() > 0) {
     answer.elevationDegrees =
-        std::atan(sightTangent(track.groundCurvature, from, line->length(), to)) * kDegrees;
+        std::atan(sightTangent(track.groundCurvature, from, line.length(), to)) * kDegrees;
   } else {
     answer.elevationDegrees = to > from ? 90 : to < from ? -90 : 0;
   }
@@ -144,10 +141,10 @@ Result<SightPathAnswer> answerPath(const SightPath& path, const SightEarth& eart
   Profile profile;
   if (hasClutter || options.frequencyMegahertz > 0) profile = profiles.along(track);
   if (hasClutter) profile = withClutter(profile, options.clutter);
-  answer.sight = hasClutter ? judged(*line, profile, profiles.heights(), options.sight)
-                            : engine.answer(*line, options.sight);
+  answer.sight = hasClutter ? judged(line, profile, profiles.heights(), options.sight)
+                            : engine.answer(line, options.sight);
   if (options.frequencyMegahertz > 0)
-    answer.fresnel = leastFresnelClearance(*line, profile, wavelengthMetres(options.frequencyMegahertz));
+    answer.fresnel = leastFresnelClearance(line, profile, wavelengthMetres(options.frequencyMegahertz));
   return answer;
 } catch (...) {
   return caughtFailure();

@@ -124,7 +124,7 @@ std::vector<std::array<std::uint32_t, 3>> FinestPoints::trianglesOfPoints() cons
 }
 
 Result<FinestPoints> finestPoints(const PointHeightfield& field, const RunContext& context) try {
-  if (const Status valid = field.validate(); !valid) return tl::unexpected(valid.error());
+  ARETE_CHECK(field.validate());
   if (field.size() > LiveMesh::kMostTriangles / 2)
     return failure(ErrorCode::unsupported,
                    fmt::format("{} points have more triangles than 32-bit half-edges can name", field.size()),

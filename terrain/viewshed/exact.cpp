@@ -60,8 +60,7 @@ Result<ViewshedExact::Answer> ViewshedExact::at(Vec2 plan, double ground) const 
     return Answer{.cell = ViewshedCell::unknown};
   }
   const double distance = track->points.back().distance, target = ground + options_.targetHeight;
-  if (const Status status = checkSightHeights(*track, observer_.height, target, unit_); !status)
-    return tl::unexpected(status.error());
+  ARETE_CHECK(checkSightHeights(*track, observer_.height, target, unit_));
   const ViewshedField& field = options_.field;
   if (!isInField(field, distance, track->azimuthDegrees)) return Answer{};
   if (distance > 0 && (field.lowest > -90 || field.highest < 90)) {

@@ -90,14 +90,13 @@ Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainM
     };
     ViewshedOptions its = options;
     its.field = sites[n].field;
-    const auto one = maker.from(sites[n].observer, its, part);
-    if (!one) return tl::unexpected(one.error());
-    all.withoutLine = std::max(all.withoutLine, one->withoutLine);
+    ARETE_TRY(const auto one, maker.from(sites[n].observer, its, part));
+    all.withoutLine = std::max(all.withoutLine, one.withoutLine);
     const auto server = static_cast<std::uint16_t>(n + 1);
     withThreads(context, [&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size, kCellsPerTask), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end() && !context.cancelled(); ++i) {
-          const ViewshedCell cell = one->cells[i];
+          const ViewshedCell cell = one.cells[i];
           if (weightOf(cell) > weightOf(all.cells[i])) all.cells[i] = cell;
           addTo(all.count[i], cell);
           if (!wantsServer || (isSure(cell) && cell != ViewshedCell::seen)) continue;

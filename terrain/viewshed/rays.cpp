@@ -55,12 +55,11 @@ Status viewshedRays(const ViewshedTask& task, const RunContext& context, Viewshe
         if (!result.values.empty()) result.values[last] = result.values[first];
         continue;
       }
-      const auto answer = task.exact.at({double(column), double(row)}, heights[column]);
-      if (!answer) return tl::unexpected(answer.error());
+      ARETE_TRY(const auto answer, task.exact.at({double(column), double(row)}, heights[column]));
       const std::size_t at = std::size_t{row} * columns + column;
-      result.cells[at] = answer->cell;
-      if (!result.values.empty()) result.values[at] = answer->value;
-      counts[row] += answer->cell != ViewshedCell::outside;
+      result.cells[at] = answer.cell;
+      if (!result.values.empty()) result.values[at] = answer.value;
+      counts[row] += answer.cell != ViewshedCell::outside;
     }
     return {};
   });
@@ -74,10 +73,9 @@ Status viewshedOfPlaces(const ViewshedExact& exact, const SightGrid& grid, std::
   const auto rows = static_cast<std::uint32_t>((places.size() + kPerRow - 1) / kPerRow);
   return forRows(rows, context, [&](std::uint32_t row) -> Status {
     for (std::size_t i = row * kPerRow; i < std::min(places.size(), (row + 1) * kPerRow); ++i) {
-      const auto answer = exact.at(places[i], grid.at(places[i]));
-      if (!answer) return tl::unexpected(answer.error());
-      result.cells[i] = answer->cell;
-      if (!result.values.empty()) result.values[i] = answer->value;
+      ARETE_TRY(const auto answer, exact.at(places[i], grid.at(places[i])));
+      result.cells[i] = answer.cell;
+      if (!result.values.empty()) result.values[i] = answer.value;
     }
     return {};
   });

@@ -105,11 +105,10 @@ Status viewshedSweep(const ViewshedTask& task, const AzimuthalMap* map, const Ru
   if (o.x == std::floor(o.x) && o.y == std::floor(o.y)) {
     const std::size_t own =
         static_cast<std::size_t>(o.y) * task.grid.columns() + static_cast<std::size_t>(o.x);
-    const auto answer = task.exact.at(o, task.grid.row(0)[own]);
-    if (!answer) return tl::unexpected(answer.error());
-    result.cells[own] = answer->cell;
-    if (!result.values.empty()) result.values[own] = answer->value;
-    result.rays += answer->cell != ViewshedCell::outside;
+    ARETE_TRY(const auto answer, task.exact.at(o, task.grid.row(0)[own]));
+    result.cells[own] = answer.cell;
+    if (!result.values.empty()) result.values[own] = answer.value;
+    result.rays += answer.cell != ViewshedCell::outside;
   }
   double before = 0;
   for (const bool isAlongRows : {true, false}) {

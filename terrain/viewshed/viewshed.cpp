@@ -80,9 +80,8 @@ Result<ViewshedMaker> ViewshedMaker::make(const TerrainModel& model, const Sight
   if (!model.isRaster)
     return failure(ErrorCode::unsupported, "viewsheds are of rasters; this model is of points");
   ViewshedMaker maker(model, earth, grid ? std::move(grid) : std::make_shared<SightGrid>(model));
-  auto engine = makeSightEngine(SightMethod::pyramid, model, maker.grid_, context);
-  if (!engine) return tl::unexpected(engine.error());
-  maker.engine_ = std::move(*engine);
+  ARETE_TRY(auto engine, makeSightEngine(SightMethod::pyramid, model, maker.grid_, context));
+  maker.engine_ = std::move(engine);
   if (!earth.planeSteps() && earth.geodesicError())
     maker.steepness_ = std::make_shared<const std::vector<float>>(viewshedSteepness(*maker.grid_, context));
   return maker;
@@ -94,20 +93,18 @@ Result<std::shared_ptr<const SightEngine>> ViewshedMaker::engineFor(const Viewsh
   if (!(options.maxError > 0)) return engine_;
   if (options.method == ViewshedMethod::sweep)
     return failure(ErrorCode::unsupported, "the sweep has no tolerance", "method");
-  auto engine = makeSightEngine(SightMethod::descent, *model_, grid_);
-  if (!engine) return tl::unexpected(engine.error());
-  return std::shared_ptr<const SightEngine>(std::move(*engine));
+  ARETE_TRY(auto engine, makeSightEngine(SightMethod::descent, *model_, grid_));
+  return std::shared_ptr<const SightEngine>(std::move(engine));
 }
 
 Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const ViewshedOptions& options,
                                      const RunContext& context) const try {
-  if (const Status status = check(observer, options); !status) return tl::unexpected(status.error());
-  const auto engine = engineFor(options);
-  if (!engine) return tl::unexpected(engine.error());
+  ARETE_CHECK(check(observer, options));
+  ARETE_TRY(const auto engine, engineFor(options));
   const bool hasTolerance = options.maxError > 0;
   const ViewshedObserver from{sightEnd(*model_, observer.plan), observer.height};
-  if (const auto own = earth_->track(from.plan, from.plan); !own) return tl::unexpected(own.error());
-  const ViewshedExact exact(**engine, *earth_, model_->georeference.verticalUnitMetres, from, options);
+  ARETE_CHECK(earth_->track(from.plan, from.plan));
+  const ViewshedExact exact(*engine, *earth_, model_->georeference.verticalUnitMetres, from, options);
   static const std::vector<float> kNothing;
   const ViewshedTask task{
       *model_, *grid_, *earth_, from, options, exact, steepness_ ? *steepness_ : kNothing};
@@ -139,10 +136,9 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
   result.method =
       options.method == ViewshedMethod::rays || whyNot ? ViewshedMethod::rays : ViewshedMethod::sweep;
   context.report("viewshed", 0);
-  const Status status = result.method == ViewshedMethod::sweep
-                            ? viewshedSweep(task, map ? &*map : nullptr, context, result)
-                            : viewshedRays(task, context, result);
-  if (!status) return tl::unexpected(status.error());
+  ARETE_CHECK(result.method == ViewshedMethod::sweep
+                  ? viewshedSweep(task, map ? &*map : nullptr, context, result)
+                  : viewshedRays(task, context, result));
   context.report("viewshed", 1);
   countCells(result);
   result.withoutLine = exact.withoutLine();
@@ -153,14 +149,13 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
 
 Result<Viewshed> ViewshedMaker::of(std::span<const Vec2> places, const ViewshedObserver& observer,
                                    const ViewshedOptions& options, const RunContext& context) const try {
-  if (const Status status = check(observer, options); !status) return tl::unexpected(status.error());
+  ARETE_CHECK(check(observer, options));
   if (options.method == ViewshedMethod::sweep)
     return failure(ErrorCode::unsupported, "the sweep is of the grid of the DEM, not of places", "method");
-  const auto engine = engineFor(options);
-  if (!engine) return tl::unexpected(engine.error());
+  ARETE_TRY(const auto engine, engineFor(options));
   const ViewshedObserver from{sightEnd(*model_, observer.plan), observer.height};
-  if (const auto own = earth_->track(from.plan, from.plan); !own) return tl::unexpected(own.error());
-  const ViewshedExact exact(**engine, *earth_, model_->georeference.verticalUnitMetres, from, options);
+  ARETE_CHECK(earth_->track(from.plan, from.plan));
+  const ViewshedExact exact(*engine, *earth_, model_->georeference.verticalUnitMetres, from, options);
   std::vector<Vec2> targets(places.begin(), places.end());
   for (Vec2& place : targets) place = sightEnd(*model_, place);
   Viewshed result;
@@ -170,8 +165,7 @@ Result<Viewshed> ViewshedMaker::of(std::span<const Vec2> places, const ViewshedO
   if (options.value != ViewshedValue::none)
     result.values.assign(places.size(), std::numeric_limits<float>::quiet_NaN());
   context.report("viewshed", 0);
-  if (const Status status = viewshedOfPlaces(exact, *grid_, targets, context, result); !status)
-    return tl::unexpected(status.error());
+  ARETE_CHECK(viewshedOfPlaces(exact, *grid_, targets, context, result));
   context.report("viewshed", 1);
   countCells(result);
   result.rays = places.size() - result.outside;

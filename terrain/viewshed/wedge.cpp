@@ -58,7 +58,7 @@ Status ViewshedWedgeSweep::run(const RunContext& context) {
     terrain_.draw(x);
     if (terrain_.far().count == 0 && x - observerX > kFirstLines) return {};
     if (isBeyondField(terrain_.far().x)) return {};
-    if (Status status = classifyLine(x); !status) return status;
+    ARETE_CHECK(classifyLine(x));
     terrain_.add(x, x == start);
   }
   return {};
@@ -86,7 +86,7 @@ Status ViewshedWedgeSweep::classifyLine(int x) {
       const double u = line.u[line.at(y)];
       if (u < wedge_.first || (u == wedge_.first && !wedge_.ownsFirst)) continue;
       if (u > wedge_.last || (u == wedge_.last && !wedge_.ownsLast)) continue;
-      if (Status status = classify(x, y); !status) return status;
+      ARETE_CHECK(classify(x, y));
     }
     return {};
   }
@@ -97,8 +97,7 @@ Status ViewshedWedgeSweep::classifyLine(int x) {
   const auto isWithin = [&](double at) { return wedge_.ownsLast ? at <= last : at < last; };
   int y = line.from;
   while (y < end && isBefore(y - observerY)) ++y;
-  for (; y < end && isWithin(y - observerY); ++y)
-    if (Status status = classify(x, y); !status) return status;
+  for (; y < end && isWithin(y - observerY); ++y) ARETE_CHECK(classify(x, y));
   return {};
 }
 
@@ -233,11 +232,10 @@ std::optional<float> ViewshedWedgeSweep::valueOf(const ImageLine& line, std::siz
 Status ViewshedWedgeSweep::askEngine(std::size_t at, int x, int y) {
   const int a = wedge_.sector.line(x), b = wedge_.sector.line(y);
   const Vec2 plan = wedge_.sector.isAlongRows ? Vec2{double(a), double(b)} : Vec2{double(b), double(a)};
-  const auto answer = task_.exact.at(plan, task_.grid.row(0)[at]);
-  if (!answer) return tl::unexpected(answer.error());
-  result_.cells[at] = answer->cell;
-  if (wantsValue_) result_.values[at] = answer->value;
-  rays_ += answer->cell != ViewshedCell::outside;
+  ARETE_TRY(const auto answer, task_.exact.at(plan, task_.grid.row(0)[at]));
+  result_.cells[at] = answer.cell;
+  if (wantsValue_) result_.values[at] = answer.value;
+  rays_ += answer.cell != ViewshedCell::outside;
   return {};
 }
 

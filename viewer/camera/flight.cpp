@@ -104,11 +104,11 @@ double Flight::Run::timeOf(double progress) const {
 }
 
 Result<Flight> Flight::create(FlightPlan plan, const CameraSpace& space) {
-  if (Status ok = checkNumbers(plan); !ok) return tl::unexpected(ok.error());
+  ARETE_CHECK(checkNumbers(plan));
   std::vector<Vec3> places;
   for (std::size_t i = 0; i < plan.keys.size(); ++i) {
     places.push_back(space.position(plan.keys[i]));
-    if (Status ok = checkKey(plan.keys[i], places[i], i); !ok) return tl::unexpected(ok.error());
+    ARETE_CHECK(checkKey(plan.keys[i], places[i], i));
   }
   Vec3 low = places[0], high = places[0];
   for (const Vec3& p : places) {
@@ -154,7 +154,7 @@ Result<Flight> Flight::create(FlightPlan plan, const CameraSpace& space) {
     flight.addRun(first, last, keys, places);
     first = last;
   }
-  if (Status ok = flight.shareTime(); !ok) return tl::unexpected(ok.error());
+  ARETE_CHECK(flight.shareTime());
   return flight;
 }
 

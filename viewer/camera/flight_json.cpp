@@ -158,9 +158,8 @@ Result<FlightRead> readFlightText(std::string_view text, const std::string& name
 
 Result<FlightRead> readFlight(const std::filesystem::path& path, const Georeference& dem,
                               const LongitudeTurns& turns) {
-  const auto bytes = FileBytes::read(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return readFlightText(bytes->view(), path.string(), dem, turns);
+  ARETE_TRY(const auto bytes, FileBytes::read(path));
+  return readFlightText(bytes.view(), path.string(), dem, turns);
 }
 
 std::string flightText(const FlightPlan& plan, const Georeference& dem) {
@@ -185,10 +184,9 @@ std::string flightText(const FlightPlan& plan, const Georeference& dem) {
 }
 
 Status writeFlight(const std::filesystem::path& path, const FlightPlan& plan, const Georeference& dem) {
-  auto writer = FileWriter::create(path);
-  if (!writer) return tl::unexpected(writer.error());
-  writer->write(flightText(plan, dem));
-  return writer->finish();
+  ARETE_TRY(auto writer, FileWriter::create(path));
+  writer.write(flightText(plan, dem));
+  return writer.finish();
 }
 
 }  // namespace arete

@@ -52,9 +52,8 @@ Result<ComputeFront> ComputeFront::create(const TerrainOnGpu& t, std::uint32_t m
   if (!t.refusal.empty()) return failure(ErrorCode::unsupported, t.refusal, "compute shaders");
   ComputeFront f;
   const auto program = [](GlProgram& into, std::initializer_list<std::string_view> files) -> Status {
-    Result<GlProgram> made = makeProgram({{GL_COMPUTE_SHADER, files}});
-    if (!made) return tl::unexpected(made.error());
-    into = std::move(*made);
+    ARETE_TRY(GlProgram made, makeProgram({{GL_COMPUTE_SHADER, files}}));
+    into = std::move(made);
     return {};
   };
   for (const Status& ok :

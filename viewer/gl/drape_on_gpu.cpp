@@ -72,20 +72,19 @@ Result<DrapeOnGpu> DrapeOnGpu::load(const std::string& path, const TerrainModel&
   const std::uint64_t room = roomInBytes();
   DrapeReadOptions read = options.read;
   for (;;) {
-    Result<DrapeReader> reader = DrapeReader::open(path, model, read, context);
-    if (!reader) return tl::unexpected(reader.error());
+    ARETE_TRY(DrapeReader reader, DrapeReader::open(path, model, read, context));
     DrapeOnGpu drape;
-    drape.scale_ = reader->scale();
-    drape.shift_ = reader->shift();
-    drape.warnings_ = reader->warnings();
+    drape.scale_ = reader.scale();
+    drape.shift_ = reader.shift();
+    drape.warnings_ = reader.warnings();
     if (options.tileSide != 0) {
       drape.side_ = std::clamp<std::uint32_t>(options.tileSide, 4, std::uint32_t(mostSide));
-      drape.planLevels(reader->columns(), reader->rows());
+      drape.planLevels(reader.columns(), reader.rows());
     } else {
       constexpr std::uint32_t kSides[] = {256, 512, 1024, 2048};
       for (const std::uint32_t side : kSides) {
         drape.side_ = side;
-        drape.planLevels(reader->columns(), reader->rows());
+        drape.planLevels(reader.columns(), reader.rows());
         if (drape.layers_ <= std::uint32_t(mostLayers) / 2) break;
       }
     }
@@ -99,7 +98,7 @@ Result<DrapeOnGpu> DrapeOnGpu::load(const std::string& path, const TerrainModel&
       hasRoom = glGetError() == GL_NO_ERROR;
     }
     if (!hasRoom) {
-      const std::uint64_t pixels = std::uint64_t(reader->columns()) * reader->rows();
+      const std::uint64_t pixels = std::uint64_t(reader.columns()) * reader.rows();
       if (pixels < 4096)
         return failure(ErrorCode::unsupported,
                        fmt::format("the device has no room for its {} tiles", drape.layers_), path);
@@ -111,8 +110,8 @@ Result<DrapeOnGpu> DrapeOnGpu::load(const std::string& path, const TerrainModel&
                                       {GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE},
                                       {GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE}})
       glTextureParameteri(drape.texture_, GLenum(name), value);
-    if (Status ok = drape.upload(*reader, context); !ok) return tl::unexpected(ok.error());
-    if (Status ok = drape.makeLevels(); !ok) return tl::unexpected(ok.error());
+    ARETE_CHECK(drape.upload(reader, context));
+    ARETE_CHECK(drape.makeLevels());
     return drape;
   }
 }
@@ -131,9 +130,7 @@ Status DrapeOnGpu::upload(DrapeReader& reader, const RunContext& context) {
     const std::uint32_t c0 = left - (left > 0 ? 1 : 0), c1 = std::min(columns_, left + inner + 1);
     const std::uint32_t r0 = top - (top > 0 ? 1 : 0), r1 = std::min(rows_, top + inner + 1);
     const std::uint32_t width = c1 - c0, height = r1 - r0;
-    if (Status ok = reader.read(c0, r0, width, height, std::span(window).first(std::size_t(width) * height));
-        !ok)
-      return ok;
+    ARETE_CHECK(reader.read(c0, r0, width, height, std::span(window).first(std::size_t(width) * height)));
     const std::uint32_t used = std::min(side_, columns_ - left + 2),
                         usedRows = std::min(side_, rows_ - top + 2);
     for (std::uint32_t y = 0; y < usedRows; ++y) {
@@ -150,18 +147,17 @@ Status DrapeOnGpu::upload(DrapeReader& reader, const RunContext& context) {
 }
 
 Status DrapeOnGpu::makeLevels() const {
-  const Result<GlProgram> program = makeProgram({{GL_COMPUTE_SHADER, {"drape_level.comp.glsl"}}});
-  if (!program) return tl::unexpected(program.error());
+  ARETE_TRY(const GlProgram program, makeProgram({{GL_COMPUTE_SHADER, {"drape_level.comp.glsl"}}}));
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  glUseProgram(*program);
+  glUseProgram(program);
   glBindImageTexture(0, texture_, 0, GL_TRUE, 0, GL_READ_ONLY, GL_RGBA8);
   glBindImageTexture(1, texture_, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA8);
-  glProgramUniform1i(*program, 2, GLint(side_) - 2);
+  glProgramUniform1i(program, 2, GLint(side_) - 2);
   const GLuint groups = (side_ + 7) / 8;
   for (std::size_t k = 1; k < grid_.size(); ++k) {
     const Level &from = grid_[k - 1], &to = grid_[k];
-    glProgramUniform4i(*program, 0, from.firstLayer, from.tilesAcross, from.columns, from.rows);
-    glProgramUniform4i(*program, 1, to.firstLayer, to.tilesAcross, to.columns, to.rows);
+    glProgramUniform4i(program, 0, from.firstLayer, from.tilesAcross, from.columns, from.rows);
+    glProgramUniform4i(program, 1, to.firstLayer, to.tilesAcross, to.columns, to.rows);
     glDispatchCompute(groups, groups, GLuint(to.tilesAcross * to.tilesDown));
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
   }

@@ -113,9 +113,8 @@ Result<OffscreenContext> OffscreenContext::create() {
         "no OpenGL 4.5 context can be had: neither an EGL device nor a display offers one; Mesa's software "
         "renderer does (Debian: libegl1, libgl1-mesa-dri)",
         "OpenGL");
-  Result<std::string> found = checkOpenGl();
-  if (!found) return tl::unexpected(found.error());
-  held->description = std::move(*found);
+  ARETE_TRY(std::string found, checkOpenGl());
+  held->description = std::move(found);
   return OffscreenContext(std::move(held));
 }
 

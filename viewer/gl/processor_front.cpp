@@ -128,12 +128,10 @@ struct ProcessorFront::State {
 };
 
 Result<ProcessorFront> ProcessorFront::create(const MultiTriangulation& mt, double stretch) {
-  Result<ViewMesh> mesh = ViewMesh::create(mt, {.heightScale = stretch});
-  if (!mesh) return tl::unexpected(mesh.error());
-  Result<GlProgram> scatter = makeProgram({{GL_COMPUTE_SHADER, {"scatter.comp.glsl"}}});
-  if (!scatter) return tl::unexpected(scatter.error());
-  auto state = std::make_unique<State>(std::move(*mesh), mt.arrays().metric);
-  state->scatter = std::move(*scatter);
+  ARETE_TRY(ViewMesh mesh, ViewMesh::create(mt, {.heightScale = stretch}));
+  ARETE_TRY(GlProgram scatter, makeProgram({{GL_COMPUTE_SHADER, {"scatter.comp.glsl"}}}));
+  auto state = std::make_unique<State>(std::move(mesh), mt.arrays().metric);
+  state->scatter = std::move(scatter);
   return ProcessorFront(std::move(state));
 }
 

@@ -80,9 +80,8 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
   TerrainPainter p;
   const auto program = [](GlProgram& into, std::initializer_list<std::string_view> vertex,
                           std::initializer_list<std::string_view> fragment) -> Status {
-    Result<GlProgram> made = makeProgram({{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}});
-    if (!made) return tl::unexpected(made.error());
-    into = std::move(*made);
+    ARETE_TRY(GlProgram made, makeProgram({{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}}));
+    into = std::move(made);
     return {};
   };
   for (const Status& ok :

@@ -30,9 +30,8 @@ struct TerrainView::State {
 
   Result<const CurvedGround*> curvedGround() {
     if (!ground) {
-      Result<CurvedGround> made = CurvedGround::create(*model);
-      if (!made) return tl::unexpected(made.error());
-      ground = std::move(*made);
+      ARETE_TRY(CurvedGround made, CurvedGround::create(*model));
+      ground = std::move(made);
     }
     return &*ground;
   }
@@ -45,11 +44,9 @@ struct TerrainView::State {
     if (isReadyFor(settings)) return {};
     MultiTriangulation wanted = model->mt;
     if (settings.isCurved) {
-      const Result<const CurvedGround*> made = curvedGround();
-      if (!made) return tl::unexpected(made.error());
-      Result<MultiTriangulation> curved = (*made)->curvedMt(settings.stretch);
-      if (!curved) return tl::unexpected(curved.error());
-      wanted = std::move(*curved);
+      ARETE_TRY(const CurvedGround* const made, curvedGround());
+      ARETE_TRY(MultiTriangulation curved, made->curvedMt(settings.stretch));
+      wanted = std::move(curved);
     }
     processor.reset();
     std::string refusal = std::move(terrain.refusal);
@@ -66,12 +63,11 @@ struct TerrainView::State {
 
 Result<TerrainView> TerrainView::create(const TerrainModel& model, const Options& options,
                                         const RunContext& context) {
-  Result<TerrainPainter> painter = TerrainPainter::create(model);
-  if (!painter) return tl::unexpected(painter.error());
+  ARETE_TRY(TerrainPainter painter, TerrainPainter::create(model));
   auto state = std::make_unique<State>(State{.model = &model,
                                              .mt = model.mt,
                                              .terrain = uploadTerrain(model.mt, nullptr, context),
-                                             .painter = std::move(*painter)});
+                                             .painter = std::move(painter)});
   state->drawn = options.path;
   if (state->terrain.refusal.empty()) {
     Result<ComputeFront> device = ComputeFront::create(state->terrain, options.mostTriangles);
@@ -91,16 +87,13 @@ TerrainView::~TerrainView() = default;
 Result<FrameView> TerrainView::frameOf(const Camera& camera, const ViewSettings& settings) const {
   FrameView frame;
   if (settings.isCurved) {
-    const Result<const CurvedGround*> ground = state_->curvedGround();
-    if (!ground) return tl::unexpected(ground.error());
-    Result<View> view = (*ground)->viewOf(camera, settings.stretch);
-    if (!view) return tl::unexpected(view.error());
-    frame.view = *view;
-    frame.earthRadius = (*ground)->radius();
+    ARETE_TRY(const CurvedGround* const ground, state_->curvedGround());
+    ARETE_TRY(View view, ground->viewOf(camera, settings.stretch));
+    frame.view = view;
+    frame.earthRadius = ground->radius();
   } else {
-    Result<View> view = viewOf(camera, *state_->model);
-    if (!view) return tl::unexpected(view.error());
-    frame.view = *view;
+    ARETE_TRY(View view, viewOf(camera, *state_->model));
+    frame.view = view;
     frame.view.eye.z *= settings.stretch;
   }
   const Vec3 ground = metricPosition(camera.xy, camera.height, *state_->model);
@@ -118,9 +111,8 @@ Result<FrameView> TerrainView::frameOf(const Camera& camera, const ViewSettings&
 
 Result<FrameFigures> TerrainView::cut(const Camera& camera, const ViewSettings& settings) {
   State& s = *state_;
-  Result<FrameView> frame = frameOf(camera, settings);
-  if (!frame) return tl::unexpected(frame.error());
-  if (const Status ready = s.prepare(settings); !ready) return tl::unexpected(ready.error());
+  ARETE_TRY(FrameView frame, frameOf(camera, settings));
+  ARETE_CHECK(s.prepare(settings));
   FrameFigures figures;
   figures.pixels = settings.pixels;
   const Stopwatch watch;
@@ -130,7 +122,7 @@ Result<FrameFigures> TerrainView::cut(const Camera& camera, const ViewSettings& 
       glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     }
     s.processor.reset();
-    s.painter.setFrame(*frame);
+    s.painter.setFrame(frame);
     s.device->cut(s.terrain, settings.isGeomorphed);
     s.hasRises = settings.isGeomorphed && s.terrain.nodeCount > 0;
     const ComputeFront::Counts counts = settings.waits ? s.device->counts() : s.device->lateCounts();
@@ -143,25 +135,23 @@ Result<FrameFigures> TerrainView::cut(const Camera& camera, const ViewSettings& 
     const double stretch = s.isBent ? 1 : settings.stretch;  // a curved one is exaggerated already
     if (!s.processor || s.processorStretch != stretch) {
       s.processor.reset();
-      Result<ProcessorFront> made = ProcessorFront::create(s.mt, stretch);
-      if (!made) return tl::unexpected(made.error());
-      s.processor = std::move(*made);
+      ARETE_TRY(ProcessorFront made, ProcessorFront::create(s.mt, stretch));
+      s.processor = std::move(made);
       s.processorStretch = stretch;
       glClearNamedBufferData(s.terrain.rises, GL_R32F, GL_RED, GL_FLOAT, nullptr);
     }
-    s.processor->ask({.view = frame->view,
+    s.processor->ask({.view = frame.view,
                       .pixels = settings.pixels,
                       .maxTriangles = settings.maxTriangles,
                       .deadlineMilliseconds = settings.cutMilliseconds,
                       .geomorph = settings.isGeomorphed});
-    const Result<ProcessorFront::Done> done = s.processor->receive(s.terrain, settings.waits);
-    if (!done) return tl::unexpected(done.error());
-    figures.triangles = figures.asked = done->report.triangles;
-    figures.moving = done->report.moving;
-    figures.isComplete = done->report.isComplete;
-    figures.pixels = done->report.pixels;
-    figures.jumpPixels = done->report.jumpPixels;
-    figures.cutMilliseconds = done->milliseconds;
+    ARETE_TRY(const ProcessorFront::Done done, s.processor->receive(s.terrain, settings.waits));
+    figures.triangles = figures.asked = done.report.triangles;
+    figures.moving = done.report.moving;
+    figures.isComplete = done.report.isComplete;
+    figures.pixels = done.report.pixels;
+    figures.jumpPixels = done.report.jumpPixels;
+    figures.cutMilliseconds = done.milliseconds;
     s.hasRises = true;
     s.drawn = CutPath::processor;
     return figures;
@@ -173,9 +163,8 @@ Result<FrameFigures> TerrainView::cut(const Camera& camera, const ViewSettings& 
 Result<Vec3> TerrainView::drawnPosition(Vec2 xy, double height, const ViewSettings& settings) const {
   // On a flat Earth the device multiplies heights.
   if (!settings.isCurved) return metricPosition(xy, height, *state_->model);
-  const Result<const CurvedGround*> ground = state_->curvedGround();
-  if (!ground) return tl::unexpected(ground.error());
-  return (*ground)->position(xy, height, settings.stretch);
+  ARETE_TRY(const CurvedGround* const ground, state_->curvedGround());
+  return ground->position(xy, height, settings.stretch);
 }
 
 DrawnFront TerrainView::front() const {
@@ -186,14 +175,13 @@ DrawnFront TerrainView::front() const {
 
 Status TerrainView::draw(const Camera& camera, const ViewSettings& settings) {
   State& s = *state_;
-  Result<FrameView> frame = frameOf(camera, settings);
-  if (!frame) return tl::unexpected(frame.error());
+  ARETE_TRY(FrameView frame, frameOf(camera, settings));
   if (!s.isReadyFor(settings)) {
     ViewSettings now = settings;
     now.waits = true;
-    if (const auto taken = cut(camera, now); !taken) return tl::unexpected(taken.error());
+    ARETE_CHECK(cut(camera, now));
   }
-  s.painter.setFrame(*frame);
+  s.painter.setFrame(frame);
   if (settings.look.coloring == Coloring::error && s.terrain.triangleErrors == 0)
     uploadErrors(s.terrain, s.model->mt);
   glBeginQuery(GL_ANY_SAMPLES_PASSED, s.anySample);
@@ -218,9 +206,8 @@ std::uint32_t TerrainView::capacity() const {
 Status TerrainView::setDrape(const std::string& path, const DrapeOptions& options,
                              const RunContext& context) {
   State& s = *state_;
-  Result<DrapeOnGpu> drape = DrapeOnGpu::load(path, *s.model, options, context);
-  if (!drape) return tl::unexpected(drape.error());
-  s.drape = std::move(*drape);
+  ARETE_TRY(DrapeOnGpu drape, DrapeOnGpu::load(path, *s.model, options, context));
+  s.drape = std::move(drape);
   s.painter.setDrape(&*s.drape);
   return {};
 }

@@ -112,9 +112,9 @@ class Demo {
   Result<DemoReport> run(const std::string& dem) {
     for (const auto step : {&Demo::read, &Demo::buildModel, &Demo::takeAll, &Demo::drawChart, &Demo::drawMap,
                             &Demo::drawTins, &Demo::drawViewshed, &Demo::drawView}) {
-      if (const Status status = interruptedIf(context_); !status) return tl::unexpected(status.error());
+      ARETE_CHECK(interruptedIf(context_));
       report_.dem = dem;
-      if (const Status status = (this->*step)(); !status) return tl::unexpected(status.error());
+      ARETE_CHECK((this->*step)());
     }
     report_.totalSeconds = all_.seconds();
     for (const DemoResult& r : report_.results) {
@@ -137,16 +137,15 @@ class Demo {
 
   Status read() {
     for (const std::vector<double>* stated : {&options_.maxErrors, &options_.reliefShares})
-      if (const auto checked = checkedTolerances(*stated); !checked) return tl::unexpected(checked.error());
-    Result<DemRead> dem = readDem(report_.dem, options_.reading, context_);
-    if (!dem) return tl::unexpected(dem.error());
-    if (!std::holds_alternative<RasterHeightfield>(dem->heightfield))
+      ARETE_CHECK(checkedTolerances(*stated));
+    ARETE_TRY(DemRead dem, readDem(report_.dem, options_.reading, context_));
+    if (!std::holds_alternative<RasterHeightfield>(dem.heightfield))
       return failure(ErrorCode::unsupported,
                      "the demo draws maps of rasters and these are scattered points; build, extract and "
                      "measure take them",
                      report_.dem);
-    field_ = std::move(std::get<RasterHeightfield>(dem->heightfield));
-    report_.warnings = std::move(dem->warnings);
+    field_ = std::move(std::get<RasterHeightfield>(dem.heightfield));
+    report_.warnings = std::move(dem.warnings);
     report_.columns = field_.columns;
     report_.rows = field_.rows;
     report_.relief = reliefOf(field_.heights);
@@ -161,15 +160,13 @@ class Demo {
   Status buildModel() {
     BuildOptions build = options_.build;
     const Stopwatch watch;
-    const Result<FixedVertices> fixed = chooseFixedVertices(field_, {}, context_);
-    if (!fixed) return tl::unexpected(fixed.error());
-    build.fixedVertices.insert(build.fixedVertices.end(), fixed->vertices.begin(), fixed->vertices.end());
+    ARETE_TRY(const FixedVertices fixed, chooseFixedVertices(field_, {}, context_));
+    build.fixedVertices.insert(build.fixedVertices.end(), fixed.vertices.begin(), fixed.vertices.end());
     std::sort(build.fixedVertices.begin(), build.fixedVertices.end());
     build.fixedVertices.erase(std::unique(build.fixedVertices.begin(), build.fixedVertices.end()),
                               build.fixedVertices.end());
-    Result<TerrainModel> built = arete::build(field_, build, context_);
-    if (!built) return tl::unexpected(built.error());
-    model_ = std::move(*built);
+    ARETE_TRY(TerrainModel built, arete::build(field_, build, context_));
+    model_ = std::move(built);
     report_.buildSeconds = watch.seconds();
     report_.finestTriangles = model_.mt.finestTriangleCount();
     return writeAmt(written("dem.amt"), model_, context_);
@@ -177,17 +174,16 @@ class Demo {
 
   Status takeAll() {
     const std::vector<double> ladder = toleranceLadder(model_.mt, kCurvePoints);
-    Result<std::vector<CurvePoint>> curve = errorCurve(model_.mt, ladder, context_);
-    if (!curve) return tl::unexpected(curve.error());
-    report_.curve = std::move(*curve);
+    ARETE_TRY(std::vector<CurvePoint> curve, errorCurve(model_.mt, ladder, context_));
+    report_.curve = std::move(curve);
     std::vector<double> stated = options_.maxErrors;
     for (const double percent : options_.reliefShares) stated.push_back(percent / 100 * report_.relief);
     std::vector<double> tolerances = *checkedTolerances(std::move(stated));
     if (tolerances.empty()) tolerances = chosenTolerances(report_.curve, model_.mt, options_.mostTolerances);
     for (std::size_t i = 0; i < tolerances.size(); ++i) {
       context_.report("extract", double(i) / double(tolerances.size()));
-      if (Status status = interruptedIf(context_); !status) return status;
-      if (Status status = take(tolerances[i], i >= firstPictured(tolerances.size())); !status) return status;
+      ARETE_CHECK(interruptedIf(context_));
+      ARETE_CHECK(take(tolerances[i], i >= firstPictured(tolerances.size())));
     }
     context_.report("extract", 1);
     return {};
@@ -208,12 +204,10 @@ class Demo {
   /// Cut, write, measure, certify.
   Status take(double maxError, bool isPictured) {
     const Stopwatch watch;
-    const Result<Cut> cut = takeCut(model_.mt, UniformError(maxError), {}, quiet());
-    if (!cut) return tl::unexpected(cut.error());
+    ARETE_TRY(const Cut cut, takeCut(model_.mt, UniformError(maxError), {}, quiet()));
     const double seconds = watch.seconds();
-    Result<TinExport> exported = exportTin(model_, *cut);
-    if (!exported) return tl::unexpected(exported.error());
-    TinExport& tin = *exported;
+    ARETE_TRY(TinExport exported, exportTin(model_, cut));
+    TinExport& tin = exported;
 
     const std::string name = fmt::format("tin-{:g}", maxError);
     MeshWriteOptions mesh;
@@ -222,39 +216,36 @@ class Demo {
     mesh.triangleErrors = tin.errors;
     mesh.notes = {fmt::format("within {} of {}", withUnit(maxError, report_.unit), report_.dem)};
     const std::string file = written(name + ".ply");
-    if (const auto written = writeMesh(tin.mesh, file, mesh, quiet()); !written)
-      return tl::unexpected(written.error());
+    ARETE_CHECK(writeMesh(tin.mesh, file, mesh, quiet()));
 
     MeasureRasters rasters;
-    const Result<MeasureReport> measured =
-        measure(tin.mesh, field_, {}, quiet(), isPictured ? &rasters : nullptr);
-    if (!measured) return tl::unexpected(measured.error());
+    ARETE_TRY(const MeasureReport measured,
+              measure(tin.mesh, field_, {}, quiet(), isPictured ? &rasters : nullptr));
     Certificate certificate;
     certificate.file = file;
     certificate.model = path("dem.amt");
     certificate.criterion.maxError = maxError;
-    certificate.storedError = cut->achievedError;
-    certificate.measured = *measured;
+    certificate.storedError = cut.achievedError;
+    certificate.measured = measured;
     certificate.promisedError = maxError;
-    certificate.isKept = keepsPromise(*measured, maxError);
+    certificate.isKept = keepsPromise(measured, maxError);
     certificate.checkCommand = fmt::format("arete measure {} {} --expect {}", shellArgument(file),
                                            shellArgument(report_.dem), maxError);
-    if (Status status = writeCertificate(written(name + ".certificate.json"), certificate, model_); !status)
-      return status;
+    ARETE_CHECK(writeCertificate(written(name + ".certificate.json"), certificate, model_));
 
     DemoResult row;
     row.maxError = maxError;
     if (report_.relief > 0) row.percentOfRelief = 100 * maxError / report_.relief;
-    row.triangles = static_cast<std::uint32_t>(cut->triangles.size());
+    row.triangles = static_cast<std::uint32_t>(cut.triangles.size());
     row.percentOfFinest = 100.0 * row.triangles / report_.finestTriangles;
-    row.measuredMax = measured->maxAbsError;
-    row.measuredRms = measured->rmsError;
-    row.uncovered = measured->uncovered;
+    row.measuredMax = measured.maxAbsError;
+    row.measuredRms = measured.rmsError;
+    row.uncovered = measured.uncovered;
     row.cutSeconds = seconds;
     row.isKept = certificate.isKept;
     report_.results.push_back(row);
-    report_.isolated = measured->isolated;
-    if (isPictured) shown_.push_back({maxError, std::move(tin.mesh), *measured, std::move(rasters.errors)});
+    report_.isolated = measured.isolated;
+    if (isPictured) shown_.push_back({maxError, std::move(tin.mesh), measured, std::move(rasters.errors)});
     return {};
   }
 
@@ -307,7 +298,7 @@ class Demo {
   Status drawTins() {
     for (std::size_t i = 0; i < shown_.size(); ++i) {
       context_.report("draw", double(i) / double(shown_.size()));
-      if (Status status = interruptedIf(context_); !status) return status;
+      ARETE_CHECK(interruptedIf(context_));
       const Shown& s = shown_[i];
       Status status = save(drawTin(field_, s.mesh,
                                    {.width = options_.pictureWidth,
@@ -330,15 +321,13 @@ class Demo {
     for (std::size_t i = 0; i < z.size(); ++i)
       if (!(z[i] <= z[highest]) && !std::isnan(z[i])) highest = i;
     const auto earth = makePlaneEarth(model_);
-    const Result<ViewshedMaker> maker = ViewshedMaker::make(model_, *earth, {}, quiet());
-    if (!maker) return tl::unexpected(maker.error());
+    ARETE_TRY(const ViewshedMaker maker, ViewshedMaker::make(model_, *earth, {}, quiet()));
     const Vec2 place{double(highest % field_.columns), double(highest / field_.columns)};
     const double up = kMetresUp / field_.georeference.verticalUnitMetres;
-    const Result<Viewshed> viewshed = maker->from({place, z[highest] + up}, {}, quiet());
-    if (!viewshed) return tl::unexpected(viewshed.error());
+    ARETE_TRY(const Viewshed viewshed, maker.from({place, z[highest] + up}, {}, quiet()));
     return save(
         drawViewshedMap(
-            field_, *viewshed, place,
+            field_, viewshed, place,
             {.width = options_.pictureWidth,
              .title = title("what is seen from the highest place, " + withUnit(z[highest], report_.unit)),
              .caption = {"2 m above the ground   \u00b7   on a plane Earth   \u00b7   every "
@@ -364,8 +353,7 @@ class Demo {
       report_.warnings.push_back("no view.png: " + view.error().describe());
       return {};
     }
-    const Result<FrameFigures> figures = view->draw(camera);
-    if (!figures) return tl::unexpected(figures.error());
+    ARETE_CHECK(view->draw(camera));
     return savePng(view->image(), written("view.png"));
   }
 

@@ -41,17 +41,13 @@ struct HeadlessView::State {
 
 Result<HeadlessView> HeadlessView::create(const TerrainModel& model, const HeadlessOptions& options,
                                           const RunContext& context) {
-  Result<OffscreenContext> gl = OffscreenContext::create();
-  if (!gl) return tl::unexpected(gl.error());
-  Result<FrameTarget> target =
-      FrameTarget::create(options.widthPixels, options.heightPixels, options.samples);
-  if (!target) return tl::unexpected(target.error());
+  ARETE_TRY(OffscreenContext gl, OffscreenContext::create());
+  ARETE_TRY(FrameTarget target,
+            FrameTarget::create(options.widthPixels, options.heightPixels, options.samples));
   TerrainView::Options viewOptions;
   viewOptions.path = options.settings.path;
-  Result<TerrainView> view = TerrainView::create(model, viewOptions, context);
-  if (!view) return tl::unexpected(view.error());
-  auto state =
-      std::make_unique<State>(State{std::move(*gl), std::move(*target), std::move(*view), options, {}});
+  ARETE_TRY(TerrainView view, TerrainView::create(model, viewOptions, context));
+  auto state = std::make_unique<State>(State{std::move(gl), std::move(target), std::move(view), options, {}});
   if (options.settings.path == CutPath::device && !state->view.deviceRefusal().empty()) {
     state->warnings.push_back("the processor takes the cuts: " + state->view.deviceRefusal());
     state->options.settings.path = CutPath::processor;
@@ -90,21 +86,20 @@ Result<FrameFigures> HeadlessView::draw(const Camera& stated) {
     for (int i = 0; i < kDoublings && !fits(); ++i) {
       tooFine = coarse;
       coarse *= 2;
-      if (const Status ok = cutAt(coarse); !ok) return tl::unexpected(ok.error());
+      ARETE_CHECK(cutAt(coarse));
     }
     const bool canFit = fits();  // else the root alone is beyond the budget
     for (int i = 0; i < kHalvings && canFit && figures->asked < kUsed * most; ++i) {
       const double middle = std::sqrt(tooFine * coarse);
-      if (const Status ok = cutAt(middle); !ok) return tl::unexpected(ok.error());
+      ARETE_CHECK(cutAt(middle));
       (fits() ? coarse : tooFine) = middle;
     }
-    if (canFit && !fits())
-      if (const Status ok = cutAt(coarse); !ok) return tl::unexpected(ok.error());
+    if (canFit && !fits()) ARETE_CHECK(cutAt(coarse));
     figures->isComplete = false;
   }
   const Stopwatch watch;
   s.target.begin();
-  if (const Status drawn = s.view.draw(camera, settings); !drawn) return tl::unexpected(drawn.error());
+  ARETE_CHECK(s.view.draw(camera, settings));
   glFinish();
   figures->showsTerrain = s.view.showsTerrain();
   figures->drawMilliseconds = watch.milliseconds();
@@ -136,15 +131,14 @@ Result<std::uint64_t> filmFrames(const Flight& flight, double framesPerSecond) {
 Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight, const FilmOptions& options,
                                         const RunContext& context) {
   const double rate = options.framesPerSecond > 0 ? options.framesPerSecond : flight.plan().framesPerSecond;
-  const Result<std::uint64_t> count = filmFrames(flight, rate);
-  if (!count) return tl::unexpected(count.error());
+  ARETE_TRY(const std::uint64_t count, filmFrames(flight, rate));
   std::error_code failed;
   std::filesystem::create_directories(options.folder, failed);
   if (failed)
     return failure(ErrorCode::unreadable, "the folder cannot be made: " + failed.message(),
                    options.folder.string());
   std::vector<FilmFrame> frames;
-  for (std::uint64_t i = 0; i < *count; ++i) {
+  for (std::uint64_t i = 0; i < count; ++i) {
     if (context.cancelled())
       return failure(ErrorCode::interrupted, "the film was interrupted", options.folder.string());
     FilmFrame frame;
@@ -156,10 +150,10 @@ Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight
       return failure(figures.error().code, figures.error().message,
                      fmt::format("{}, {}", path.string(), figures.error().culprit));
     frame.figures = *figures;
-    if (const Status saved = savePng(view.image(), path); !saved) return tl::unexpected(saved.error());
+    ARETE_CHECK(savePng(view.image(), path));
     frame.file = path.string();
     frames.push_back(std::move(frame));
-    context.report("draw frames", double(i + 1) / double(*count));
+    context.report("draw frames", double(i + 1) / double(count));
   }
   return frames;
 }
@@ -238,10 +232,9 @@ Status encodeFilm(const std::filesystem::path& folder, std::size_t frames, doubl
 }
 
 Status savePng(const Image& image, const std::filesystem::path& path) {
-  Result<Canvas> canvas = Canvas::create(image.width, image.height);
-  if (!canvas) return tl::unexpected(canvas.error());
-  canvas->image(image, 0, 0);
-  return canvas->savePng(path);
+  ARETE_TRY(Canvas canvas, Canvas::create(image.width, image.height));
+  canvas.image(image, 0, 0);
+  return canvas.savePng(path);
 }
 
 }  // namespace arete

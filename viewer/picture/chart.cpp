@@ -122,7 +122,7 @@ Status check(std::span<const ChartSeries> series, const ChartOptions& options) {
 }  // namespace
 
 Result<Canvas> drawLogLogChart(std::span<const ChartSeries> series, const ChartOptions& options) {
-  if (Status status = check(series, options); !status) return tl::unexpected(status.error());
+  ARETE_CHECK(check(series, options));
   auto made = Canvas::create(options.width, options.height);
   if (!made) return made;
   Canvas& canvas = *made;

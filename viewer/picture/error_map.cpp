@@ -172,15 +172,16 @@ Result<Plan> plan(const RasterHeightfield& errors, const ErrorMapOptions& option
       "errors {} to {}   \u00b7   mean {}   \u00b7   root mean square {} {}   \u00b7   {} samples",
       valueText(s.low), valueText(s.high), valueText(s.mean), numberText(s.rms), options.unit,
       countText(s.count)));
-  auto page = makeMapPage(
-      errors.columns, errors.rows, errors.georeference,
-      {.width = options.width, .sideWidth = kSideWidth, .title = options.title, .caption = caption});
-  if (!page) return tl::unexpected(page.error());
-  const double height = std::floor(std::min(page->map.height - 84, 620.0));
-  const Rect bar = {page->side.left + kBarLeft, std::floor(page->map.top + (page->map.height - height) / 2),
+  ARETE_TRY(
+      auto page,
+      makeMapPage(
+          errors.columns, errors.rows, errors.georeference,
+          {.width = options.width, .sideWidth = kSideWidth, .title = options.title, .caption = caption}));
+  const double height = std::floor(std::min(page.map.height - 84, 620.0));
+  const Rect bar = {page.side.left + kBarLeft, std::floor(page.map.top + (page.map.height - height) / 2),
                     kBarWidth, height};
-  const Rect map = page->map;
-  return Plan{s, std::move(*page), {map, bar, limit}};
+  const Rect map = page.map;
+  return Plan{s, std::move(page), {map, bar, limit}};
 }
 
 }  // namespace
@@ -190,13 +191,12 @@ Result<ErrorMapLayout> errorMapLayout(const RasterHeightfield& errors, const Err
 }
 
 Result<Canvas> drawErrorMap(const RasterHeightfield& errors, const ErrorMapOptions& options) {
-  auto planned = plan(errors, options);
-  if (!planned) return tl::unexpected(planned.error());
-  MapPage& page = planned->page;
-  page.canvas.image(errorImage(errors, page.view, planned->layout.limit), int(page.map.left),
+  ARETE_TRY(auto planned, plan(errors, options));
+  MapPage& page = planned.page;
+  page.canvas.image(errorImage(errors, page.view, planned.layout.limit), int(page.map.left),
                     int(page.map.top));
   page.canvas.frame(page.map, {.color = kInk, .width = 1});
-  drawColorBar(page.canvas, planned->layout.colorBar, errors, planned->statistics, planned->layout.limit,
+  drawColorBar(page.canvas, planned.layout.colorBar, errors, planned.statistics, planned.layout.limit,
                options.unit);
   return std::move(page.canvas);
 }

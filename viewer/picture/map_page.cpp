@@ -83,19 +83,17 @@ Result<MapPage> makeMapPage(std::uint32_t columns, std::uint32_t rows, const Geo
   const Rect map = {kMargin, above, double(view.width), double(view.height)};
   const auto width = std::max(kSmallestWidth, int(view.width + 2 * kMargin + side));
   // The caption stands beside the furniture where both fit, else below it.
-  auto ruler = Canvas::create(1, 1);
-  if (!ruler) return tl::unexpected(ruler.error());
+  ARETE_TRY(auto ruler, Canvas::create(1, 1));
   double longest = 0;
   for (const std::string& text : options.caption) {
-    longest = std::max(longest, ruler->textWidth(text, {.size = kCaptionSize}));
+    longest = std::max(longest, ruler.textWidth(text, {.size = kCaptionSize}));
   }
   const double captionTop = longest > view.width - kFurnitureWidth ? kFurnitureHeight : 0;
   const double captionHeight = 30 + kLineHeight * double(options.caption.size());
   const double footer = std::max(kFurnitureHeight, captionTop + captionHeight);
-  auto canvas = Canvas::create(width, int(map.bottom() + footer + kMargin / 2));
-  if (!canvas) return tl::unexpected(canvas.error());
+  ARETE_TRY(auto canvas, Canvas::create(width, int(map.bottom() + footer + kMargin / 2)));
 
-  MapPage page{std::move(*canvas), view, map, {map.right(), map.top, side, map.height}};
+  MapPage page{std::move(canvas), view, map, {map.right(), map.top, side, map.height}};
   const double textRoom = width - 2 * kMargin;
   writeFitted(page.canvas, options.title, {kMargin, kMargin + 18}, textRoom,
               {.size = kTitleSize, .color = kInk, .bold = true});

@@ -241,10 +241,9 @@ Status Canvas::savePng(const std::filesystem::path& path) const {
                    fmt::format("The picture cannot be encoded: {}.", cairo_status_to_string(encoded)),
                    path.string());
   }
-  auto writer = FileWriter::create(path);
-  if (!writer) return tl::unexpected(writer.error());
-  writer->write(bytes);
-  return writer->finish();
+  ARETE_TRY(auto writer, FileWriter::create(path));
+  writer.write(bytes);
+  return writer.finish();
 }
 
 }  // namespace arete

@@ -167,25 +167,25 @@ std::vector<std::string> captionOf(const RasterHeightfield& ground, const Triang
 
 Result<Canvas> drawTin(const RasterHeightfield& ground, const TriangleMesh& tin,
                        const TinPictureOptions& options) {
-  if (Status status = tin.validate(); !status) return tl::unexpected(status.error());
-  auto page = makeMapPage(
-      ground.columns, ground.rows, ground.georeference,
-      {.width = options.width, .title = options.title, .caption = captionOf(ground, tin, options)});
-  if (!page) return tl::unexpected(page.error());
+  ARETE_CHECK(tin.validate());
+  ARETE_TRY(auto page, makeMapPage(ground.columns, ground.rows, ground.georeference,
+                                   {.width = options.width,
+                                    .title = options.title,
+                                    .caption = captionOf(ground, tin, options)}));
 
   const double wash = tin.triangles.empty() ? 0.0 : 0.15;
-  page->canvas.image(drawHillshade(ground, page->view, {.tint = 0.85, .wash = wash}), int(page->map.left),
-                     int(page->map.top));
+  page.canvas.image(drawHillshade(ground, page.view, {.tint = 0.85, .wash = wash}), int(page.map.left),
+                    int(page.map.top));
   std::vector<Vec2> grid;
   grid.reserve(tin.positions.size());
   for (const Vec3& p : tin.positions) grid.push_back(ground.georeference.toGrid(p.x, p.y));
   const auto edges = uniqueEdges(tin);
-  const double edgeLength = typicalEdge(page->view, tin.triangles.size());
-  drawEdges(page->canvas, grid, edges, page->view, page->map, edgeStroke(edgeLength));
-  page->canvas.frame(page->map, {.color = kInk, .width = 1});
+  const double edgeLength = typicalEdge(page.view, tin.triangles.size());
+  drawEdges(page.canvas, grid, edges, page.view, page.map, edgeStroke(edgeLength));
+  page.canvas.frame(page.map, {.color = kInk, .width = 1});
   if (options.detail && !tin.triangles.empty() && edgeLength < kDetailBelowEdge)
-    drawDetail(*page, ground, grid, edges, edgeLength);
-  return std::move(page->canvas);
+    drawDetail(page, ground, grid, edges, edgeLength);
+  return std::move(page.canvas);
 }
 
 }  // namespace arete

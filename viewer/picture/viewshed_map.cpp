@@ -46,10 +46,9 @@ Result<Canvas> drawViewshedMap(const RasterHeightfield& field, const Viewshed& v
   caption.push_back(fmt::format("{} of {} samples are seen, {:.1f} %", countText(viewshed.seen),
                                 countText(static_cast<std::size_t>(cells)),
                                 100 * static_cast<double>(viewshed.seen) / std::max(1.0, cells)));
-  auto page = makeMapPage(field.columns, field.rows, field.georeference,
-                          {.width = options.width, .title = options.title, .caption = caption});
-  if (!page) return tl::unexpected(page.error());
-  const MapView& view = page->view;
+  ARETE_TRY(auto page, makeMapPage(field.columns, field.rows, field.georeference,
+                                   {.width = options.width, .title = options.title, .caption = caption}));
+  const MapView& view = page.view;
   Image image = drawHillshade(field, view, {.tint = 0});
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
@@ -58,12 +57,12 @@ Result<Canvas> drawViewshedMap(const RasterHeightfield& field, const Viewshed& v
           std::size_t{nearest(at.y, field.rows)} * field.columns + nearest(at.x, field.columns);
       image.at(x, y) = cellColor(image.at(x, y), viewshed.cells[sample]);
     }
-  page->canvas.image(image, int(page->map.left), int(page->map.top));
-  page->canvas.frame(page->map, {.color = kInk, .width = 1});
-  const Vec2 dot = page->toPage(observer.x, observer.y);
-  page->canvas.fillCircle(dot, 9, {255, 255, 255});
-  page->canvas.fillCircle(dot, 6, {200, 30, 40});
-  return std::move(page->canvas);
+  page.canvas.image(image, int(page.map.left), int(page.map.top));
+  page.canvas.frame(page.map, {.color = kInk, .width = 1});
+  const Vec2 dot = page.toPage(observer.x, observer.y);
+  page.canvas.fillCircle(dot, 9, {255, 255, 255});
+  page.canvas.fillCircle(dot, 6, {200, 30, 40});
+  return std::move(page.canvas);
 }
 
 }  // namespace arete

@@ -17,15 +17,11 @@ struct HeadlessSurface::State {
 
 Result<HeadlessSurface> HeadlessSurface::create(const SurfaceModel& model, const Upright& upright,
                                                 const Options& options) {
-  Result<OffscreenContext> gl = OffscreenContext::create();
-  if (!gl) return tl::unexpected(gl.error());
-  Result<FrameTarget> target =
-      FrameTarget::create(options.widthPixels, options.heightPixels, options.samples);
-  if (!target) return tl::unexpected(target.error());
-  Result<SurfaceView> view = SurfaceView::create(model, upright);
-  if (!view) return tl::unexpected(view.error());
-  return HeadlessSurface(
-      std::make_unique<State>(State{std::move(*gl), std::move(*target), std::move(*view)}));
+  ARETE_TRY(OffscreenContext gl, OffscreenContext::create());
+  ARETE_TRY(FrameTarget target,
+            FrameTarget::create(options.widthPixels, options.heightPixels, options.samples));
+  ARETE_TRY(SurfaceView view, SurfaceView::create(model, upright));
+  return HeadlessSurface(std::make_unique<State>(State{std::move(gl), std::move(target), std::move(view)}));
 }
 
 HeadlessSurface::HeadlessSurface(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -43,7 +39,7 @@ Result<SurfaceFigures> HeadlessSurface::draw(const Camera& stated, const Surface
   if (!figures) return figures;
   const Stopwatch watch;
   s.target.begin();
-  if (const Status drawn = s.view.draw(camera, settings); !drawn) return tl::unexpected(drawn.error());
+  ARETE_CHECK(s.view.draw(camera, settings));
   figures->showsSurface = s.view.showsSurface();
   figures->drawMilliseconds = watch.milliseconds();
   return figures;

@@ -39,14 +39,12 @@ float coloringNumber(SurfaceColoring coloring) {
 
 Result<SurfacePainter> SurfacePainter::create() {
   SurfacePainter p;
-  Result<GlProgram> surface = makeProgram({{GL_VERTEX_SHADER, {"frame.glsl", "surface.vert.glsl"}},
-                                           {GL_FRAGMENT_SHADER, {"frame.glsl", "surface.frag.glsl"}}});
-  if (!surface) return tl::unexpected(surface.error());
-  Result<GlProgram> background = makeProgram(
-      {{GL_VERTEX_SHADER, {"sky.vert.glsl"}}, {GL_FRAGMENT_SHADER, {"surface_background.frag.glsl"}}});
-  if (!background) return tl::unexpected(background.error());
-  p.surface_ = std::move(*surface);
-  p.background_ = std::move(*background);
+  ARETE_TRY(GlProgram surface, makeProgram({{GL_VERTEX_SHADER, {"frame.glsl", "surface.vert.glsl"}},
+                                            {GL_FRAGMENT_SHADER, {"frame.glsl", "surface.frag.glsl"}}}));
+  ARETE_TRY(GlProgram background, makeProgram({{GL_VERTEX_SHADER, {"sky.vert.glsl"}},
+                                               {GL_FRAGMENT_SHADER, {"surface_background.frag.glsl"}}}));
+  p.surface_ = std::move(surface);
+  p.background_ = std::move(background);
   p.frame_ = makeBuffer(sizeof(FrameBlock));
   p.look_ = makeBuffer(sizeof(Look));
   p.nothing_ = makeBuffer(16);

@@ -86,15 +86,14 @@ struct SurfaceView::State {
 };
 
 Result<SurfaceView> SurfaceView::create(const SurfaceModel& model, const Upright& upright) {
-  Result<SurfacePainter> painter = SurfacePainter::create();
-  if (!painter) return tl::unexpected(painter.error());
+  ARETE_TRY(SurfacePainter painter, SurfacePainter::create());
   return SurfaceView(std::make_unique<State>(State{.model = &model,
                                                    .upright = upright,
                                                    .shape = uprightShape(model, upright),
                                                    .cut = IncrementalCut(model.mt),
                                                    .surface = uploadSurface(model, upright),
                                                    .materials = MaterialsOnGpu::load(model),
-                                                   .painter = std::move(*painter)}));
+                                                   .painter = std::move(painter)}));
 }
 
 SurfaceView::SurfaceView(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -105,21 +104,19 @@ SurfaceView::~SurfaceView() = default;
 Result<SurfaceFigures> SurfaceView::cut(const Camera& camera, const SurfaceViewSettings& settings,
                                         const RunContext& context) {
   State& s = *state_;
-  const Result<View> view = uprightView(camera);
-  if (!view) return tl::unexpected(view.error());
+  ARETE_TRY(const View view, uprightView(camera));
   const Stopwatch watch;
   const MultiTriangulation& mt = s.model->mt;
-  const ViewError criterion({.view = s.upright.turnedBack(*view), .pixels = settings.pixels},
+  const ViewError criterion({.view = s.upright.turnedBack(view), .pixels = settings.pixels},
                             mt.arrays().metric);
   IncrementalOptions options;
   if (settings.maxTriangles > 0) options.maxTriangles = settings.maxTriangles;
-  const Result<IncrementalCut::Update> update = s.cut.update(criterion, options, context);
-  if (!update) return tl::unexpected(update.error());
+  ARETE_TRY(const IncrementalCut::Update update, s.cut.update(criterion, options, context));
   SurfaceFigures figures;
   figures.triangles = static_cast<std::uint32_t>(s.cut.triangles().size());
-  figures.isComplete = update->isComplete;
+  figures.isComplete = update.isComplete;
   figures.pixels = settings.pixels;
-  if (!update->isComplete)
+  if (!update.isComplete)
     figures.pixels = std::max(settings.pixels, worstSeverity(mt, criterion, s.cut.front()));
   s.pixels = figures.pixels;
   if (!s.isUploaded || !s.cut.lastSteps().empty()) s.upload();
@@ -130,10 +127,9 @@ Result<SurfaceFigures> SurfaceView::cut(const Camera& camera, const SurfaceViewS
 
 Status SurfaceView::draw(const Camera& camera, const SurfaceViewSettings& settings) {
   State& s = *state_;
-  const Result<View> view = uprightView(camera);
-  if (!view) return tl::unexpected(view.error());
+  ARETE_TRY(const View view, uprightView(camera));
   FrameView frame;
-  frame.view = *view;
+  frame.view = view;
   frame.pixels = s.pixels;
   frame.drawnNear = kNearest * s.shape.box.diagonal();
   glBeginQuery(GL_ANY_SAMPLES_PASSED, s.anySample);

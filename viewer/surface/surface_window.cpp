@@ -66,7 +66,7 @@ class SurfaceWindow {
         window_.wait(0.1);
         continue;
       }
-      if (Status drawn = drawFrame(context); !drawn) return drawn;
+      ARETE_CHECK(drawFrame(context));
     }
     if (options_.lastPicture.empty() || shown_.width == 0) return {};
     return savePng(shown_, options_.lastPicture);
@@ -78,9 +78,8 @@ class SurfaceWindow {
     SurfaceSession& s = session_;
     const int width = window_.widthPixels(), height = window_.heightPixels();
     if (!target_ || target_->width() != width || target_->height() != height) {
-      Result<FrameTarget> target = FrameTarget::create(width, height, options_.samples);
-      if (!target) return tl::unexpected(target.error());
-      target_.emplace(std::move(*target));
+      ARETE_TRY(FrameTarget target, FrameTarget::create(width, height, options_.samples));
+      target_.emplace(std::move(target));
     }
     const ImGuiIO& io = ImGui::GetIO();
     const GlfwWindow::Events events = window_.poll(io.WantCaptureMouse, io.WantCaptureKeyboard);
@@ -93,14 +92,13 @@ class SurfaceWindow {
     ImGui::Render();
 
     if (!s.isFrozen || !hasCut_) {
-      const Result<SurfaceFigures> figures = view_.cut(s.camera(), s.settings, context);
-      if (!figures) return tl::unexpected(figures.error());
-      s.figures = *figures;
+      ARETE_TRY(const SurfaceFigures figures, view_.cut(s.camera(), s.settings, context));
+      s.figures = figures;
       hasCut_ = true;
     }
     const Stopwatch drawing;
     target_->begin();
-    if (Status drawn = view_.draw(s.camera(), s.settings); !drawn) return drawn;
+    ARETE_CHECK(view_.draw(s.camera(), s.settings));
     glFinish();
     s.figures.drawMilliseconds = drawing.milliseconds();
     if (std::exchange(s.wantsScreenshot, false)) {
@@ -197,15 +195,13 @@ class SurfaceWindow {
 
 Status runSurfaceWindow(const SurfaceModel& model, const Upright& upright,
                         const SurfaceWindowOptions& options, const RunContext& context) {
-  Result<GlfwWindow> window = GlfwWindow::open(options.title, options.width, options.height, true);
-  if (!window) return tl::unexpected(window.error());
-  Result<SurfaceView> view = SurfaceView::create(model, upright);
-  if (!view) return tl::unexpected(view.error());
+  ARETE_TRY(GlfwWindow window, GlfwWindow::open(options.title, options.width, options.height, true));
+  ARETE_TRY(SurfaceView view, SurfaceView::create(model, upright));
   Camera picture;
-  picture.widthPixels = std::max(window->widthPixels(), 1);
-  picture.heightPixels = std::max(window->heightPixels(), 1);
-  const Camera camera = options.camera.value_or(surfaceHome(options.home, view->shape(), picture));
-  SurfaceWindow shown(options, std::move(*window), std::move(*view), camera);
+  picture.widthPixels = std::max(window.widthPixels(), 1);
+  picture.heightPixels = std::max(window.heightPixels(), 1);
+  const Camera camera = options.camera.value_or(surfaceHome(options.home, view.shape(), picture));
+  SurfaceWindow shown(options, std::move(window), std::move(view), camera);
   return shown.run(context);
 }
 

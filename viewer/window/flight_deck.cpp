@@ -34,16 +34,14 @@ void FlightDeck::clear() {
 
 Result<const Flight*> FlightDeck::flight() {
   if (!flight_) {
-    Result<Flight> made = Flight::create(plan_, space_);
-    if (!made) return tl::unexpected(made.error());
-    flight_ = std::move(*made);
+    ARETE_TRY(Flight made, Flight::create(plan_, space_));
+    flight_ = std::move(made);
   }
   return &*flight_;
 }
 
 Status FlightDeck::play() {
-  const Result<const Flight*> made = flight();
-  if (!made) return tl::unexpected(made.error());
+  ARETE_CHECK(flight());
   time_ = 0;
   return {};
 }
@@ -63,11 +61,9 @@ Status FlightDeck::save(const std::filesystem::path& path, const Georeference& d
 
 Status FlightDeck::load(const std::filesystem::path& path, const Georeference& dem,
                         const LongitudeTurns& turns) {
-  Result<FlightRead> read = readFlight(path, dem, turns);
-  if (!read) return tl::unexpected(read.error());
-  const Result<Flight> made = Flight::create(read->plan, space_);
-  if (!made) return tl::unexpected(made.error());
-  setPlan(read->plan);
+  ARETE_TRY(FlightRead read, readFlight(path, dem, turns));
+  ARETE_CHECK(Flight::create(read.plan, space_));
+  setPlan(read.plan);
   return {};
 }
 

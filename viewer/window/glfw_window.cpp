@@ -97,9 +97,8 @@ Result<GlfwWindow> GlfwWindow::open(const std::string& title, int width, int hei
     return failure(ErrorCode::unsupported,
                    fmt::format("OpenGL 4.5 is needed, and there is {}", whatThereIs()), "OpenGL");
   glfwMakeContextCurrent(held->window);
-  Result<std::string> found = checkOpenGl();
-  if (!found) return tl::unexpected(found.error());
-  held->description = std::move(*found);
+  ARETE_TRY(std::string found, checkOpenGl());
+  held->description = std::move(found);
   glfwSwapInterval(waitsForScreen ? 1 : 0);
   glfwSetWindowUserPointer(held->window, held.get());
   glfwSetWindowSizeLimits(held->window, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);

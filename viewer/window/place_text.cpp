@@ -48,29 +48,25 @@ std::string PlaceText::height(double height) const {
 
 Result<PlaceText::Goal> PlaceText::read(const std::string& text, bool isLonLat) const {
   const Georeference& dem = heights_.model().georeference;
-  Result<CrsTransform> toDem = isLonLat ? CrsTransform::fromLonLat(dem) : CrsTransform();
-  if (!toDem) return tl::unexpected(toDem.error());
-  toDem->setTurns(LongitudeTurns(heights_.model()));
+  ARETE_TRY(CrsTransform toDem, isLonLat ? CrsTransform::fromLonLat(dem) : CrsTransform());
+  toDem.setTurns(LongitudeTurns(heights_.model()));
   Goal goal;
   if (std::count(text.begin(), text.end(), ',') < 2) {
-    const auto place = readPlaceArgument("go to", text, *toDem);
-    if (!place) return tl::unexpected(place.error());
-    const auto ground = heights_.at(*place);
+    ARETE_TRY(const auto place, readPlaceArgument("go to", text, toDem));
+    const auto ground = heights_.at(place);
     if (!ground)
       return failure(ErrorCode::invalidData, "there is no terrain; X,Y,Hmsl goes there all the same",
                      "go to " + text);
-    goal.xy = *place;
+    goal.xy = place;
     goal.ground = ground->height;
     return goal;
   }
-  const auto position = readPositionArgument("go to", text, *toDem);
-  if (!position) return tl::unexpected(position.error());
-  const auto height = demHeight(*position, heights_);
-  if (!height) return tl::unexpected(height.error());
-  const auto ground = heights_.at(position->xy);
-  goal.xy = position->xy;
-  goal.ground = ground ? ground->height : *height;
-  goal.height = *height;
+  ARETE_TRY(const auto position, readPositionArgument("go to", text, toDem));
+  ARETE_TRY(const auto height, demHeight(position, heights_));
+  const auto ground = heights_.at(position.xy);
+  goal.xy = position.xy;
+  goal.ground = ground ? ground->height : height;
+  goal.height = height;
   return goal;
 }
 

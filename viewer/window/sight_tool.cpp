@@ -53,18 +53,16 @@ Result<SightPicture> SightTool::between(const TerrainPick& from, double fromAbov
                                         double toAbove) const {
   const SightPath path{sightPlan(model_, from.xy), sightPlan(model_, to.xy), from.height + fromAbove,
                        to.height + toAbove};
-  const Result<SightLine> line = sightLine(path, *earth_, model_);
-  if (!line) return tl::unexpected(line.error());
-  const auto answer = answerPath(path, *earth_, *engine_, profiles_, {});
-  if (!answer) return tl::unexpected(answer.error());
+  ARETE_TRY(const SightLine line, sightLine(path, *earth_, model_));
+  ARETE_TRY(const auto answer, answerPath(path, *earth_, *engine_, profiles_, {}));
 
-  SightPicture picture{.answer = *answer, .points = {}, .obstruction = {}, .pointsBefore = 0, .text = {}};
-  const SightAnswer& sight = answer->sight;
+  SightPicture picture{.answer = answer, .points = {}, .obstruction = {}, .pointsBefore = 0, .text = {}};
+  const SightAnswer& sight = answer.sight;
   const auto placeAt = [&](double s) {
-    return space_.position(model_.toSource(line->planAt(s)), line->height(s));
+    return space_.position(model_.toSource(line.planAt(s)), line.height(s));
   };
   for (int i = 0; i <= kPoints; ++i) {
-    const double s = line->length() * i / kPoints;
+    const double s = line.length() * i / kPoints;
     if (!sight.obstruction || s < sight.obstruction->distance) ++picture.pointsBefore;
     picture.points.push_back(placeAt(s));
   }
@@ -72,8 +70,8 @@ Result<SightPicture> SightTool::between(const TerrainPick& from, double fromAbov
 
   const std::string& unit = model_.georeference.verticalUnit;
   picture.text.emplace_back(verdictText(sight));
-  picture.text.push_back(fmt::format("{}, azimuth {:.2f}°, {:+.3f}° up", metresText(answer->distanceMetres),
-                                     answer->azimuthDegrees, answer->elevationDegrees));
+  picture.text.push_back(fmt::format("{}, azimuth {:.2f}°, {:+.3f}° up", metresText(answer.distanceMetres),
+                                     answer.azimuthDegrees, answer.elevationDegrees));
   if (sight.clearance)
     picture.text.push_back(fmt::format("clearance {}, {} away", withUnit(*sight.clearance, unit),
                                        metresText(sight.least.distance)));

@@ -60,13 +60,11 @@ void ViewshedJob::start(const TerrainModel& model, const SightEarth& earth, cons
     // One processor is left for the window.
     context.threads = std::max(1, int(std::thread::hardware_concurrency()) - 1);
     state->result = [&]() -> Result<ViewshedOverlay> {
-      const auto maker = ViewshedMaker::make(model, earth, {}, context);
-      if (!maker) return tl::unexpected(maker.error());
+      ARETE_TRY(const auto maker, ViewshedMaker::make(model, earth, {}, context));
       ViewshedOptions options;
       options.targetHeight = targetHeight;
-      const auto viewshed = maker->from(observer, options, context);
-      if (!viewshed) return tl::unexpected(viewshed.error());
-      return overlayOf(*viewshed, mostPixels);
+      ARETE_TRY(const auto viewshed, maker.from(observer, options, context));
+      return overlayOf(viewshed, mostPixels);
     }();
     state->isDone = true;
   });

@@ -80,18 +80,17 @@ std::string nameOfNow() {
 class FrameFiles {
  public:
   Result<Camera> next(ViewerSession& s) {
-    const auto flight = s.deck.flight();
-    if (!flight) return tl::unexpected(flight.error());
+    ARETE_TRY(const auto flight, s.deck.flight());
     std::error_code error;
     std::filesystem::create_directories(s.framesFolder, error);
     if (error) return failure(ErrorCode::unreadable, error.message(), s.framesFolder.string());
-    count_ = (*flight)->frameCount();
-    return (*flight)->at(double(frame_) / (*flight)->plan().framesPerSecond);
+    count_ = flight->frameCount();
+    return flight->at(double(frame_) / flight->plan().framesPerSecond);
   }
   /// True when that was the last.
   Result<bool> save(const ViewerSession& s, const Image& image) {
     const auto path = s.framesFolder / fmt::format("frame_{:05}.png", frame_);
-    if (const Status saved = savePng(image, path); !saved) return tl::unexpected(saved.error());
+    ARETE_CHECK(savePng(image, path));
     return ++frame_ >= count_;
   }
   std::uint64_t done() const { return frame_; }
@@ -116,8 +115,7 @@ class WindowLoop {
   }
 
   Status run(const RunContext& context) {
-    if (options_.onReady)
-      if (Status ready = options_.onReady(view_); !ready) return ready;
+    if (options_.onReady) ARETE_CHECK(options_.onReady(view_));
     window_.show();
     for (int frame = 0; !window_.isClosing(); ++frame) {
       if (context.cancelled()) return failure(ErrorCode::interrupted, "interrupted");
@@ -127,7 +125,7 @@ class WindowLoop {
         window_.wait(0.1);
         continue;
       }
-      if (Status drawn = drawFrame(); !drawn) return drawn;
+      ARETE_CHECK(drawFrame());
     }
     if (options_.lastPicture.empty() || shown_.width == 0) return {};
     return savePng(shown_, options_.lastPicture);
@@ -138,9 +136,8 @@ class WindowLoop {
     const auto start = Clock::now();
     const int width = window_.widthPixels(), height = window_.heightPixels();
     if (!target_ || target_->width() != width || target_->height() != height) {
-      Result<FrameTarget> target = FrameTarget::create(width, height, options_.samples);
-      if (!target) return tl::unexpected(target.error());
-      target_.emplace(std::move(*target));
+      ARETE_TRY(FrameTarget target, FrameTarget::create(width, height, options_.samples));
+      target_.emplace(std::move(target));
     }
     const ImGuiIO& io = ImGui::GetIO();
     GlfwWindow::Events events = window_.poll(io.WantCaptureMouse, io.WantCaptureKeyboard);
@@ -148,14 +145,14 @@ class WindowLoop {
     for (const Action action : events.actions) session_.apply(action);
     if (events.click) session_.click(*events.click);
     session_.step(events.input);
-    if (Status placed = placeFrameFile(); !placed) return placed;
+    ARETE_CHECK(placeFrameFile());
 
     panelContext_.beginFrame();
     panel_.draw(session_, window_.pixelsPerUnit());
     ImGui::Render();
 
-    if (Status drawn = drawTerrain(); !drawn) return drawn;
-    if (Status saved = savePictures(); !saved) return saved;
+    ARETE_CHECK(drawTerrain());
+    ARETE_CHECK(savePictures());
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, width, height);
     target_->copyTo(0);
@@ -299,13 +296,13 @@ class WindowLoop {
 }  // namespace
 
 Status runWindow(const TerrainModel& model, const WindowOptions& options, const RunContext& context) {
-  Result<GlfwWindow> window =
-      GlfwWindow::open(options.title, options.width, options.height, options.waitsForScreen);
-  if (!window) return tl::unexpected(window.error());
-  Result<TerrainView> view = TerrainView::create(
-      model, {.path = options.start.settings.path, .mostTriangles = options.mostTriangles}, context);
-  if (!view) return tl::unexpected(view.error());
-  WindowLoop loop(model, options, std::move(*window), std::move(*view));
+  ARETE_TRY(GlfwWindow window,
+            GlfwWindow::open(options.title, options.width, options.height, options.waitsForScreen));
+  ARETE_TRY(
+      TerrainView view,
+      TerrainView::create(
+          model, {.path = options.start.settings.path, .mostTriangles = options.mostTriangles}, context));
+  WindowLoop loop(model, options, std::move(window), std::move(view));
   return loop.run(context);
 }
 

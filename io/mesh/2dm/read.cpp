@@ -218,9 +218,8 @@ class TwoDmReader final : public MeshTextReader {
 }  // namespace
 
 Result<MeshFile> read2dm(const std::filesystem::path& path, const RunContext& context) {
-  const Result<FileBytes> file = FileBytes::readText(path);
-  if (!file) return tl::unexpected(file.error());
-  return TwoDmReader(*file, path.string(), context).read();
+  ARETE_TRY(const FileBytes file, FileBytes::readText(path));
+  return TwoDmReader(file, path.string(), context).read();
 }
 
 }  // namespace arete

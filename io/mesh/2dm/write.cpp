@@ -31,15 +31,14 @@ Result<MeshWriteReport> write2dm(MeshRef written, const std::filesystem::path& p
   const TriangleMesh& mesh = written.shape;
   if (const Status ok = written.validate(); !ok)
     return failure(ErrorCode::invalidData, ok.error().message, path.string());
-  Result<FileWriter> file = FileWriter::create(path);
-  if (!file) return tl::unexpected(file.error());
+  ARETE_TRY(FileWriter file, FileWriter::create(path));
 
-  file->write(fmt::format("MESH2D\n# {}\n", kMeshTextGenerator));
-  file->write(meshComments(options));
+  file.write(fmt::format("MESH2D\n# {}\n", kMeshTextGenerator));
+  file.write(meshComments(options));
 
   WriteProgress progress(mesh.positions.size() + mesh.triangles.size(), path.string(), context);
   char line[160];  // three doubles of at most 24 characters each and a number
-  const auto writeUpTo = [&](const char* end) { file->write({line, static_cast<std::size_t>(end - line)}); };
+  const auto writeUpTo = [&](const char* end) { file.write({line, static_cast<std::size_t>(end - line)}); };
   const auto& attributes = written.attributes.triangleAttributes;
   const auto materials = std::ranges::find_if(attributes, isMaterial);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -54,8 +53,8 @@ Result<MeshWriteReport> write2dm(MeshRef written, const std::filesystem::path& p
     if (progress.shouldStop()) return progress.interrupted();
     writeUpTo(fmt::format_to(line, FMT_COMPILE("ND {} {} {} {}\n"), ++number, p.x, p.y, p.z));
   }
-  file->write(fmt::format("# {}\n", kMeshTextEnd));
-  if (const Status ok = file->finish(); !ok) return tl::unexpected(ok.error());
+  file.write(fmt::format("# {}\n", kMeshTextEnd));
+  ARETE_CHECK(file.finish());
   return MeshWriteReport{.lost = lossesOf(written.attributes, {.triangleAttribute = isMaterial})};
 }
 

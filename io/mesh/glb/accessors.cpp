@@ -82,10 +82,8 @@ Result<GltfElements> sparsePart(const GltfDocument& document, GltfViews& views, 
     elements.type = *scalar;
     setShape(elements, "SCALAR");
   }
-  const auto view = views.view(document, *viewNumber);
-  if (!view) return tl::unexpected(view.error());
-  if (Status ok = place(elements, *view, *offset, number, *viewNumber); !ok)
-    return tl::unexpected(ok.error());
+  ARETE_TRY(const auto view, views.view(document, *viewNumber));
+  ARETE_CHECK(place(elements, view, *offset, number, *viewNumber));
   return elements;
 }
 
@@ -102,21 +100,19 @@ Status applySparse(const GltfDocument& document, GltfViews& views, const nlohman
       return wrong(number, fmt::format("has {} sparse values of {} elements", *count, elements.count));
     GltfElements shape = elements;
     shape.count = *count;
-    const auto indices = sparsePart(document, views, sparse, "indices", shape, number),
-               values = sparsePart(document, views, sparse, "values", shape, number);
-    if (!indices) return tl::unexpected(indices.error());
-    if (!values) return tl::unexpected(values.error());
-    if (Status ok = views.reserve(size * elements.count); !ok) return ok;
+    ARETE_TRY(const auto indices, sparsePart(document, views, sparse, "indices", shape, number));
+    ARETE_TRY(const auto values, sparsePart(document, views, sparse, "values", shape, number));
+    ARETE_CHECK(views.reserve(size * elements.count));
     std::string whole(size * elements.count, '\0');
     if (elements.stride > 0)
       for (std::uint64_t i = 0; i < elements.count; ++i)
         std::memcpy(whole.data() + i * size, elements.first + i * elements.stride, size);
     std::uint64_t next = 0;
     for (std::uint64_t i = 0; i < *count; ++i) {
-      const std::uint64_t at = indices->index(i);
+      const std::uint64_t at = indices.index(i);
       if (at < next || at >= elements.count)
         return wrong(number, fmt::format("has the sparse index {} out of order or range", at));
-      std::memcpy(whole.data() + at * size, values->first + i * values->stride, size);
+      std::memcpy(whole.data() + at * size, values.first + i * values.stride, size);
       next = at + 1;
     }
     known = views.sparse.emplace(number, std::make_shared<const std::string>(std::move(whole))).first;
@@ -154,9 +150,8 @@ std::optional<ScalarType> scalarTypeOf(std::uint64_t componentType) {
 
 Result<GltfElements> readAccessor(const GltfDocument& document, GltfViews& views, std::uint64_t number,
                                   std::string_view type) {
-  const auto found = document.element("accessors", number);
-  if (!found) return tl::unexpected(found.error());
-  const nlohmann::json& accessor = **found;
+  ARETE_TRY(const auto found, document.element("accessors", number));
+  const nlohmann::json& accessor = *found;
   const auto typeName = accessor.find("type");
   if (typeName == accessor.end() || !typeName->is_string() || (!type.empty() && *typeName != type))
     return wrong(number, fmt::format("is not of the type {} that is needed", type.empty() ? "VEC3" : type));
@@ -179,17 +174,14 @@ Result<GltfElements> readAccessor(const GltfDocument& document, GltfViews& views
   if (accessor.contains("bufferView")) {
     const auto viewNumber = GltfDocument::wholeNumber(accessor, "bufferView");
     if (!viewNumber) return wrong(number, viewNumber.error().message);
-    const auto view = views.view(document, *viewNumber);
-    if (!view) return tl::unexpected(view.error());
-    if (Status ok = place(elements, *view, *offset, number, *viewNumber); !ok)
-      return tl::unexpected(ok.error());
+    ARETE_TRY(const auto view, views.view(document, *viewNumber));
+    ARETE_CHECK(place(elements, view, *offset, number, *viewNumber));
   } else {
     elements.first = kZeros;
     elements.stride = 0;
   }
   if (const auto sparse = accessor.find("sparse"); sparse != accessor.end())
-    if (Status ok = applySparse(document, views, *sparse, number, elements); !ok)
-      return tl::unexpected(ok.error());
+    ARETE_CHECK(applySparse(document, views, *sparse, number, elements));
   return elements;
 }
 

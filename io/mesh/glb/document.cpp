@@ -84,9 +84,8 @@ Result<GltfDocument> GltfDocument::open(std::string_view file, const std::filesy
   GltfDocument document;
   std::string_view chunk;
   if (file.starts_with("glTF")) {
-    Result<nlohmann::json> json = parseGlb(file, chunk);
-    if (!json) return tl::unexpected(json.error());
-    document.json_ = std::move(*json);
+    ARETE_TRY(nlohmann::json json, parseGlb(file, chunk));
+    document.json_ = std::move(json);
   } else {
     document.json_ = parsed(file);
     if (!document.json_.is_object())
@@ -94,8 +93,8 @@ Result<GltfDocument> GltfDocument::open(std::string_view file, const std::filesy
   }
   document.views_ = std::make_shared<GltfViews>(folder, chunk);
   document.views_->setFileBytes(file.size());
-  if (const Status ok = document.checkVersion(); !ok) return tl::unexpected(ok.error());
-  if (const Status ok = checkRequiredExtensions(document.json_); !ok) return tl::unexpected(ok.error());
+  ARETE_CHECK(document.checkVersion());
+  ARETE_CHECK(checkRequiredExtensions(document.json_));
   return document;
 }
 

@@ -56,26 +56,22 @@ Result<GltfViews::View> GltfViews::decompressed(const GltfDocument& document, st
              count = GltfDocument::wholeNumber(compression, "count");
   for (const auto* value : {&buffer, &offset, &length, &stride, &count})
     if (!*value) return tl::unexpected(value->error());
-  const auto element = document.element("buffers", *buffer);
-  if (!element) return tl::unexpected(element.error());
-  const Result<std::string_view> bytes = buffers_.bytesOf(*buffer, **element);
-  if (!bytes) return tl::unexpected(bytes.error());
-  if (*offset + *length > bytes->size())
-    return corrupt(fmt::format("ends at byte {} of {}", *offset + *length, bytes->size()));
-  if (Status ok = reserve(*count * *stride); !ok) return tl::unexpected(ok.error());
-  Result<std::string> decoded =
-      decodeMeshopt(bytes->substr(*offset, *length), *count, *stride,
-                    textOf(compression, "mode", "ATTRIBUTES"), textOf(compression, "filter", "NONE"));
-  if (!decoded) return tl::unexpected(decoded.error());
+  ARETE_TRY(const auto element, document.element("buffers", *buffer));
+  ARETE_TRY(const std::string_view bytes, buffers_.bytesOf(*buffer, *element));
+  if (*offset + *length > bytes.size())
+    return corrupt(fmt::format("ends at byte {} of {}", *offset + *length, bytes.size()));
+  ARETE_CHECK(reserve(*count * *stride));
+  ARETE_TRY(std::string decoded,
+            decodeMeshopt(bytes.substr(*offset, *length), *count, *stride,
+                          textOf(compression, "mode", "ATTRIBUTES"), textOf(compression, "filter", "NONE")));
   const auto kept =
-      decompressed_.emplace(number, std::make_shared<const std::string>(std::move(*decoded))).first;
+      decompressed_.emplace(number, std::make_shared<const std::string>(std::move(decoded))).first;
   return View{*kept->second, 0, kept->second};
 }
 
 Result<GltfViews::View> GltfViews::view(const GltfDocument& document, std::uint64_t number) {
-  const auto found = document.element("bufferViews", number);
-  if (!found) return tl::unexpected(found.error());
-  const nlohmann::json& view = **found;
+  ARETE_TRY(const auto found, document.element("bufferViews", number));
+  const nlohmann::json& view = *found;
   const auto bufferNumber = GltfDocument::wholeNumber(view, "buffer"),
              offset = GltfDocument::wholeNumber(view, "byteOffset", 0),
              length = GltfDocument::wholeNumber(view, "byteLength"),
@@ -95,9 +91,8 @@ Result<GltfViews::View> GltfViews::view(const GltfDocument& document, std::uint6
     decoding = decoded.error();
     decoding.message = fmt::format("bufferView {}: {}", number, decoding.message);
   }
-  const auto buffer = document.element("buffers", *bufferNumber);
-  if (!buffer) return tl::unexpected(buffer.error());
-  const Result<std::string_view> bytes = buffers_.bytesOf(*bufferNumber, **buffer);
+  ARETE_TRY(const auto buffer, document.element("buffers", *bufferNumber));
+  const Result<std::string_view> bytes = buffers_.bytesOf(*bufferNumber, *buffer);
   const bool isWhole = bytes && *offset + *length <= bytes->size();
   if (compression != nullptr && !isWhole) return tl::unexpected(decoding);
   if (!bytes) return tl::unexpected(bytes.error());

@@ -63,8 +63,7 @@ class GpkgReader {
       const OGRFeatureUniquePtr feature(layer_.GetNextFeature());
       if (!feature) break;
       id_ = feature->GetFID();
-      if (const OGRGeometry* geometry = feature->GetGeometryRef())
-        if (const Status ok = addGeometry(*geometry); !ok) return tl::unexpected(ok.error());
+      if (const OGRGeometry* geometry = feature->GetGeometryRef()) ARETE_CHECK(addGeometry(*geometry));
       if (hasErrors) hasErrors = feature->IsFieldSetAndNotNull(errorField) != 0;
       if (hasErrors)
         result_.triangleErrors.resize(result_.mesh.triangles.size(),
@@ -99,13 +98,11 @@ class GpkgReader {
     const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
     if (type == wkbPolygon || type == wkbTriangle) return addPolygon(*geometry.toPolygon());
     if (OGR_GT_IsSubClassOf(type, wkbPolyhedralSurface)) {
-      for (const OGRPolygon* polygon : *geometry.toPolyhedralSurface())
-        if (Status ok = addPolygon(*polygon); !ok) return ok;
+      for (const OGRPolygon* polygon : *geometry.toPolyhedralSurface()) ARETE_CHECK(addPolygon(*polygon));
       return {};
     }
     if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
-      for (const OGRGeometry* part : *geometry.toGeometryCollection())
-        if (Status ok = addGeometry(*part); !ok) return ok;
+      for (const OGRGeometry* part : *geometry.toGeometryCollection()) ARETE_CHECK(addGeometry(*part));
       return {};
     }
     return refuse(ErrorCode::unsupported, fmt::format("is a {}, not a triangle", geometry.getGeometryName()));
@@ -116,8 +113,7 @@ class GpkgReader {
     if (!polygon.Is3D()) return refuse(ErrorCode::unsupported, "has no heights");
     corners_.clear();
     ringEnds_.clear();
-    for (const OGRLinearRing* ring : polygon)
-      if (Status ok = addRing(*ring); !ok) return ok;
+    for (const OGRLinearRing* ring : polygon) ARETE_CHECK(addRing(*ring));
     PolygonTriangles triangles = triangulatePolygon(corners_, PolygonView::above, ringEnds_);
     if (!triangles.isSimple) {
       if (ringEnds_.size() > 1) return refuse(ErrorCode::unsupported, "is a polygon whose rings cross");
@@ -171,19 +167,18 @@ Result<MeshFile> readFrom(const std::string& path, const RunContext& context) {
       error = {ErrorCode::corrupt, "is damaged or not a GeoPackage", path};
     return tl::unexpected(std::move(error));
   }
-  const Result<OGRLayer*> layer = surfacesOf(*dataset);
-  if (!layer) return tl::unexpected(layer.error());
-  Result<MeshFile> file = GpkgReader(**layer, context).read();
+  ARETE_TRY(OGRLayer* const layer, surfacesOf(*dataset));
+  Result<MeshFile> file = GpkgReader(*layer, context).read();
   if (!file) return file;
-  if (const OGRSpatialReference* crs = (*layer)->GetSpatialRef(); isKnownCrs(crs)) {
+  if (const OGRSpatialReference* crs = layer->GetSpatialRef(); isKnownCrs(crs)) {
     OGRSpatialReference copy(*crs);
     copy.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     Georeference described;
-    if (const Status ok = describeCrs(copy, described); !ok) return tl::unexpected(ok.error());
+    ARETE_CHECK(describeCrs(copy, described));
     file->crsWkt = described.crsWkt;
     file->verticalUnit = described.verticalUnit;
   }
-  if (const char* unit = (*layer)->GetMetadataItem(kUnitKey)) file->verticalUnit = unit;
+  if (const char* unit = layer->GetMetadataItem(kUnitKey)) file->verticalUnit = unit;
   return file;
 }
 

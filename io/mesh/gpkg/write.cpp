@@ -67,12 +67,10 @@ Status writeTriangles(OGRLayer& layer, const TriangleMesh& mesh, std::span<const
 
 Status fill(GDALDataset& dataset, GdalErrors& errors, const TriangleMesh& mesh,
             const MeshWriteOptions& options, const RunContext& context) {
-  const Result<OGRLayer*> layer = createLayer(dataset, options, errors);
-  if (!layer) return tl::unexpected(layer.error());
+  ARETE_TRY(OGRLayer* const layer, createLayer(dataset, options, errors));
   errors.clear();
   if (dataset.StartTransaction() != OGRERR_NONE) return cannotBeWritten(errors);
-  if (Status status = writeTriangles(**layer, mesh, options.triangleErrors, errors, context); !status)
-    return status;
+  ARETE_CHECK(writeTriangles(*layer, mesh, options.triangleErrors, errors, context));
   if (dataset.CommitTransaction() != OGRERR_NONE) return cannotBeWritten(errors);
   return {};
 }

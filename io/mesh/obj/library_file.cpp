@@ -49,21 +49,18 @@ Result<ObjLibraryFile> writeObjLibrary(const MeshAttributes& mesh, std::span<con
                                        const fs::path& obj, const fs::path& pictures) {
   const PictureSource source(mesh, pictures);
   PicturePlacer placer(source, obj);
-  Result<MtlText> mtl =
-      mtlText(mesh.materials, names, [&](const std::string& picture) { return placer.place(picture); });
-  if (!mtl) return tl::unexpected(mtl.error());
+  ARETE_TRY(MtlText mtl, mtlText(mesh.materials, names,
+                                 [&](const std::string& picture) { return placer.place(picture); }));
   const std::string firstLine =
       fmt::format("# {}, for {}", kMeshTextGenerator, text::onOneLine(obj.filename().string()));
   // After the pictures: one of them may have the name.
-  const Result<fs::path> path = freePath(obj, firstLine);
-  if (!path) return tl::unexpected(path.error());
-  Result<FileWriter> file = FileWriter::create(*path);
-  if (!file) return tl::unexpected(file.error());
-  file->write(firstLine + "\n");
-  file->write(mtl->text);
-  if (const Status ok = file->finish(); !ok) return tl::unexpected(ok.error());
+  ARETE_TRY(const fs::path path, freePath(obj, firstLine));
+  ARETE_TRY(FileWriter file, FileWriter::create(path));
+  file.write(firstLine + "\n");
+  file.write(mtl.text);
+  ARETE_CHECK(file.finish());
   ObjLibraryFile written{
-      .name = path->filename().string(), .filesBeside = {*path}, .lost = std::move(mtl->lost)};
+      .name = path.filename().string(), .filesBeside = {path}, .lost = std::move(mtl.lost)};
   written.filesBeside.insert(written.filesBeside.end(), placer.files().begin(), placer.files().end());
   written.lost.insert(written.lost.end(), placer.warnings().begin(), placer.warnings().end());
   return written;

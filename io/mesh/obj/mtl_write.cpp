@@ -130,7 +130,7 @@ class MtlWriter {
     }
     std::map<std::string, int> uses;
     for (const TextureUse& use : material.textures)
-      if (Status ok = writeTexture(material, use, uses[use.role]++); !ok) return ok;
+      ARETE_CHECK(writeTexture(material, use, uses[use.role]++));
     nameLosses(material);
     return {};
   }
@@ -154,14 +154,13 @@ class MtlWriter {
     if (use.textureCoords != 0) losses_.add("which texture coordinates textures use", material.name);
     if (verbatimOf(material, "gltf:" + use.role))
       losses_.add("samplers and transforms of textures", material.name);
-    const Result<std::string> path = path_(use.picture);
-    if (!path) return tl::unexpected(path.error());
-    if (path->empty()) return {};
+    ARETE_TRY(const std::string path, path_(use.picture));
+    if (path.empty()) return {};
     const bool hasBump =
         std::ranges::any_of(material.textures, [](const TextureUse& other) { return isBump(other.role); });
     for (const auto& [keyword, between] : statements) {
       if (use.role == "normal" && isBump(keyword) && hasBump) continue;
-      result_.text += fmt::format("{}{}{} {}\n", keyword, between.empty() ? "" : " ", between, *path);
+      result_.text += fmt::format("{}{}{} {}\n", keyword, between.empty() ? "" : " ", between, path);
     }
     return {};
   }
@@ -201,8 +200,7 @@ std::vector<std::string> mtlNames(std::span<const Material> materials) {
 Result<MtlText> mtlText(std::span<const Material> materials, std::span<const std::string> names,
                         const PicturePath& path) {
   MtlWriter writer(path);
-  for (std::size_t i = 0; i < materials.size(); ++i)
-    if (const Status ok = writer.write(materials[i], names[i]); !ok) return tl::unexpected(ok.error());
+  for (std::size_t i = 0; i < materials.size(); ++i) ARETE_CHECK(writer.write(materials[i], names[i]));
   return writer.finish();
 }
 

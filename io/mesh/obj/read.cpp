@@ -348,9 +348,8 @@ class ObjReader final : public MeshTextReader {
 }  // namespace
 
 Result<MeshFile> readObj(const std::filesystem::path& path, const RunContext& context) {
-  const Result<FileBytes> file = FileBytes::readText(path);
-  if (!file) return tl::unexpected(file.error());
-  return ObjReader(*file, path, context).read();
+  ARETE_TRY(const FileBytes file, FileBytes::readText(path));
+  return ObjReader(file, path, context).read();
 }
 
 }  // namespace arete

@@ -215,29 +215,27 @@ class ObjWriter {
                          .pictures = isFile});
     std::string library;
     if (isFile && !mesh_.materials.empty()) {
-      Result<ObjLibraryFile> written = writeObjLibrary(mesh_, names_, path_, options_.pictureFolder);
-      if (!written) return tl::unexpected(written.error());
-      library = written->name;
-      report_.filesBeside = std::move(written->filesBeside);
-      report_.lost.insert(report_.lost.end(), written->lost.begin(), written->lost.end());
+      ARETE_TRY(ObjLibraryFile written, writeObjLibrary(mesh_, names_, path_, options_.pictureFolder));
+      library = written.name;
+      report_.filesBeside = std::move(written.filesBeside);
+      report_.lost.insert(report_.lost.end(), written.lost.begin(), written.lost.end());
     }
 
-    Result<FileWriter> file = FileWriter::create(path_);
-    if (!file) return tl::unexpected(file.error());
-    file->write(fmt::format("# {}\n", kMeshTextGenerator));
-    file->write(meshComments(options_));
-    if (!library.empty()) file->write(fmt::format("mtllib {}\n", library));
-    if (!writeVertices(*file)) return progress_.interrupted();
+    ARETE_TRY(FileWriter file, FileWriter::create(path_));
+    file.write(fmt::format("# {}\n", kMeshTextGenerator));
+    file.write(meshComments(options_));
+    if (!library.empty()) file.write(fmt::format("mtllib {}\n", library));
+    if (!writeVertices(file)) return progress_.interrupted();
     const Values texcoords(texcoord, wedgeTexcoord != nullptr, "vt"),
         normals(normal, wedgeNormal != nullptr, "vn");
-    file->write(texcoords.text());
-    file->write(normals.text());
+    file.write(texcoords.text());
+    file.write(normals.text());
     const bool isPlain = !texcoord && !normal && mesh_.objects.empty() && mesh_.groups.empty() &&
                          mesh_.materials.empty() && mesh_.triangleAttributes.empty();
-    if (!(isPlain ? writePlainFaces(*file) : writeFaces(*file, texcoords, normals, states)))
+    if (!(isPlain ? writePlainFaces(file) : writeFaces(file, texcoords, normals, states)))
       return progress_.interrupted();
-    file->write(fmt::format("# {}\n", kMeshTextEnd));
-    if (const Status ok = file->finish(); !ok) return tl::unexpected(ok.error());
+    file.write(fmt::format("# {}\n", kMeshTextEnd));
+    ARETE_CHECK(file.finish());
     nameLosses(texcoords.isLossy() || normals.isLossy());
     return std::move(report_);
   }

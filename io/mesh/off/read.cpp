@@ -307,12 +307,11 @@ class OffReader final : public MeshTextReader {
 }  // namespace
 
 Result<MeshFile> readOff(const std::filesystem::path& path, const RunContext& context) {
-  Result<FileBytes> file = FileBytes::read(path);
-  if (!file) return tl::unexpected(file.error());
-  if (const auto begin = binaryOffBegin(file->view()))
-    return readBinaryOff(file->view(), *begin, path.string(), context);
-  if (const Status ok = file->decodeText(path); !ok) return tl::unexpected(ok.error());
-  return OffReader(*file, path.string(), context).read();
+  ARETE_TRY(FileBytes file, FileBytes::read(path));
+  if (const auto begin = binaryOffBegin(file.view()))
+    return readBinaryOff(file.view(), *begin, path.string(), context);
+  ARETE_CHECK(file.decodeText(path));
+  return OffReader(file, path.string(), context).read();
 }
 
 }  // namespace arete

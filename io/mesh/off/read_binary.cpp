@@ -42,9 +42,8 @@ class BinaryOffReader {
                                  counted(std::size_t(vertices), "vertex", "vertices"),
                                  counted(std::size_t(faces), "face", "faces"),
                                  counted(file_.size() - at_, "byte that is", "bytes that are")));
-    if (Status ok = readVertices(static_cast<std::uint32_t>(vertices)); !ok)
-      return tl::unexpected(ok.error());
-    if (Status ok = readFaces(static_cast<std::uint32_t>(faces)); !ok) return tl::unexpected(ok.error());
+    ARETE_CHECK(readVertices(static_cast<std::uint32_t>(vertices)));
+    ARETE_CHECK(readFaces(static_cast<std::uint32_t>(faces)));
     // Text that ends in a line feed is what some programs put behind it.
     const std::string_view rest = file_.substr(at_);
     if (rest.find_first_not_of(" \t\r\n") != std::string_view::npos)
@@ -80,7 +79,7 @@ class BinaryOffReader {
     behind_.emplace(keyword_);
     std::vector<OffNumber> values(keyword_.values());
     for (std::uint32_t v = 0; v < count; ++v) {
-      if (Status ok = reportAndCheck(v); !ok) return ok;
+      ARETE_CHECK(reportAndCheck(v));
       Vec3 p;
       for (double* const value : {&p.x, &p.y, &p.z}) *value = number();
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
@@ -99,7 +98,7 @@ class BinaryOffReader {
     std::vector<std::uint32_t> corners;
     std::vector<OffNumber> color;
     for (std::uint32_t f = 0; f < count; ++f) {
-      if (Status ok = reportAndCheck(f); !ok) return ok;
+      ARETE_CHECK(reportAndCheck(f));
       if (!has(1))
         return corrupt(fmt::format("is truncated: it has {} of {}", f, counted(count, "face", "faces")));
       const std::int32_t size = whole();

@@ -120,8 +120,7 @@ Result<MeshWriteReport> writeOff(MeshRef written, const std::filesystem::path& p
   const TriangleMesh& mesh = written.shape;
   if (const Status ok = written.validate(); !ok)
     return failure(ErrorCode::invalidData, ok.error().message, path.string());
-  Result<FileWriter> file = FileWriter::create(path);
-  if (!file) return tl::unexpected(file.error());
+  ARETE_TRY(FileWriter file, FileWriter::create(path));
 
   OffAttributes vertices(written.attributes.vertexAttributes), faces(written.attributes.triangleAttributes);
   std::optional<Attribute> vertexColor, faceColor;
@@ -129,11 +128,11 @@ Result<MeshWriteReport> writeOff(MeshRef written, const std::filesystem::path& p
   vertices.color = asSrgb(vertices.color, vertexColor, isRounded);
   faces.color = asSrgb(faces.color, faceColor, isRounded);
 
-  file->write(fmt::format("{}{}{}OFF\n# {}\n", vertices.texcoord ? "ST" : "", vertices.color ? "C" : "",
-                          vertices.normal ? "N" : "", kMeshTextGenerator));
-  if (vertices.color && vertices.color->components == 3) file->write(fmt::format("# {}\n", kOffWithoutAlpha));
-  file->write(meshComments(options));
-  file->write(fmt::format("{} {} 0\n", mesh.positions.size(), mesh.triangles.size()));
+  file.write(fmt::format("{}{}{}OFF\n# {}\n", vertices.texcoord ? "ST" : "", vertices.color ? "C" : "",
+                         vertices.normal ? "N" : "", kMeshTextGenerator));
+  if (vertices.color && vertices.color->components == 3) file.write(fmt::format("# {}\n", kOffWithoutAlpha));
+  file.write(meshComments(options));
+  file.write(fmt::format("{} {} 0\n", mesh.positions.size(), mesh.triangles.size()));
 
   WriteProgress progress(mesh.positions.size() + mesh.triangles.size(), path.string(), context);
   Line line;
@@ -147,7 +146,7 @@ Result<MeshWriteReport> writeOff(MeshRef written, const std::filesystem::path& p
     if (vertices.normal) line.putVector(*vertices.normal, v, hasFloat32Normals);
     if (vertices.color) line.putColor(*vertices.color, v, true);
     if (vertices.texcoord) line.putVector(*vertices.texcoord, v, hasFloat32Texcoords);
-    file->write(line.whole());
+    file.write(line.whole());
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (progress.shouldStop()) return progress.interrupted();
@@ -155,10 +154,10 @@ Result<MeshWriteReport> writeOff(MeshRef written, const std::filesystem::path& p
     line.put(3u);
     for (const std::uint32_t corner : mesh.triangles[t]) line.put(corner);
     if (faces.color) line.putColor(*faces.color, t, false);
-    file->write(line.whole());
+    file.write(line.whole());
   }
-  file->write(fmt::format("# {}\n", kMeshTextEnd));
-  if (const Status ok = file->finish(); !ok) return tl::unexpected(ok.error());
+  file.write(fmt::format("# {}\n", kMeshTextEnd));
+  ARETE_CHECK(file.finish());
 
   MeshWriteReport report;
   report.lost = lossesOf(

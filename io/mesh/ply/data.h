@@ -60,7 +60,7 @@ class PlyReader {
       if (!element.properties.empty()) records_ += element.count;
     }
     for (const PlyElement& element : header_.elements) {
-      if (Status ok = readElement(element); !ok) return ok;
+      ARETE_CHECK(readElement(element));
       if (hasStrips_ && element.name == "face" && element.count > 0 && element.properties.size() > 1)
         findings_.facesLoseProperties = true;
     }
@@ -170,7 +170,7 @@ class PlyReader {
                         static_cast<double>(scalars_.at - file_.begin()) / double(file_.size()));
         if (context_.cancelled()) return failure(ErrorCode::interrupted, "reading was interrupted", path_);
       }
-      if (Status ok = readRecord(reading, record); !ok) return ok;
+      ARETE_CHECK(readRecord(reading, record));
       if constexpr (Scalars::kIsText) skipSurplus();
     }
     end(reading);
@@ -227,7 +227,7 @@ class PlyReader {
       const PlyProperty& property = reading.element.properties[p];
       const PlyRole& role = reading.scheme.roles[p];
       if (property.isList) {
-        if (Status ok = readList(reading, property, role, record); !ok) return ok;
+        ARETE_CHECK(readList(reading, property, role, record));
         continue;
       }
       if (role.kind == Kind::number) {
@@ -260,8 +260,7 @@ class PlyReader {
     }
     for (std::size_t a = 0; a < reading.to.size(); ++a)
       if (reading.to[a]) reading.to[a] += reading.scheme.attributes[a].elementBytes();
-    if (reading.isFace)
-      if (Status ok = addFace(reading.element, record); !ok) return ok;
+    if (reading.isFace) ARETE_CHECK(addFace(reading.element, record));
     // Each triangle of a polygon has the error of the polygon.
     if (error) errors_.resize(mesh_.triangles.size(), static_cast<float>(*error));
     if (reading.isVertex) mesh_.positions.push_back(position);

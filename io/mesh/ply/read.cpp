@@ -86,29 +86,25 @@ PlyComments takeComments(const PlyHeader& header, MeshFile& file) {
 
 Result<MeshFile> readFile(const std::filesystem::path& path, bool needsFaces, const RunContext& context) {
   const std::string name = path.string();
-  Result<FileBytes> file = FileBytes::read(path);
-  if (!file) return tl::unexpected(file.error());
+  ARETE_TRY(FileBytes file, FileBytes::read(path));
   // A text in UTF-16, or with a byte order mark.
-  if (!file->view().starts_with("ply"))
-    if (const Status ok = file->decodeText(path); !ok) return tl::unexpected(ok.error());
-  Result<PlyHeader> header = parsePlyHeader(file->view(), name);
-  if (!header) return tl::unexpected(header.error());
+  if (!file.view().starts_with("ply")) ARETE_CHECK(file.decodeText(path));
+  ARETE_TRY(PlyHeader header, parsePlyHeader(file.view(), name));
   // Carriage returns that end the lines of the data.
-  if (header->format == PlyFormat::ascii)
-    if (const Status ok = file->decodeText(path); !ok) return tl::unexpected(ok.error());
-  useKnownNames(*header);
-  if (const Status ok = checkElements(*header, needsFaces, name); !ok) return tl::unexpected(ok.error());
+  if (header.format == PlyFormat::ascii) ARETE_CHECK(file.decodeText(path));
+  useKnownNames(header);
+  ARETE_CHECK(checkElements(header, needsFaces, name));
 
   MeshFile result;
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored))
     result.folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  const PlyComments comments = takeComments(*header, result);
+  const PlyComments comments = takeComments(header, result);
   const auto readAs = [&]<class Scalars>(Scalars) {
-    return PlyReader<Scalars>(*file, *header, comments, name, context).readInto(result);
+    return PlyReader<Scalars>(file, header, comments, name, context).readInto(result);
   };
   Status read;
-  switch (header->format) {
+  switch (header.format) {
     case PlyFormat::ascii:
       read = readAs(TextPlyScalars{});
       break;

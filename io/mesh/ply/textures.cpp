@@ -33,9 +33,8 @@ Result<PlyTextures> plyTextures(MeshRef mesh, const std::filesystem::path& path,
     const TextureUse* const use = pictureOf(material);
     std::string picture;
     if (use) {
-      Result<std::string> placed = placer.place(use->picture);
-      if (!placed) return tl::unexpected(placed.error());
-      picture = text::onOneLine(*placed);
+      ARETE_TRY(std::string placed, placer.place(use->picture));
+      picture = text::onOneLine(placed);
     }
     // A picture that was inside the mesh's file and cannot be placed has no name.
     numberOf.push_back(picture.empty() ? -1 : static_cast<std::int32_t>(result.pictures.size()));

@@ -157,20 +157,18 @@ Result<MeshWriteReport> writePly(MeshRef written, const std::filesystem::path& p
     return failure(ErrorCode::invalidData, ok.error().message, path.string());
   if (std::string misfit = misfitOf(mesh, options); !misfit.empty())
     return failure(ErrorCode::invalidData, std::move(misfit), path.string());
-  Result<FileWriter> file = FileWriter::create(path);
-  if (!file) return tl::unexpected(file.error());
-  const Result<PlyTextures> textures = plyTextures(written, path, options);
-  if (!textures) return tl::unexpected(textures.error());
-  const PlyColumns columns = plyColumns(written.attributes, options, !textures->numbers.empty());
+  ARETE_TRY(FileWriter file, FileWriter::create(path));
+  ARETE_TRY(const PlyTextures textures, plyTextures(written, path, options));
+  const PlyColumns columns = plyColumns(written.attributes, options, !textures.numbers.empty());
 
   const bool withFloats = areFloats(mesh, options);
-  file->write(headerOf(mesh, options, columns, *textures, withFloats));
+  file.write(headerOf(mesh, options, columns, textures, withFloats));
   WriteProgress progress(mesh.positions.size() + mesh.triangles.size(), path.string(), context);
 
   const bool withQualities = !options.vertexQualities.empty(), withColors = !options.vertexColors.empty();
-  Records vertices(*file, 3 * (withFloats ? sizeof(float) : sizeof(double)) +
-                              (withQualities ? sizeof(float) : 0) + (withColors ? 3 : 0) +
-                              sizeOfRecord(columns.vertices));
+  Records vertices(file, 3 * (withFloats ? sizeof(float) : sizeof(double)) +
+                             (withQualities ? sizeof(float) : 0) + (withColors ? 3 : 0) +
+                             sizeOfRecord(columns.vertices));
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     if (progress.shouldStop()) return progress.interrupted();
     const Vec3& p = mesh.positions[v];
@@ -183,23 +181,23 @@ Result<MeshWriteReport> writePly(MeshRef written, const std::filesystem::path& p
     vertices.end();
   }
 
-  const bool withErrors = !options.triangleErrors.empty(), withNumbers = !textures->numbers.empty();
+  const bool withErrors = !options.triangleErrors.empty(), withNumbers = !textures.numbers.empty();
   std::size_t faceSize = 1 + 3 * sizeof(std::int32_t) + (withErrors ? sizeof(float) : 0) +
                          (withNumbers ? sizeof(std::int32_t) : 0) + sizeOfRecord(columns.faces);
   for (const PlyColumn& column : columns.corners)
     faceSize += (hasShortLength(column) ? 1 : sizeof(std::uint32_t)) + 3 * column.attribute->elementBytes();
-  Records faces(*file, faceSize);
+  Records faces(file, faceSize);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (progress.shouldStop()) return progress.interrupted();
     char* to = putBytes(faces.begin(), std::uint8_t{3});
     for (const std::uint32_t v : mesh.triangles[t]) to = putBytes(to, static_cast<std::int32_t>(v));
     if (withErrors) to = putBytes(to, options.triangleErrors[t]);
     for (const PlyColumn& column : columns.corners) to = putCorners(to, column, written.attributes.wedges[t]);
-    if (withNumbers) to = putBytes(to, textures->numbers[t]);
+    if (withNumbers) to = putBytes(to, textures.numbers[t]);
     for (const PlyColumn& column : columns.faces) to = putElement(to, column, t);
     faces.end();
   }
-  if (const Status ok = file->finish(); !ok) return tl::unexpected(ok.error());
+  ARETE_CHECK(file.finish());
 
   const MeshHolds::Test any = [](const Attribute&) { return true; };
   MeshWriteReport report{.lost = lossesOf(written.attributes, {.vertexAttribute = any,
@@ -207,9 +205,9 @@ Result<MeshWriteReport> writePly(MeshRef written, const std::filesystem::path& p
                                                                .triangleAttribute = any,
                                                                .materials = true,
                                                                .pictures = true}),
-                         .filesBeside = textures->files};
+                         .filesBeside = textures.files};
   report.lost.insert(report.lost.end(), columns.lost.begin(), columns.lost.end());
-  report.lost.insert(report.lost.end(), textures->lost.begin(), textures->lost.end());
+  report.lost.insert(report.lost.end(), textures.lost.begin(), textures.lost.end());
   return report;
 }
 

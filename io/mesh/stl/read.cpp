@@ -47,18 +47,16 @@ bool isAscii(std::string_view file) {
 }  // namespace
 
 Result<MeshFile> readStl(const std::filesystem::path& path, const RunContext& context) {
-  Result<FileBytes> bytes = FileBytes::read(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  const bool hasPreamble = bytes->size() >= kStlPreambleSize;
-  const std::uint32_t count = hasPreamble ? binaryCount(bytes->view()) : 0;
-  if (hasPreamble && bytes->size() == binarySize(count))
-    return readBinaryStl(bytes->view(), count, path.string(), context);
-  if (TextDecoder::isNeededFor(bytes->view().substr(0, kProbe))) {
-    Result<FileBytes> text = FileBytes::readText(path);
-    if (!text) return tl::unexpected(text.error());
-    if (isAscii(text->view())) return readAsciiStl(text->view(), path.string(), context);
+  ARETE_TRY(FileBytes bytes, FileBytes::read(path));
+  const bool hasPreamble = bytes.size() >= kStlPreambleSize;
+  const std::uint32_t count = hasPreamble ? binaryCount(bytes.view()) : 0;
+  if (hasPreamble && bytes.size() == binarySize(count))
+    return readBinaryStl(bytes.view(), count, path.string(), context);
+  if (TextDecoder::isNeededFor(bytes.view().substr(0, kProbe))) {
+    ARETE_TRY(FileBytes text, FileBytes::readText(path));
+    if (isAscii(text.view())) return readAsciiStl(text.view(), path.string(), context);
   }
-  const std::string_view file = bytes->view();
+  const std::string_view file = bytes.view();
   if (isAscii(file)) return readAsciiStl(file, path.string(), context);
   const std::uint64_t spare =
       hasPreamble && file.size() > binarySize(count) ? file.size() - binarySize(count) : 0;

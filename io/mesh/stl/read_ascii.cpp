@@ -44,7 +44,7 @@ class AsciiStlReader {
       if (!equalsStlWord(word, "solid")) return corrupt(word, "where \"solid\" should be");
       const auto object = static_cast<std::uint32_t>(mesh.objects.size());
       mesh.objects.push_back(name("facet"));
-      if (const Status ok = readFacets(); !ok) return tl::unexpected(ok.error());
+      ARETE_CHECK(readFacets());
       mesh.objectOf.resize(triangles_.size(), object);
       name("solid");
     }
@@ -179,7 +179,7 @@ class AsciiStlReader {
       const std::string_view word = nextWord();
       if (isEnd(word, "solid")) return {};
       if (!equalsStlWord(word, "facet")) return corrupt(word, "where \"facet\" or \"endsolid\" should be");
-      if (Status ok = readFacet(); !ok) return ok;
+      ARETE_CHECK(readFacet());
     }
   }
 
@@ -217,10 +217,10 @@ class AsciiStlReader {
     if (triangles_.size() == kMostStlTriangles)
       return failure(ErrorCode::unsupported, "holds more triangles than an index can name", path_);
     const Vec3 normal = readNormal();
-    if (Status ok = expect({"outer", "loop"}); !ok) return ok;
+    ARETE_CHECK(expect({"outer", "loop"}));
     std::array<Vec3, 3> corners;
     for (Vec3& corner : corners) {
-      if (Status ok = expect({"vertex"}); !ok) return ok;
+      ARETE_CHECK(expect({"vertex"}));
       for (double* value : {&corner.x, &corner.y, &corner.z}) {
         const std::string_view word = nextWord();
         const char* from = word.data();

@@ -27,7 +27,7 @@ class BinaryStlReader {
       : file_(file), count_(count), path_(std::move(path)), context_(context) {}
 
   Result<MeshFile> read() {
-    if (const Status ok = takeHeader(); !ok) return tl::unexpected(ok.error());
+    ARETE_CHECK(takeHeader());
     if (count_ == 0 && !isOurs_) return failure(ErrorCode::unsupported, "holds no triangle", path_);
     if (count_ > kMostStlTriangles)
       return failure(ErrorCode::unsupported, "holds more triangles than an index can name", path_);

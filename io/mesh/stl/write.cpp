@@ -62,8 +62,7 @@ class StlWriter {
         runs_(mesh) {}
 
   Result<MeshWriteReport> write() {
-    const Status ok = runs_.runs.size() > 1 ? writeAscii() : writeBinary();
-    if (!ok) return tl::unexpected(ok.error());
+    ARETE_CHECK(runs_.runs.size() > 1 ? writeAscii() : writeBinary());
     return std::move(report_);
   }
 
@@ -86,11 +85,10 @@ class StlWriter {
             std::abs(p.z - origin_.z) <= kLargest))
         return refuse(fmt::format("the position {}, {}, {} does not fit 32-bit floats", p.x, p.y, p.z));
     findFacetAttribute();
-    Result<FileWriter> file = FileWriter::create(path_);
-    if (!file) return tl::unexpected(file.error());
+    ARETE_TRY(FileWriter file, FileWriter::create(path_));
 
-    file->write(header);
-    putBytes(file->reserve(sizeof(std::uint32_t)), static_cast<std::uint32_t>(shape_.triangles.size()));
+    file.write(header);
+    putBytes(file.reserve(sizeof(std::uint32_t)), static_cast<std::uint32_t>(shape_.triangles.size()));
     for (std::size_t t = 0; t < shape_.triangles.size(); ++t) {
       if (t % kStlTrianglesPerCancelCheck == 0) {
         context_.report("writing the mesh",
@@ -105,10 +103,10 @@ class StlWriter {
                       static_cast<float>(p.z - origin_.z)};
         corners[k] = {rounded[k][0], rounded[k][1], rounded[k][2]};
       }
-      char* to = putBytes(file->reserve(kStlRecordSize), normalOf(corners));
+      char* to = putBytes(file.reserve(kStlRecordSize), normalOf(corners));
       putBytes(putBytes(to, rounded), wordOf(t));
     }
-    if (Status ok = file->finish(); !ok) return ok;
+    ARETE_CHECK(file.finish());
     flattened_ = countFlattened(shape_, [&](std::uint32_t v) {
       const Vec3& p = shape_.positions[v];
       return std::array<float, 3>{static_cast<float>(p.x - origin_.x), static_cast<float>(p.y - origin_.y),
@@ -171,21 +169,20 @@ class StlWriter {
 
   Status writeAscii() {
     WriteProgress progress(shape_.triangles.size() + runs_.runs.size(), path_.string(), context_);
-    Result<FileWriter> file = FileWriter::create(path_);
-    if (!file) return tl::unexpected(file.error());
+    ARETE_TRY(FileWriter file, FileWriter::create(path_));
     for (const ObjectRun& run : runs_.runs) {
       if (progress.shouldStop()) return interrupted();
       const std::string name =
           run.object == MeshAttributes::kNone ? std::string() : nameOnOneLine(mesh_.objects[run.object]);
       const std::string behind = name.empty() ? "\n" : " " + name + "\n";
-      file->write("solid" + behind);
+      file.write("solid" + behind);
       for (std::size_t t = run.first; t < run.end; ++t) {
         if (progress.shouldStop()) return interrupted();
-        writeFacet(*file, t);
+        writeFacet(file, t);
       }
-      file->write("endsolid" + behind);
+      file.write("endsolid" + behind);
     }
-    if (Status ok = file->finish(); !ok) return ok;
+    ARETE_CHECK(file.finish());
     report_.lost = lossesOf(mesh_, {.objects = true});
     if (std::ranges::any_of(mesh_.objects,
                             [](const std::string& name) { return nameOnOneLine(name) != name; }))

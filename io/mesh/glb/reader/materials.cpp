@@ -146,9 +146,8 @@ class MaterialReader {
   Result<std::string> pictureOf(const Json& texture) {
     std::optional<std::uint64_t> image;
     if (texture.contains("source")) {
-      const auto source = GltfDocument::wholeNumber(texture, "source");
-      if (!source) return tl::unexpected(source.error());
-      image = *source;
+      ARETE_TRY(const auto source, GltfDocument::wholeNumber(texture, "source"));
+      image = source;
     }
     for (const char* name : kImageExtensions) {
       const Json* const extension = extensionOf(texture, name);
@@ -168,19 +167,16 @@ class MaterialReader {
   }
 
   Result<std::string> readImage(std::uint64_t number) {
-    const auto image = document_.element("images", number);
-    if (!image) return tl::unexpected(image.error());
+    ARETE_TRY(const auto image, document_.element("images", number));
     EmbeddedPicture picture{
-        .name = textOf(**image, "name"), .mimeType = textOf(**image, "mimeType"), .bytes = {}};
-    const std::string uri = textOf(**image, "uri");
+        .name = textOf(*image, "name"), .mimeType = textOf(*image, "mimeType"), .bytes = {}};
+    const std::string uri = textOf(*image, "uri");
     std::string decoded;
     std::string_view bytes;
-    if ((*image)->contains("bufferView")) {
-      const auto viewNumber = GltfDocument::wholeNumber(**image, "bufferView");
-      if (!viewNumber) return tl::unexpected(viewNumber.error());
-      const auto view = document_.views().view(document_, *viewNumber);
-      if (!view) return tl::unexpected(view.error());
-      bytes = view->bytes;
+    if (image->contains("bufferView")) {
+      ARETE_TRY(const auto viewNumber, GltfDocument::wholeNumber(*image, "bufferView"));
+      ARETE_TRY(const auto view, document_.views().view(document_, viewNumber));
+      bytes = view.bytes;
     } else if (GltfBuffers::isDataUri(uri)) {
       Result<std::string> data = GltfBuffers::dataOf(uri);
       if (!data) return failure(data.error().code, "its picture " + data.error().message);
@@ -192,7 +188,7 @@ class MaterialReader {
       if (uri.empty()) return failure(ErrorCode::corrupt, "its picture has neither bytes nor a name");
       return percentDecoded(uri);
     }
-    if (Status ok = document_.views().reserve(bytes.size()); !ok) return tl::unexpected(ok.error());
+    ARETE_CHECK(document_.views().reserve(bytes.size()));
     const auto* const first = reinterpret_cast<const std::byte*>(bytes.data());
     picture.bytes.assign(first, first + bytes.size());
     result.pictures.push_back(std::move(picture));

@@ -72,27 +72,25 @@ Result<std::optional<GltfPrimitives::Draco>> GltfPrimitives::dracoOf(const Json&
   const Json* const extension = extensionOf(primitive, kDraco);
   if (extension == nullptr) return std::nullopt;
   const auto decode = [&]() -> Result<std::optional<Draco>> {
-    const auto number = GltfDocument::wholeNumber(*extension, "bufferView");
-    if (!number) return tl::unexpected(number.error());
+    ARETE_TRY(const auto number, GltfDocument::wholeNumber(*extension, "bufferView"));
     const auto ids = extension->find("attributes");
     if (ids == extension->end() || !ids->is_object() || !ids->contains(kPosition))
       return corrupt("has Draco data without positions");
-    auto known = draco_.find(*number);
+    auto known = draco_.find(number);
     if (known == draco_.end()) {
-      draco_[*number] = nullptr;  // so that damaged bytes are decoded once
-      const auto view = document_.views().view(document_, *number);
-      if (!view) return tl::unexpected(view.error());
-      Result<DracoMesh> mesh = decodeDraco(view->bytes, document_.views().reservable(), context_);
+      draco_[number] = nullptr;  // so that damaged bytes are decoded once
+      ARETE_TRY(const auto view, document_.views().view(document_, number));
+      Result<DracoMesh> mesh = decodeDraco(view.bytes, document_.views().reservable(), context_);
       if (!mesh)
-        return failure(mesh.error().code, fmt::format("bufferView {} {}", *number, mesh.error().message));
+        return failure(mesh.error().code, fmt::format("bufferView {} {}", number, mesh.error().message));
       std::uint64_t bytes = mesh->indices.size() * sizeof(std::uint32_t);
       for (const DracoAttribute& attribute : mesh->attributes) bytes += attribute.bytes.size();
-      if (Status ok = document_.views().reserve(bytes); !ok) return tl::unexpected(ok.error());
-      draco_[*number] = std::make_shared<const DracoMesh>(std::move(*mesh));
-      known = draco_.find(*number);
+      ARETE_CHECK(document_.views().reserve(bytes));
+      draco_[number] = std::make_shared<const DracoMesh>(std::move(*mesh));
+      known = draco_.find(number);
     }
     if (known->second == nullptr) return corrupt("has damaged Draco data");
-    return Draco{*number, known->second, &*ids};
+    return Draco{number, known->second, &*ids};
   };
   Result<std::optional<Draco>> draco = decode();
   if (draco || draco.error().code == ErrorCode::interrupted || draco.error().code == ErrorCode::outOfMemory)
@@ -108,22 +106,19 @@ Result<GltfAttribute> GltfPrimitives::attributeOf(const std::string& name, const
                                                   const std::optional<Draco>& draco) const {
   GltfAttribute attribute;
   attribute.name = name;
-  const auto number = GltfDocument::wholeNumber(attributes, name.c_str());
-  if (!number) return tl::unexpected(number.error());
-  attribute.source = *number;
+  ARETE_TRY(const auto number, GltfDocument::wholeNumber(attributes, name.c_str()));
+  attribute.source = number;
   if (!draco || !draco->attributes->contains(name)) {
-    const auto elements = document_.accessor(*number, {});
-    if (!elements) return tl::unexpected(elements.error());
-    attribute.elements = *elements;
+    ARETE_TRY(const auto elements, document_.accessor(number, {}));
+    attribute.elements = elements;
     return attribute;
   }
-  const auto id = GltfDocument::wholeNumber(*draco->attributes, name.c_str());
-  if (!id) return tl::unexpected(id.error());
+  ARETE_TRY(const auto id, GltfDocument::wholeNumber(*draco->attributes, name.c_str()));
   const auto found = std::ranges::find_if(draco->mesh->attributes, [&](const DracoAttribute& a) {
-    return a.uniqueId >= 0 && std::uint64_t(a.uniqueId) == *id;
+    return a.uniqueId >= 0 && std::uint64_t(a.uniqueId) == id;
   });
   if (found == draco->mesh->attributes.end() || found->components < 1 || found->components > 16)
-    return corrupt(fmt::format("has no Draco attribute {}", *id));
+    return corrupt(fmt::format("has no Draco attribute {}", id));
   attribute.elements = packedElements(found->bytes, found->type, found->components);
   attribute.elements.owned = draco->mesh;
   attribute.elements.isNormalized = found->normalized && !isFloat(found->type);
@@ -133,7 +128,7 @@ Result<GltfAttribute> GltfPrimitives::attributeOf(const std::string& name, const
   attribute.elements.count = draco->mesh->points;
   attribute.source |= (draco->view + 1) << 32;
   // The accessor says which type the numbers are meant to be of.
-  if (const auto stated = document_.element("accessors", *number)) {
+  if (const auto stated = document_.element("accessors", number)) {
     const auto component = GltfDocument::wholeNumber(**stated, "componentType");
     const auto type = component ? scalarTypeOf(*component) : std::nullopt;
     if (type && *type != found->type) attribute.elements = converted(attribute.elements, *type);
@@ -146,12 +141,11 @@ Result<GltfAttribute> GltfPrimitives::attributeOf(const std::string& name, const
 
 Status GltfPrimitives::readAttributes(const Json& attributes, const std::optional<Draco>& draco,
                                       GltfPrimitive& to) {
-  Result<GltfAttribute> positions = attributeOf(kPosition, attributes, draco);
-  if (!positions) return tl::unexpected(positions.error());
-  if (!fits(kPosition, positions->elements.components))
-    return corrupt(fmt::format("accessor {} is not of the type VEC3 that is needed", positions->source));
-  if (positions->elements.count == 0) return corrupt("has no positions");
-  to.attributes.push_back(std::move(*positions));
+  ARETE_TRY(GltfAttribute positions, attributeOf(kPosition, attributes, draco));
+  if (!fits(kPosition, positions.elements.components))
+    return corrupt(fmt::format("accessor {} is not of the type VEC3 that is needed", positions.source));
+  if (positions.elements.count == 0) return corrupt("has no positions");
+  to.attributes.push_back(std::move(positions));
   for (const auto& [name, value] : attributes.items()) {
     if (name == kPosition) continue;
     if (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) {
@@ -187,15 +181,13 @@ Status GltfPrimitives::readIndices(const Json& primitive, const std::optional<Dr
     to.mode = GltfPrimitive::Mode::list;  // what Draco gives
     to.corners = elements.count;
   } else if (primitive.contains("indices")) {
-    const auto number = GltfDocument::wholeNumber(primitive, "indices");
-    if (!number) return tl::unexpected(number.error());
-    const auto found = document_.accessor(*number, "SCALAR");
-    if (!found) return tl::unexpected(found.error());
-    if (found->type != ScalarType::uint8 && found->type != ScalarType::uint16 &&
-        found->type != ScalarType::uint32)
+    ARETE_TRY(const auto number, GltfDocument::wholeNumber(primitive, "indices"));
+    ARETE_TRY(const auto found, document_.accessor(number, "SCALAR"));
+    if (found.type != ScalarType::uint8 && found.type != ScalarType::uint16 &&
+        found.type != ScalarType::uint32)
       return corrupt("has indices that are not unsigned whole numbers");
-    to.indices = *found;
-    to.corners = found->count;
+    to.indices = found;
+    to.corners = found.count;
   }
   if (to.mode == GltfPrimitive::Mode::list && to.corners % 3 != 0)
     return corrupt(fmt::format("has {} corners, not a multiple of three", to.corners));
@@ -214,16 +206,14 @@ Status GltfPrimitives::readTargets(const Json& primitive, const std::vector<doub
     if (weights[i] == 0 || !target.is_object()) continue;
     for (const GltfAttribute& attribute : to.attributes) {
       if (!target.contains(attribute.name)) continue;
-      const auto number = GltfDocument::wholeNumber(target, attribute.name.c_str());
-      if (!number) return tl::unexpected(number.error());
-      const auto moves = document_.accessor(*number, {});
-      if (!moves) return tl::unexpected(moves.error());
-      if (moves->count != to.vertices())
-        return corrupt(fmt::format("has {} positions and a morph target of {}", to.vertices(), moves->count));
+      ARETE_TRY(const auto number, GltfDocument::wholeNumber(target, attribute.name.c_str()));
+      ARETE_TRY(const auto moves, document_.accessor(number, {}));
+      if (moves.count != to.vertices())
+        return corrupt(fmt::format("has {} positions and a morph target of {}", to.vertices(), moves.count));
       const bool isTangent = attribute.name == "TANGENT";  // whose sign does not move
-      if (moves->components != (isTangent ? 3 : attribute.elements.components))
-        return corrupt(fmt::format("has a morph target of {} components", moves->components));
-      to.morphs.push_back({attribute.name, *number, weights[i], *moves});
+      if (moves.components != (isTangent ? 3 : attribute.elements.components))
+        return corrupt(fmt::format("has a morph target of {} components", moves.components));
+      to.morphs.push_back({attribute.name, number, weights[i], moves});
       leftOut_.appliedMorphs = true;
     }
   }
@@ -235,10 +225,9 @@ Result<std::optional<GltfPrimitive>> GltfPrimitives::read(const Json& primitive,
   if (!primitive.is_object() || !primitive.contains("attributes") || !primitive["attributes"].is_object())
     return corrupt("has no attributes");
   const Json& attributes = primitive["attributes"];
-  const auto mode = GltfDocument::wholeNumber(primitive, "mode", 4);
-  if (!mode) return tl::unexpected(mode.error());
-  if (*mode > 6) return corrupt(fmt::format("is of mode {}, which glTF does not have", *mode));
-  if (*mode < 4) {
+  ARETE_TRY(const auto mode, GltfDocument::wholeNumber(primitive, "mode", 4));
+  if (mode > 6) return corrupt(fmt::format("is of mode {}, which glTF does not have", mode));
+  if (mode < 4) {
     ++leftOut_.pointsAndLines;
     return std::nullopt;
   }
@@ -247,12 +236,11 @@ Result<std::optional<GltfPrimitive>> GltfPrimitives::read(const Json& primitive,
     return std::nullopt;
   }
   GltfPrimitive read;
-  read.mode = static_cast<GltfPrimitive::Mode>(*mode);
-  const auto draco = dracoOf(primitive);
-  if (!draco) return tl::unexpected(draco.error());
-  if (Status ok = readAttributes(attributes, *draco, read); !ok) return tl::unexpected(ok.error());
-  if (Status ok = readIndices(primitive, *draco, read); !ok) return tl::unexpected(ok.error());
-  if (Status ok = readTargets(primitive, weights, read); !ok) return tl::unexpected(ok.error());
+  read.mode = static_cast<GltfPrimitive::Mode>(mode);
+  ARETE_TRY(const auto draco, dracoOf(primitive));
+  ARETE_CHECK(readAttributes(attributes, draco, read));
+  ARETE_CHECK(readIndices(primitive, draco, read));
+  ARETE_CHECK(readTargets(primitive, weights, read));
   if (primitive.contains("material")) {
     const auto material = GltfDocument::wholeNumber(primitive, "material");
     if (material && document_.element("materials", *material))

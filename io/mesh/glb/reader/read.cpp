@@ -62,17 +62,13 @@ class GlbReader {
       : document_(document), context_(context), primitives_(document, leftOut_, context) {}
 
   Result<MeshFile> read() {
-    if (const Status ok = readFrame(); !ok) return tl::unexpected(ok.error());
-    const auto placements = placedMeshes(document_, mostPlaces(), leftOut_);
-    if (!placements) return tl::unexpected(placements.error());
-    for (const GltfPlacement& placement : *placements)
-      if (const Status ok = plan(placement); !ok) return tl::unexpected(ok.error());
-    if (const Status ok = useVertices(); !ok) return tl::unexpected(ok.error());
+    ARETE_CHECK(readFrame());
+    ARETE_TRY(const auto placements, placedMeshes(document_, mostPlaces(), leftOut_));
+    for (const GltfPlacement& placement : placements) ARETE_CHECK(plan(placement));
+    ARETE_CHECK(useVertices());
     GltfVertexAttributes attributes(frame_.has_value());
-    for (VertexGroup& group : groups_)
-      if (const Status ok = addVertices(group, attributes); !ok) return tl::unexpected(ok.error());
-    for (const Part& part : parts_)
-      if (const Status ok = addTriangles(part); !ok) return tl::unexpected(ok.error());
+    for (VertexGroup& group : groups_) ARETE_CHECK(addVertices(group, attributes));
+    for (const Part& part : parts_) ARETE_CHECK(addTriangles(part));
     leftOut_.shownMeshes = meshesShown_.size();
     result_.warnings = leftOut_.sentences(document_.json());
     if (result_.mesh.triangles.empty() && !frame_) return noTriangle();
@@ -106,19 +102,18 @@ class GlbReader {
     const Json::json_pointer generator("/asset/generator"), place("/asset/extras/arete");
     if (document_.json().contains(generator) && document_.json().at(generator) == "Arete") isOurs_ = true;
     if (!document_.json().contains(place)) return {};
-    Result<GlbFrame> stated = glbFrameFromJson(document_.json().at(place));
-    if (!stated) return tl::unexpected(stated.error());
-    const Result<LocalFrame> frame = LocalFrame::create(stated->local);
+    ARETE_TRY(GlbFrame stated, glbFrameFromJson(document_.json().at(place)));
+    const Result<LocalFrame> frame = LocalFrame::create(stated.local);
     if (!frame) return failure(ErrorCode::corrupt, frame.error().message);
     frame_ = *frame;
     isOurs_ = true;
     result_.up = MeshUp::z;
-    result_.crsWkt = std::move(stated->crsWkt);
-    result_.verticalUnit = std::move(stated->verticalUnit);
-    result_.frame.coordinates = stated->local.isGeographic
+    result_.crsWkt = std::move(stated.crsWkt);
+    result_.verticalUnit = std::move(stated.verticalUnit);
+    result_.frame.coordinates = stated.local.isGeographic
                                     ? "float32, metres east, north and up of the origin"
                                     : "float32, metres along the axes of the map from the origin";
-    result_.frame.origin = stated->local.origin;
+    result_.frame.origin = stated.local.origin;
     return {};
   }
 
@@ -130,19 +125,16 @@ class GlbReader {
 
   /// Reads the primitives of a mesh and finds the groups of their vertices.
   Status plan(const GltfPlacement& placement) {
-    const auto node = document_.element("nodes", placement.node);
-    if (!node) return tl::unexpected(node.error());
-    const auto mesh = document_.element("meshes", placement.mesh);
-    if (!mesh) return tl::unexpected(mesh.error());
-    const auto primitives = primitivesOf(placement, **node, **mesh);
-    if (!primitives) return tl::unexpected(primitives.error());
-    steps_ += (*primitives)->size() + 1;
+    ARETE_TRY(const auto node, document_.element("nodes", placement.node));
+    ARETE_TRY(const auto mesh, document_.element("meshes", placement.mesh));
+    ARETE_TRY(const auto primitives, primitivesOf(placement, *node, *mesh));
+    steps_ += primitives->size() + 1;
     if (steps_ > most()) return tooLarge();
     meshesShown_.insert(placement.mesh);
     const std::uint32_t visit = visits_[{placement.mesh, bytesOf(placement.placed)}]++;
-    const std::uint32_t object = addObject(placement, **node, **mesh);
-    for (std::size_t p = 0; p < (*primitives)->size(); ++p) {
-      const auto& primitive = (**primitives)[p];
+    const std::uint32_t object = addObject(placement, *node, *mesh);
+    for (std::size_t p = 0; p < primitives->size(); ++p) {
+      const auto& primitive = (*primitives)[p];
       if (!primitive) continue;
       steps_ += primitive->attributes.size();
       const auto [group, isNew] =
@@ -150,7 +142,7 @@ class GlbReader {
       if (isNew) groups_.emplace_back(*primitive, placement.placed);
       groups_[group->second].corners += primitive->corners;
       triangles_ += primitive->triangles();
-      if (const Status fits = checkMemory(0, 0); !fits) return fits;
+      ARETE_CHECK(checkMemory(0, 0));
       parts_.push_back({&*primitive, group->second, object, placement.mesh, p});
     }
     return {};
@@ -172,7 +164,7 @@ class GlbReader {
                      fmt::format("mesh {} has {}", placement.mesh, weights.error().message));
     Primitives primitives;
     for (std::size_t p = 0; p < list->size(); ++p) {
-      if (Status ok = reportAndCheck(p, list->size()); !ok) return tl::unexpected(ok.error());
+      ARETE_CHECK(reportAndCheck(p, list->size()));
       auto primitive = primitives_.read((*list)[p], *weights);
       if (!primitive) return named(placement.mesh, p, primitive.error());
       primitives.push_back(std::move(*primitive));
@@ -257,7 +249,7 @@ class GlbReader {
       const double largest =
           primitive.indices ? GltfElements::largestOf(primitive.indices->type) : double{kNone};
       for (std::uint64_t c = 0; c < primitive.corners; ++c) {
-        if (Status ok = reportAndCheck(c, primitive.corners); !ok) return ok;
+        ARETE_CHECK(reportAndCheck(c, primitive.corners));
         const std::uint32_t vertex = primitive.vertexAt(c);
         // The largest index would begin a new strip where programs draw; glTF has no such index.
         if (primitive.indices && vertex == largest)
@@ -289,9 +281,9 @@ class GlbReader {
     const std::uint64_t source = std::max(document_.views().sourceBytes(), kBytesPerVertex * (first + used));
     if (bytes > std::max(kMostAttributesAtLeast, kMostAttributesPerByte * source))
       return failure(ErrorCode::unsupported, "has attributes that are far larger than the file");
-    if (const Status fits = checkMemory(first + used, bytes); !fits) return fits;
+    ARETE_CHECK(checkMemory(first + used, bytes));
     for (std::uint64_t i = 0; i < used; ++i) {
-      if (Status ok = reportAndCheck(i, used); !ok) return ok;
+      ARETE_CHECK(reportAndCheck(i, used));
       const std::uint32_t v = group.vertex(i);
       const Vec3 inFile = group.positionOf(v), local = frame_ ? gltfToLocal(inFile) : inFile;
       const Vec3 p = frame_ ? frame_->toSource(local) : local;
@@ -312,7 +304,7 @@ class GlbReader {
     const bool flips = group.placed.mirrors();
     SurfaceMesh& mesh = result_.mesh;
     for (std::uint64_t t = 0; t < primitive.triangles(); ++t) {
-      if (Status ok = reportAndCheck(t, primitive.triangles()); !ok) return ok;
+      ARETE_CHECK(reportAndCheck(t, primitive.triangles()));
       const std::array<std::uint64_t, 3> corners = primitive.cornersOf(t);
       std::array<std::uint32_t, 3> triangle;
       for (std::size_t k = 0; k < 3; ++k) triangle[k] = group.indexOf(primitive.vertexAt(corners[k]));
@@ -402,9 +394,8 @@ std::filesystem::path folderOf(const std::filesystem::path& path) {
 }  // namespace
 
 Result<MeshFile> readGlb(const std::filesystem::path& path, const RunContext& context) try {
-  const Result<FileBytes> bytes = FileBytes::read(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  const Result<GltfDocument> document = GltfDocument::open(bytes->view(), folderOf(path));
+  ARETE_TRY(const FileBytes bytes, FileBytes::read(path));
+  const Result<GltfDocument> document = GltfDocument::open(bytes.view(), folderOf(path));
   if (!document) return failure(document.error().code, document.error().message, path.string());
   Result<MeshFile> file = GlbReader(*document, context).read();
   if (!file && file.error().culprit.empty()) file.error().culprit = path.string();

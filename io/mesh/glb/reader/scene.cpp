@@ -37,21 +37,19 @@ class Walk {
     const auto nodes = document_.json().find("nodes");
     if (nodes == document_.json().end() || !nodes->is_array()) return {};
     std::vector<Visit> open;
-    if (Status ok = addRoots(open, nodes->size()); !ok) return ok;
+    ARETE_CHECK(addRoots(open, nodes->size()));
     std::vector<char> visited(nodes->size(), 0);
     while (!open.empty()) {
       const Visit visit = open.back();
       open.pop_back();
-      const auto node = document_.element("nodes", visit.node);
-      if (!node) return tl::unexpected(node.error());
+      ARETE_TRY(const auto node, document_.element("nodes", visit.node));
       if (std::exchange(visited[visit.node], char{1}) != 0)
         return failure(ErrorCode::corrupt, fmt::format("node {} has two parents", visit.node));
-      const Result<Affine> own = nodeTransform(**node, leftOut_.farRotations);
+      const Result<Affine> own = nodeTransform(*node, leftOut_.farRotations);
       if (!own) return failure(own.error().code, fmt::format("node {}: {}", visit.node, own.error().message));
       const Affine placed = own->isIdentity() ? visit.parent : visit.parent.after(*own);
-      if ((*node)->contains("mesh"))
-        if (Status ok = addMesh(visit.node, **node, placed); !ok) return ok;
-      if (Status ok = addNumbers(**node, "children", placed, open); !ok) return ok;
+      if (node->contains("mesh")) ARETE_CHECK(addMesh(visit.node, *node, placed));
+      ARETE_CHECK(addNumbers(*node, "children", placed, open));
     }
     return {};
   }
@@ -63,16 +61,13 @@ class Walk {
   Status addRoots(std::vector<Visit>& open, std::size_t nodes) const {
     const Json& json = document_.json();
     if (json.contains("scenes")) {
-      const auto number = GltfDocument::wholeNumber(json, "scene", 0);
-      if (!number) return tl::unexpected(number.error());
-      const auto scene = document_.element("scenes", *number);
-      if (!scene) return tl::unexpected(scene.error());
-      return addNumbers(**scene, "nodes", {}, open);
+      ARETE_TRY(const auto number, GltfDocument::wholeNumber(json, "scene", 0));
+      ARETE_TRY(const auto scene, document_.element("scenes", number));
+      return addNumbers(*scene, "nodes", {}, open);
     }
     std::vector<Visit> children;
     for (const Json& node : json["nodes"])
-      if (node.is_object())
-        if (Status ok = addNumbers(node, "children", {}, children); !ok) return ok;
+      if (node.is_object()) ARETE_CHECK(addNumbers(node, "children", {}, children));
     std::vector<char> isChild(nodes, 0);
     for (const Visit& child : children)
       if (child.node < nodes) isChild[child.node] = 1;
@@ -97,15 +92,14 @@ class Walk {
   }
 
   Status addMesh(std::uint64_t number, const Json& node, const Affine& placed) {
-    const auto mesh = GltfDocument::wholeNumber(node, "mesh");
-    if (!mesh) return tl::unexpected(mesh.error());
+    ARETE_TRY(const auto mesh, GltfDocument::wholeNumber(node, "mesh"));
     if (node.contains("skin")) ++leftOut_.skinnedNodes;
     const Json* const instancing = extensionOf(node, "EXT_mesh_gpu_instancing");
-    if (instancing == nullptr) return add({number, *mesh, placed});
+    if (instancing == nullptr) return add({number, mesh, placed});
     const auto attributes = instancing->find("attributes");
     if (attributes == instancing->end() || !attributes->is_object())
       return failure(ErrorCode::corrupt, fmt::format("node {} has instances without attributes", number));
-    Status ok = addInstances(number, *mesh, *attributes, placed);
+    Status ok = addInstances(number, mesh, *attributes, placed);
     if (!ok) ok.error().message = fmt::format("node {}: {}", number, ok.error().message);
     return ok;
   }
@@ -128,14 +122,14 @@ class Walk {
                        : name == "SCALE"     ? &scales
                                              : nullptr;
       if (to == nullptr) ++leftOut_.instanceAttributes;
-      const auto number = GltfDocument::wholeNumber(attributes, name.c_str());
-      if (!number) return tl::unexpected(number.error());
-      const auto elements = document_.accessor(*number, to == nullptr ? "" : isRotation ? "VEC4" : "VEC3");
-      if (!elements) return tl::unexpected(elements.error());
-      if (count.value_or(elements->count) != elements->count)
+      ARETE_TRY(const auto number, GltfDocument::wholeNumber(attributes, name.c_str()));
+      ARETE_TRY(const auto elements, document_.accessor(number, to == nullptr ? ""
+                                                                : isRotation  ? "VEC4"
+                                                                              : "VEC3"));
+      if (count.value_or(elements.count) != elements.count)
         return failure(ErrorCode::corrupt, "has instances of several counts");
-      count = elements->count;
-      if (to != nullptr) *to = *elements;
+      count = elements.count;
+      if (to != nullptr) *to = elements;
     }
     for (std::uint64_t i = 0; i < count.value_or(0); ++i) {
       const auto at = [&](const std::optional<GltfElements>& elements, std::size_t c, double otherwise) {
@@ -149,7 +143,7 @@ class Walk {
       const Affine own =
           affineOf({at(translations, 0, 0), at(translations, 1, 0), at(translations, 2, 0)},
                    rotation->quaternion, {at(scales, 0, 1), at(scales, 1, 1), at(scales, 2, 1)});
-      if (Status ok = add({node, mesh, placed.after(own)}); !ok) return ok;
+      ARETE_CHECK(add({node, mesh, placed.after(own)}));
     }
     return {};
   }
@@ -164,7 +158,7 @@ class Walk {
 Result<std::vector<GltfPlacement>> placedMeshes(const GltfDocument& document, std::uint64_t most,
                                                 GltfLeftOut& leftOut) {
   Walk walk(document, most, leftOut);
-  if (Status ok = walk.run(); !ok) return tl::unexpected(ok.error());
+  ARETE_CHECK(walk.run());
   return std::move(walk.found);
 }
 

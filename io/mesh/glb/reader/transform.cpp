@@ -87,9 +87,8 @@ Result<UnitRotation> unitRotation(const std::array<double, 4>& q) {
 
 Result<Affine> nodeTransform(const Json& node, std::uint64_t& farRotations) {
   if (node.contains("matrix")) {
-    const auto m = numbersOf<16>(node, "matrix", {});
-    if (!m) return tl::unexpected(m.error());
-    const auto& c = *m;  // column by column
+    ARETE_TRY(const auto m, numbersOf<16>(node, "matrix", {}));
+    const auto& c = m;  // column by column
     if (c[3] != 0 || c[7] != 0 || c[11] != 0 || c[15] != 1)
       return failure(ErrorCode::corrupt, "a node has a matrix that is not affine");
     return Affine{{c[0], c[4], c[8], c[1], c[5], c[9], c[2], c[6], c[10]}, {c[12], c[13], c[14]}};

@@ -25,21 +25,20 @@ Status writeText(GltfContent content, const std::filesystem::path& path, const R
   if (content.bufferSize > kMost)
     return failure(ErrorCode::invalidData,
                    fmt::format("{} bytes are more than Arete reads from a glTF, 4 GiB", content.bufferSize));
-  Result<FileWriter> file = FileWriter::create(path);
-  if (!file) return tl::unexpected(file.error());
+  ARETE_TRY(FileWriter file, FileWriter::create(path));
   const bool hasBuffer = content.document.contains("buffers");
   constexpr std::string_view kBegin = "data:application/octet-stream;base64,";
   if (hasBuffer) content.document["buffers"][0]["uri"] = kBegin;
   const std::string json = content.document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
   // The buffers are the last list of the document.
   const std::size_t at = hasBuffer ? json.rfind(kBegin) + kBegin.size() : json.size();
-  file->write(std::string_view(json).substr(0, at));
-  ByteSink sink(*file, true, content.bufferSize, context);
+  file.write(std::string_view(json).substr(0, at));
+  ByteSink sink(file, true, content.bufferSize, context);
   if (hasBuffer && !content.writeBuffer(sink)) return interrupted();
   assert(sink.written() == content.bufferSize);
   sink.finish();
-  file->write(std::string_view(json).substr(at));
-  return file->finish();
+  file.write(std::string_view(json).substr(at));
+  return file.finish();
 }
 
 Status writeBinary(const GltfContent& content, const std::filesystem::path& path, const RunContext& context) {
@@ -50,25 +49,24 @@ Status writeBinary(const GltfContent& content, const std::filesystem::path& path
     return failure(ErrorCode::invalidData,
                    fmt::format("{} bytes are more than a GLB can hold, 4 GiB", total));
 
-  Result<FileWriter> file = FileWriter::create(path);
-  if (!file) return tl::unexpected(file.error());
+  ARETE_TRY(FileWriter file, FileWriter::create(path));
   const auto put = [&](std::uint64_t value) {
-    putBytes(file->reserve(sizeof(std::uint32_t)), static_cast<std::uint32_t>(value));
+    putBytes(file.reserve(sizeof(std::uint32_t)), static_cast<std::uint32_t>(value));
   };
-  file->write("glTF");
+  file.write("glTF");
   put(2);
   put(total);
   put(json.size());
-  file->write("JSON");
-  file->write(json);
+  file.write("JSON");
+  file.write(json);
   if (content.bufferSize > 0) {
     put(content.bufferSize);
-    file->write(std::string_view("BIN\0", 4));
-    ByteSink sink(*file, false, content.bufferSize, context);
+    file.write(std::string_view("BIN\0", 4));
+    ByteSink sink(file, false, content.bufferSize, context);
     if (!content.writeBuffer(sink)) return interrupted();
     assert(sink.written() == content.bufferSize);
   }
-  return file->finish();
+  return file.finish();
 }
 
 }  // namespace

@@ -29,9 +29,8 @@ Result<GlbFrame> frameOf(const TriangleMesh& mesh, const MeshWriteOptions& optio
   Georeference georeference;
   if (!options.crsWkt.empty()) {
     registerGdal();
-    const auto crs = crsFromText(options.crsWkt);
-    if (!crs) return tl::unexpected(crs.error());
-    if (const Status ok = describeCrs(*crs, georeference); !ok) return tl::unexpected(ok.error());
+    ARETE_TRY(const auto crs, crsFromText(options.crsWkt));
+    ARETE_CHECK(describeCrs(crs, georeference));
   }
   if (!options.verticalUnit.empty())
     georeference.verticalUnitMetres =
@@ -90,14 +89,11 @@ bool writeAll(ByteSink& sink, const Values& values) {
 }  // namespace
 
 Result<FramedPositions> framedPositions(const TriangleMesh& mesh, const MeshWriteOptions& options) {
-  Result<GlbFrame> spec = frameOf(mesh, options);
-  if (!spec) return tl::unexpected(spec.error());
-  const Result<LocalFrame> frame = LocalFrame::create(spec->local);
-  if (!frame) return tl::unexpected(frame.error());
-  auto positions = roundedPositions(mesh, *frame);
-  if (!positions) return tl::unexpected(positions.error());
+  ARETE_TRY(GlbFrame spec, frameOf(mesh, options));
+  ARETE_TRY(const LocalFrame frame, LocalFrame::create(spec.local));
+  ARETE_TRY(auto positions, roundedPositions(mesh, frame));
   return FramedPositions{
-      .frame = std::move(*spec), .positions = std::move(*positions), .areAlike = scalesAlike(*frame)};
+      .frame = std::move(spec), .positions = std::move(positions), .areAlike = scalesAlike(frame)};
 }
 
 std::vector<Float3> normalsOf(const TriangleMesh& mesh, std::span<const Float3> positions) {

@@ -244,24 +244,22 @@ Status placePositions(Parts& parts, const MeshWriteOptions& options, GltfDirecti
                       std::vector<std::string>& lost) {
   parts.asset = {{"version", "2.0"}, {"generator", "Arete"}};
   if (options.up == MeshUp::z) {
-    Result<FramedPositions> framed = framedPositions(parts.mesh, options);
-    if (!framed) return tl::unexpected(framed.error());
-    parts.positions = std::move(framed->positions);
-    parts.asset["extras"]["arete"] = toJson(framed->frame);
+    ARETE_TRY(FramedPositions framed, framedPositions(parts.mesh, options));
+    parts.positions = std::move(framed.positions);
+    parts.asset["extras"]["arete"] = toJson(framed.frame);
     const auto& attributes = parts.mesh.vertexAttributes;
     const bool hasNormals = std::ranges::find(attributes, kNormalName, &Attribute::name) != attributes.end();
-    directions = framed->areAlike && hasNormals ? GltfDirections::turned : GltfDirections::recomputed;
+    directions = framed.areAlike && hasNormals ? GltfDirections::turned : GltfDirections::recomputed;
     return {};
   }
-  Result<LocalPositions> local = localPositions(parts.mesh.positions, options.origin);
-  if (!local) return tl::unexpected(local.error());
+  ARETE_TRY(LocalPositions local, localPositions(parts.mesh.positions, options.origin));
   if (!options.crsWkt.empty()) lost.emplace_back("a CRS of a mesh whose z is not up");
   if (!options.triangleErrors.empty())
     lost.emplace_back("the error of each triangle of a mesh whose z is not up");
-  if (const Vec3& r = local->rounding; !(r == Vec3{}))
+  if (const Vec3& r = local.rounding; !(r == Vec3{}))
     lost.push_back(fmt::format("coordinates finer than {:.2g}, {:.2g}, {:.2g} (x, y, z)", r.x, r.y, r.z));
-  parts.positions = std::move(local->positions);
-  parts.translation = local->translation;
+  parts.positions = std::move(local.positions);
+  parts.translation = local.translation;
   return {};
 }
 
@@ -285,8 +283,7 @@ Result<SurfaceContent> surfaceContent(MeshRef mesh, const MeshWriteOptions& opti
                                counted(more, "vertex is", "vertices are")));
 
   GltfDirections directions = GltfDirections::asTheyAre;
-  if (const Status ok = placePositions(*parts, options, directions, lost); !ok)
-    return tl::unexpected(ok.error());
+  ARETE_CHECK(placePositions(*parts, options, directions, lost));
   if (const std::uint64_t flattened =
           countFlattened(parts->mesh, [&](std::uint32_t v) { return parts->positions[v]; });
       flattened > 0)

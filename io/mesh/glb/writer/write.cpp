@@ -19,14 +19,13 @@ namespace {
 Status writeTerrain(const TriangleMesh& mesh, const std::filesystem::path& path, bool asText,
                     const MeshWriteOptions& options, const RunContext& context,
                     std::vector<std::string>& lost) {
-  const Result<FramedPositions> framed = framedPositions(mesh, options);
-  if (!framed) return tl::unexpected(framed.error());
+  ARETE_TRY(const FramedPositions framed, framedPositions(mesh, options));
   if (const std::uint64_t flattened =
-          countFlattened(mesh, [&](std::uint32_t v) { return framed->positions[v]; });
+          countFlattened(mesh, [&](std::uint32_t v) { return framed.positions[v]; });
       flattened > 0)
     lost.push_back(flattenedLoss(flattened));
   const std::vector<float> errors = vertexErrors(mesh, options.triangleErrors);
-  return writeContainer(terrainContent(mesh, *framed, errors), path, asText, context);
+  return writeContainer(terrainContent(mesh, framed, errors), path, asText, context);
 }
 
 bool hasAttributes(const MeshAttributes& of) {
