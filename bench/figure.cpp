@@ -9,7 +9,7 @@
 #include <fstream>
 #include <thread>
 
-#include "io/file/file_writer.h"
+#include "io/files/file_writer.h"
 
 namespace arete::bench {
 namespace {

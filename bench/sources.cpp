@@ -14,9 +14,9 @@
 #include "bench/figure.h"
 #include "datasets/random.h"
 #include "datasets/terrain_generator.h"
-#include "io/amt/file.h"
-#include "io/dem/dem_reader.h"
-#include "io/dem/raster_writer.h"
+#include "io/geo/dem/dem_reader.h"
+#include "io/geo/dem/raster_writer.h"
+#include "io/store/amt/file.h"
 
 namespace arete::bench {
 namespace {

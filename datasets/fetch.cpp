@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "io/gdal/support.h"
+#include "io/geo/gdal/support.h"
 
 namespace arete {
 namespace {

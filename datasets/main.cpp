@@ -16,8 +16,8 @@
 #include "datasets/fetch.h"
 #include "datasets/terrain_generator.h"
 #include "engine/base/counted.h"
-#include "io/dem/raster_writer.h"
-#include "io/exchange/mesh_formats.h"
+#include "io/formats/exchange/mesh_formats.h"
+#include "io/geo/dem/raster_writer.h"
 
 namespace arete {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // build DEM OUT.amt: reads a DEM, builds its multitriangulation, writes it.
-#include <arete/io/amt/file.h>
-#include <arete/io/dem/dem_reader.h>
-#include <arete/terrain/build/build.h>
+#include <arete/io/geo/dem/dem_reader.h>
+#include <arete/io/store/amt/file.h>
+#include <arete/terrain/builder/build.h>
 
 #include <iostream>
 #include <variant>

@@ -2,9 +2,9 @@
 //
 // cut FILE.amt E OUT.ply: the least cut of a multitriangulation that is within E of every sample, as a TIN.
 #include <arete/engine/cut/cut.h>
-#include <arete/io/amt/file.h>
-#include <arete/io/exchange/export_tin.h>
-#include <arete/io/exchange/mesh_formats.h>
+#include <arete/io/formats/exchange/export_tin.h>
+#include <arete/io/formats/exchange/mesh_formats.h>
+#include <arete/io/store/amt/file.h>
 
 #include <cstdlib>
 #include <iostream>

@@ -4,7 +4,7 @@
 // pixel of error in view, within 10 ms a frame: what a renderer of your own would draw.
 #include <arete/engine/criteria/view_error.h>
 #include <arete/engine/follow/incremental_cut.h>
-#include <arete/io/amt/file.h>
+#include <arete/io/store/amt/file.h>
 #include <arete/terrain/locate/surface_height.h>
 #include <arete/terrain/model/camera.h>
 

@@ -2,7 +2,7 @@
 //
 // heights FILE.amt E: reads places "x y" from stdin, in the DEM's CRS, and writes "x y height" for each:
 // within E of the finest surface, 0 for that surface itself.
-#include <arete/io/amt/file.h>
+#include <arete/io/store/amt/file.h>
 #include <arete/terrain/locate/surface_height.h>
 
 #include <cstdlib>

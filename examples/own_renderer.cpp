@@ -4,7 +4,7 @@
 // but the buffers it receives: positions once, then what changes. The last frame is drawn, in grey, into
 // OUT.pgm.
 #include <arete/engine/morph/view_mesh.h>
-#include <arete/io/amt/file.h>
+#include <arete/io/store/amt/file.h>
 #include <arete/terrain/locate/surface_height.h>
 #include <arete/terrain/model/camera.h>
 

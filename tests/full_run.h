@@ -10,7 +10,8 @@ inline bool isFull() {
   return std::getenv("ARETE_FULL") != nullptr;
 }
 
-/// Whether everything takes ten times as long, as under sanitizers: what is tried on many samples is tried on fewer.
+/// Whether everything takes ten times as long, as under sanitizers: what is tried on many samples is tried on
+/// fewer.
 inline bool isBrief() {
   return std::getenv("ARETE_BRIEF") != nullptr;
 }

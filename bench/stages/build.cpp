@@ -16,9 +16,9 @@
 #include "bench/sources.h"
 #include "bench/stages/stages.h"
 #include "bench/threads.h"
-#include "io/amt/file.h"
-#include "io/dem/dem_reader.h"
-#include "terrain/build/build.h"
+#include "io/geo/dem/dem_reader.h"
+#include "io/store/amt/file.h"
+#include "terrain/builder/build.h"
 #include "terrain/features/fixed_vertices.h"
 
 namespace arete::bench {

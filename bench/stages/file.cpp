@@ -18,8 +18,8 @@
 #include "bench/threads.h"
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
-#include "io/amt/file.h"
-#include "io/extract/query_footprint.h"
+#include "io/query/extract/query_footprint.h"
+#include "io/store/amt/file.h"
 #include "terrain/locate/surface_height.h"
 
 namespace arete::bench {

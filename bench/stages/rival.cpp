@@ -13,7 +13,7 @@
 #include "bench/forked.h"
 #include "bench/hmm.h"
 #include "bench/stages/stages.h"
-#include "io/dem/dem_reader.h"
+#include "io/geo/dem/dem_reader.h"
 
 namespace arete::bench {
 namespace {

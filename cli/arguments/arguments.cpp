@@ -16,9 +16,9 @@
 #include <variant>
 
 #include "engine/base/counted.h"
-#include "io/exchange/mesh_formats.h"
-#include "io/file/file_writer.h"
-#include "io/file/output_file.h"
+#include "io/files/file_writer.h"
+#include "io/files/output_file.h"
+#include "io/formats/exchange/mesh_formats.h"
 
 namespace arete {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "cli/session/session.h"
 #include "engine/base/result.h"
-#include "io/crs/transform.h"
-#include "io/dem/dem_reader.h"
-#include "io/file/existing_file.h"
+#include "io/files/existing_file.h"
+#include "io/geo/crs/transform.h"
+#include "io/geo/dem/dem_reader.h"
 #include "terrain/model/source_reading.h"
 #include "terrain/model/terrain_model.h"
 

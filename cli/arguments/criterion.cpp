@@ -13,9 +13,9 @@
 
 #include "cli/arguments/arguments.h"
 #include "engine/base/counted.h"
-#include "io/crs/position_argument.h"
-#include "io/extract/camera_argument.h"
-#include "io/text/stated_size.h"
+#include "io/files/text/stated_size.h"
+#include "io/geo/crs/position_argument.h"
+#include "io/query/extract/camera_argument.h"
 #include "terrain/locate/surface_height.h"
 #include "terrain/model/relief.h"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "io/extract/criterion.h"
-#include "io/extract/region_argument.h"
+#include "io/query/extract/criterion.h"
+#include "io/query/extract/region_argument.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {

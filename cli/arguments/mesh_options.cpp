@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
-#include "io/crs/names.h"
+#include "io/geo/crs/names.h"
 
 namespace arete {
 

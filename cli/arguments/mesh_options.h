@@ -5,8 +5,8 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/session/session.h"
-#include "io/exchange/convert.h"
-#include "io/exchange/mesh_formats.h"
+#include "io/formats/exchange/convert.h"
+#include "io/formats/exchange/mesh_formats.h"
 
 namespace arete {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "io/text/stated_size.h"
+#include "io/files/text/stated_size.h"
 #include "terrain/model/relief.h"
 
 namespace arete {

@@ -7,14 +7,14 @@
 #include "cli/arguments/arguments.h"
 #include "cli/session/session.h"
 #include "engine/base/result.h"
-#include "io/amt/file.h"
+#include "io/store/amt/file.h"
 
 namespace arete {
 
 /// An error of terrain as the option --max-error states it: "2", or "0.5%" of the relief.
 struct TerrainError {
-  double value = 0;                 ///< in the unit of the heights
-  std::optional<double> relief{};   ///< of the terrain, where the error is stated as a share of it
+  double value = 0;                ///< in the unit of the heights
+  std::optional<double> relief{};  ///< of the terrain, where the error is stated as a share of it
 
   /// "2 m", and "2 m (0.5 % of the relief)" where it was stated as a share.
   std::string text(const std::string& unit) const;

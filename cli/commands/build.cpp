@@ -24,14 +24,14 @@
 #include "cli/surface/build.h"
 #include "cli/surface/convert.h"
 #include "engine/base/stopwatch.h"
-#include "io/amt/file.h"
-#include "io/crs/names.h"
-#include "io/dem/dem_reader.h"
-#include "io/file/text_scan.h"
-#include "io/surface/mesh_input.h"
-#include "io/table/plan_point_reader.h"
-#include "io/text/stated_size.h"
-#include "terrain/build/build.h"
+#include "io/files/text/stated_size.h"
+#include "io/files/text_scan.h"
+#include "io/geo/crs/names.h"
+#include "io/geo/dem/dem_reader.h"
+#include "io/geo/table/plan_point_reader.h"
+#include "io/query/surface/mesh_input.h"
+#include "io/store/amt/file.h"
+#include "terrain/builder/build.h"
 #include "terrain/features/fixed_vertices.h"
 #include "terrain/model/relief.h"
 
@@ -57,7 +57,7 @@ struct BuildArguments {
   std::vector<std::string> dropAttributes;
 };
 
-/// What a build needs at the least; rough terrain takes up to twice as much (terrain/build/build.h).
+/// What a build needs at the least; rough terrain takes up to twice as much (terrain/builder/build.h).
 constexpr double kLeastBuildBytesPerSample = 164;
 
 struct Seconds {

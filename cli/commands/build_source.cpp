@@ -7,10 +7,10 @@
 #include <utility>
 #include <variant>
 
-#include "io/dem/point_reader.h"
-#include "io/exchange/axes.h"
-#include "io/exchange/mesh_formats.h"
-#include "io/table/point_text.h"
+#include "io/formats/exchange/axes.h"
+#include "io/formats/exchange/mesh_formats.h"
+#include "io/geo/dem/point_reader.h"
+#include "io/geo/table/point_text.h"
 
 namespace arete {
 namespace {

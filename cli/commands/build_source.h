@@ -5,7 +5,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/session/session.h"
-#include "io/dem/dem_reader.h"
+#include "io/geo/dem/dem_reader.h"
 
 namespace arete {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/dem/raster_writer.h"
-#include "io/file/shell_text.h"
+#include "io/files/shell_text.h"
+#include "io/geo/dem/raster_writer.h"
 
 namespace arete {
 namespace {

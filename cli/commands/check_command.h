@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "io/extract/tin.h"
+#include "io/query/extract/tin.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {

@@ -15,11 +15,11 @@
 #include "cli/arguments/drop_attributes.h"
 #include "cli/arguments/mesh_options.h"
 #include "cli/surface/convert.h"
-#include "io/amt/file.h"
-#include "io/amt/surface_file.h"
-#include "io/exchange/convert.h"
-#include "io/exchange/mesh_formats.h"
-#include "io/file/text_scan.h"
+#include "io/files/text_scan.h"
+#include "io/formats/exchange/convert.h"
+#include "io/formats/exchange/mesh_formats.h"
+#include "io/store/amt/file.h"
+#include "io/store/amt/surface_file.h"
 
 namespace arete {
 namespace {

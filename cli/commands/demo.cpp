@@ -9,7 +9,7 @@
 #include <string>
 
 #include "cli/arguments/arguments.h"
-#include "io/text/stated_size.h"
+#include "io/files/text/stated_size.h"
 #include "viewer/headless/demo.h"
 
 namespace arete {

@@ -15,10 +15,10 @@
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/terrain_error.h"
 #include "cli/session/model_file.h"
-#include "io/crs/position_argument.h"
-#include "io/crs/transform.h"
-#include "io/table/height_table.h"
-#include "io/table/point_table.h"
+#include "io/geo/crs/position_argument.h"
+#include "io/geo/crs/transform.h"
+#include "io/geo/table/height_table.h"
+#include "io/geo/table/point_table.h"
 #include "terrain/locate/surface_height.h"
 
 namespace arete {

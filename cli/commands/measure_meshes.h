@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/session/session.h"
-#include "io/text/stated_size.h"
+#include "io/files/text/stated_size.h"
 
 namespace arete {
 

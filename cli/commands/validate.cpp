@@ -13,9 +13,9 @@
 #include "cli/arguments/arguments.h"
 #include "cli/surface/validate.h"
 #include "engine/base/counted.h"
-#include "io/amt/file.h"
-#include "io/amt/surface_file.h"
-#include "io/text/address_text.h"
+#include "io/files/text/address_text.h"
+#include "io/store/amt/file.h"
+#include "io/store/amt/surface_file.h"
 #include "terrain/laws/compare_source.h"
 #include "terrain/laws/validate_model.h"
 

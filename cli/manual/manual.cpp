@@ -12,7 +12,7 @@
 #include "cli/manual/declarations.h"
 #include "cli/manual/man_page.h"
 #include "engine/base/counted.h"
-#include "io/file/file_writer.h"
+#include "io/files/file_writer.h"
 
 namespace arete {
 namespace {

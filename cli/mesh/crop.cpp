@@ -11,8 +11,8 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/mesh_options.h"
-#include "io/exchange/convert.h"
-#include "io/exchange/mesh_formats.h"
+#include "io/formats/exchange/convert.h"
+#include "io/formats/exchange/mesh_formats.h"
 #include "surface/edit/crop.h"
 
 namespace arete {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cli/session/session.h"
-#include "io/surface/mesh_input.h"
+#include "io/query/surface/mesh_input.h"
 #include "surface/diagnosis/diagnosis.h"
 
 namespace arete {

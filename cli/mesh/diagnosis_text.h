@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "io/surface/mesh_input.h"
+#include "io/query/surface/mesh_input.h"
 #include "surface/diagnosis/diagnosis.h"
 
 namespace arete {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The mesh is examined as it is joined (io/surface/mesh_input.h), and what is found is said in the numbers of
-// the file.
+// The mesh is examined as it is joined (io/query/surface/mesh_input.h), and what is found is said in the
+// numbers of the file.
 #include "cli/mesh/info.h"
 
 #include <fmt/format.h>
@@ -18,10 +18,10 @@
 #include "cli/mesh/diagnosis_json.h"
 #include "cli/mesh/diagnosis_text.h"
 #include "cli/mesh/findings.h"
-#include "io/crs/names.h"
-#include "io/exchange/mesh_formats.h"
-#include "io/mesh/files_beside.h"
-#include "io/surface/mesh_input.h"
+#include "io/formats/exchange/mesh_formats.h"
+#include "io/formats/mesh/files_beside.h"
+#include "io/geo/crs/names.h"
+#include "io/query/surface/mesh_input.h"
 #include "surface/diagnosis/diagnosis.h"
 #include "surface/diagnosis/sizes.h"
 #include "surface/edit/joined_surface.h"

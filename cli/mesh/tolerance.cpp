@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/text/stated_size.h"
+#include "io/files/text/stated_size.h"
 
 namespace arete {
 

@@ -18,8 +18,8 @@
 
 #include "cli/session/exit_code.h"
 #include "cli/session/memory_end.h"
-#include "io/file/temporary_files.h"
-#include "io/file/watched_files.h"
+#include "io/files/temporary_files.h"
+#include "io/files/watched_files.h"
 
 namespace arete {
 namespace {

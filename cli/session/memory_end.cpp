@@ -14,8 +14,8 @@
 #include <exception>
 #include <new>
 
-#include "io/file/temporary_files.h"
-#include "io/gdal/unclaimed_messages.h"
+#include "io/files/temporary_files.h"
+#include "io/geo/gdal/unclaimed_messages.h"
 
 namespace arete {
 namespace {

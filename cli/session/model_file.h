@@ -5,8 +5,8 @@
 
 #include "cli/session/session.h"
 #include "engine/base/result.h"
-#include "io/amt/file.h"
-#include "io/extract/query_footprint.h"
+#include "io/query/extract/query_footprint.h"
+#include "io/store/amt/file.h"
 
 namespace arete {
 

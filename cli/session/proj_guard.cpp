@@ -13,7 +13,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "io/crs/proj_files.h"
+#include "io/geo/crs/proj_files.h"
 
 namespace {
 

@@ -18,10 +18,10 @@
 #include "cli/session/progress_bar.h"
 #include "cli/session/proj_guard.h"
 #include "engine/memory/pages.h"
-#include "io/file/watched_files.h"
-#include "io/gdal/confined.h"
-#include "io/gdal/unclaimed_messages.h"
-#include "io/text/address_text.h"
+#include "io/files/text/address_text.h"
+#include "io/files/watched_files.h"
+#include "io/geo/gdal/confined.h"
+#include "io/geo/gdal/unclaimed_messages.h"
 
 namespace arete {
 namespace {

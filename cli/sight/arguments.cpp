@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
-#include "io/crs/ellipsoid_earth.h"
+#include "io/geo/crs/ellipsoid_earth.h"
 
 namespace arete {
 

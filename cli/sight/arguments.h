@@ -7,7 +7,7 @@
 
 #include "cli/session/session.h"
 #include "engine/base/result.h"
-#include "io/crs/ellipsoid_earth.h"
+#include "io/geo/crs/ellipsoid_earth.h"
 #include "terrain/sight/answer.h"
 #include "terrain/sight/earth.h"
 #include "terrain/sight/engine.h"

@@ -19,12 +19,12 @@
 #include "cli/session/option_names.h"
 #include "cli/sight/arguments.h"
 #include "cli/sight/rows.h"
-#include "io/crs/transform.h"
-#include "io/dem/clutter_raster.h"
-#include "io/file/file_writer.h"
-#include "io/file/text_scan.h"
-#include "io/table/line_table.h"
-#include "io/table/sight_pairs.h"
+#include "io/files/file_writer.h"
+#include "io/files/text_scan.h"
+#include "io/geo/crs/transform.h"
+#include "io/geo/dem/clutter_raster.h"
+#include "io/geo/table/line_table.h"
+#include "io/geo/table/sight_pairs.h"
 #include "terrain/sight/paths.h"
 
 namespace arete {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cli/session/session.h"
-#include "io/crs/transform.h"
-#include "io/table/sight_pairs.h"
+#include "io/geo/crs/transform.h"
+#include "io/geo/table/sight_pairs.h"
 #include "terrain/sight/paths.h"
 
 namespace arete {

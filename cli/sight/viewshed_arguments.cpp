@@ -11,7 +11,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/terrain_error.h"
-#include "io/dem/raster_writer.h"
+#include "io/geo/dem/raster_writer.h"
 
 namespace arete {
 namespace {

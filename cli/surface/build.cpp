@@ -11,8 +11,8 @@
 #include "cli/arguments/drop_attributes.h"
 #include "cli/surface/mending.h"
 #include "engine/base/stopwatch.h"
-#include "io/amt/surface_file.h"
-#include "io/crs/names.h"
+#include "io/geo/crs/names.h"
+#include "io/store/amt/surface_file.h"
 #include "surface/front/front.h"
 
 namespace arete {

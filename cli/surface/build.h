@@ -5,7 +5,7 @@
 
 #include "cli/session/session.h"
 #include "engine/base/result.h"
-#include "io/surface/build_model.h"
+#include "io/query/surface/build_model.h"
 
 namespace arete {
 

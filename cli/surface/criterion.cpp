@@ -11,7 +11,7 @@
 #include "cli/arguments/arguments.h"
 #include "cli/mesh/tolerance.h"
 #include "cli/surface/camera.h"
-#include "io/surface/region.h"
+#include "io/query/surface/region.h"
 
 namespace arete {
 namespace {

@@ -7,7 +7,7 @@
 #include "cli/arguments/criterion.h"
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
-#include "io/surface/criterion.h"
+#include "io/query/surface/criterion.h"
 #include "surface/model/surface_model.h"
 
 namespace arete {

@@ -7,7 +7,7 @@
 #include "cli/arguments/criterion.h"
 #include "cli/session/session.h"
 #include "engine/base/result.h"
-#include "io/file/existing_file.h"
+#include "io/files/existing_file.h"
 
 namespace arete {
 

@@ -12,8 +12,8 @@
 #include "engine/base/counted.h"
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
-#include "io/amt/surface_file.h"
-#include "io/crs/names.h"
+#include "io/geo/crs/names.h"
+#include "io/store/amt/surface_file.h"
 
 namespace arete {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/surface/mending.h"
-#include "io/amt/surface_file.h"
+#include "io/store/amt/surface_file.h"
 
 namespace arete {
 namespace {

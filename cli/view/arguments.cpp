@@ -13,7 +13,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/criterion.h"
-#include "io/file/text_scan.h"
+#include "io/files/text_scan.h"
 #include "viewer/headless/headless.h"
 
 namespace arete {

@@ -15,7 +15,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "engine/base/counted.h"
-#include "io/file/file_writer.h"
+#include "io/files/file_writer.h"
 
 namespace arete {
 namespace {

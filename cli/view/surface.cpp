@@ -13,8 +13,8 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/surface/camera.h"
-#include "io/amt/surface_file.h"
-#include "io/file/file_writer.h"
+#include "io/files/file_writer.h"
+#include "io/store/amt/surface_file.h"
 #include "viewer/headless/headless.h"
 #include "viewer/surface/headless.h"
 #include "viewer/surface/surface_window.h"

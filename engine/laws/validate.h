@@ -36,9 +36,9 @@ struct DomainExtent {
 };
 DomainExtent domainExtent(const MultiTriangulation& mt);
 
-/// Law 5 on one front of a heightfield (of a surface: surface/laws/validate_surface.h): every triangle positively oriented; every edge with one or two triangles, in opposite
-/// directions; areas that sum to the domain's, borders as long as the domain's (so no T-junction and no
-/// overlap). O(triangles), parallel.
+/// Law 5 on one front of a heightfield (of a surface: surface/laws/validate_surface.h): every triangle
+/// positively oriented; every edge with one or two triangles, in opposite directions; areas that sum to the
+/// domain's, borders as long as the domain's (so no T-junction and no overlap). O(triangles), parallel.
 Status validateFront(const MultiTriangulation& mt, const Cut& cut, const DomainExtent& domain,
                      const ValidateOptions& options = {});
 

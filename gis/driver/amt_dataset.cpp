@@ -10,10 +10,10 @@
 #include "engine/cut/cut.h"
 #include "engine/parallel/guest_work.h"
 #include "gis/driver/gdal_errors.h"
-#include "io/amt/surface_file.h"
-#include "io/crs/reader.h"
-#include "io/exchange/export_tin.h"
-#include "io/format/layout.h"
+#include "io/formats/exchange/export_tin.h"
+#include "io/geo/crs/reader.h"
+#include "io/store/amt/surface_file.h"
+#include "io/store/format/layout.h"
 
 namespace arete {
 namespace {

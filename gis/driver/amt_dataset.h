@@ -10,7 +10,7 @@
 #include "gis/driver/open_options.h"
 #include "gis/driver/raster_band.h"
 #include "gis/driver/triangle_layer.h"
-#include "io/amt/container.h"
+#include "io/store/amt/container.h"
 
 namespace arete {
 

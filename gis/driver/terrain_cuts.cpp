@@ -9,7 +9,7 @@
 #include "engine/base/caught_failure.h"
 #include "engine/criteria/criterion.h"
 #include "engine/parallel/guest_work.h"
-#include "io/extract/query_footprint.h"
+#include "io/query/extract/query_footprint.h"
 #include "terrain/model/plan_box.h"
 
 namespace arete {

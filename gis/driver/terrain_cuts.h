@@ -12,7 +12,7 @@
 #include "engine/base/result.h"
 #include "engine/cut/cut.h"
 #include "gis/driver/pixel_grid.h"
-#include "io/amt/file.h"
+#include "io/store/amt/file.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {

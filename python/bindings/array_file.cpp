@@ -9,7 +9,7 @@
 #include <limits>
 #include <memory>
 
-#include "io/crs/reader.h"
+#include "io/geo/crs/reader.h"
 
 namespace arete::python {
 

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "engine/parallel/guest_work.h"
-#include "io/text/address_text.h"
+#include "io/files/text/address_text.h"
 
 namespace arete::python {
 

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "engine/base/counted.h"
-#include "io/crs/ellipsoid_earth.h"
-#include "io/crs/longitude_turns.h"
-#include "io/crs/position_argument.h"
+#include "io/geo/crs/ellipsoid_earth.h"
+#include "io/geo/crs/longitude_turns.h"
+#include "io/geo/crs/position_argument.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
 #include "terrain/measure/measure.h"

@@ -21,7 +21,7 @@ struct Georeference {
   /// False where the file has no position; then x counts columns and y rows, upwards from the last.
   bool hasGeoTransform = false;
   /// The last column of the raster is its first one again, a whole turn of longitudes farther: the source
-  /// goes round the Earth and has no cell between its last column and its first (io/dem/seam_column.h).
+  /// goes round the Earth and has no cell between its last column and its first (io/geo/dem/seam_column.h).
   bool repeatsFirstColumn = false;
 
   std::string crsWkt;         ///< WKT 2 as GDAL exports it; empty = no CRS
@@ -29,7 +29,7 @@ struct Georeference {
   double angularUnitRadians = 0.017453292519943295;
   double linearUnitMetres = 1;  ///< of a projected CRS
   /// Lengths along x and y on the map for a length of 1 on the ground, in the middle of the DEM: 2, 2 in
-  /// EPSG:3857 at 60 degrees. Stated where one of them is off 1 by a hundredth (io/crs/map_scale.h).
+  /// EPSG:3857 at 60 degrees. Stated where one of them is off 1 by a hundredth (io/geo/crs/map_scale.h).
   std::optional<std::array<double, 2>> mapScale = {};
   double semiMajorAxisMetres = 6378137;
   double inverseFlattening = 298.257223563;  ///< 0 = sphere

@@ -31,8 +31,9 @@ struct LoneHeights {
 
 /// Heights stand alone where the gap to the others exceeds twice the range of these, or half of it for values
 /// that often mark missing data (-9999, -32768, ...), and they are up to three distinct values or up to a
-/// thousandth of the samples. Up to seven of fewer than 4096 samples must be ten ranges apart. Among fewer than 64 samples or four distinct heights, other values must stand a
-/// thousand ranges apart, and above or below level ground a thousand times its height. O(samples), parallel.
+/// thousandth of the samples. Up to seven of fewer than 4096 samples must be ten ranges apart. Among fewer
+/// than 64 samples or four distinct heights, other values must stand a thousand ranges apart, and above or
+/// below level ground a thousand times its height. O(samples), parallel.
 /// @param heights  NaN for NODATA
 /// @param scale, offset  height = raw * scale + offset, by which raw values are known that mark missing data
 LoneHeights loneHeights(std::span<const double> heights, double scale = 1, double offset = 0);

@@ -12,7 +12,8 @@
 namespace arete {
 
 /// How the ground is measured and how it curves: the tracks of sight lines between two places. Places are in
-/// plan coordinates of the model. Thread-safe. Tracks on the ellipsoid need a CRS: io/crs/ellipsoid_earth.h.
+/// plan coordinates of the model. Thread-safe. Tracks on the ellipsoid need a CRS:
+/// io/geo/crs/ellipsoid_earth.h.
 class SightEarth {
  public:
   virtual ~SightEarth() = default;

@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "datasets/families.h"
-#include "io/dem/raster_writer.h"
+#include "io/geo/dem/raster_writer.h"
 
 namespace arete::cli_test {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cli/cli_fixture.h"
-#include "io/dem/raster_writer.h"
+#include "io/geo/dem/raster_writer.h"
 
 namespace arete::cli_test {
 

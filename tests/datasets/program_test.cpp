@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "io/dem/raster_reader.h"
-#include "io/dem/raster_writer.h"
+#include "io/geo/dem/raster_reader.h"
+#include "io/geo/dem/raster_writer.h"
 
 namespace arete {
 namespace {

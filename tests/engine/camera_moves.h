@@ -8,7 +8,7 @@
 
 #include "datasets/terrain_generator.h"
 #include "engine/criteria/view.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 
 namespace arete {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "datasets/families.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 
 namespace arete {
 

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <string>
 
-#include "io/format/checksum.h"
-#include "io/packed/nodes/layout.h"
+#include "io/store/format/checksum.h"
+#include "io/store/packed/nodes/layout.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "io/format/layout.h"
+#include "io/store/format/layout.h"
 
 namespace arete::fuzz {
 

@@ -27,9 +27,9 @@
 #include "datasets/families.h"
 #include "full_run.h"
 #include "fuzz/hostile_amt.h"
-#include "io/amt/file.h"
-#include "io/dem/raster_writer.h"
-#include "terrain/build/build.h"
+#include "io/geo/dem/raster_writer.h"
+#include "io/store/amt/file.h"
+#include "terrain/builder/build.h"
 
 namespace arete::fuzz {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fuzz/harness.h"
-#include "io/mesh/glb/glb.h"
-#include "io/mesh/glb/texture_transform.h"
+#include "io/formats/glb/glb.h"
+#include "io/formats/glb/texture_transform.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const arete::fuzz::MemoryFile file;

@@ -3,8 +3,8 @@
 // glTF as text, with its bytes in base 64. The folder of the input, from which buffers are read, holds other
 // open files of this program and nothing else.
 #include "fuzz/harness.h"
-#include "io/mesh/glb/glb.h"
-#include "io/mesh/glb/texture_transform.h"
+#include "io/formats/glb/glb.h"
+#include "io/formats/glb/texture_transform.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const arete::fuzz::MemoryFile file;

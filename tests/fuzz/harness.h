@@ -8,7 +8,7 @@
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
-#include "io/exchange/mesh_formats.h"
+#include "io/formats/exchange/mesh_formats.h"
 
 /// What a fuzz program and the replay of its kept inputs call: reads the bytes, uses what was read, and ends
 /// the program where a promise does not hold.

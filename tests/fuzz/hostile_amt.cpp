@@ -20,8 +20,8 @@
 
 #include "datasets/families.h"
 #include "fuzz/amt_parts.h"
-#include "io/amt/file.h"
-#include "terrain/build/build.h"
+#include "io/store/amt/file.h"
+#include "terrain/builder/build.h"
 
 namespace arete::fuzz {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fuzz/harness.h"
-#include "io/mesh/obj/mtl.h"
-#include "io/mesh/obj/obj.h"
+#include "io/formats/obj/mtl.h"
+#include "io/formats/obj/obj.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const arete::fuzz::MemoryFile file;

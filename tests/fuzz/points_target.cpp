@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "fuzz/harness.h"
-#include "io/dem/gridded_points.h"
-#include "io/dem/point_reader.h"
-#include "io/table/point_attributes.h"
-#include "io/table/point_text.h"
+#include "io/geo/dem/gridded_points.h"
+#include "io/geo/dem/point_reader.h"
+#include "io/geo/table/point_attributes.h"
+#include "io/geo/table/point_text.h"
 
 namespace {
 

@@ -13,12 +13,12 @@
 
 #include "datasets/families.h"
 #include "engine/cut/cut.h"
-#include "io/amt/file.h"
-#include "io/amt/surface_file.h"
-#include "io/exchange/export_tin.h"
-#include "io/exchange/mesh_formats.h"
-#include "surface/build/build.h"
-#include "terrain/build/build.h"
+#include "io/formats/exchange/export_tin.h"
+#include "io/formats/exchange/mesh_formats.h"
+#include "io/store/amt/file.h"
+#include "io/store/amt/surface_file.h"
+#include "surface/builder/build.h"
+#include "terrain/builder/build.h"
 
 namespace {
 

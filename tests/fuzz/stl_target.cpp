@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fuzz/harness.h"
-#include "io/mesh/stl/stl.h"
+#include "io/formats/stl/stl.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const arete::fuzz::MemoryFile file;

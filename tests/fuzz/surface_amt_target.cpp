@@ -9,7 +9,7 @@
 #include "engine/criteria/refine_order.h"
 #include "engine/cut/cut.h"
 #include "fuzz/harness.h"
-#include "io/amt/surface_file.h"
+#include "io/store/amt/surface_file.h"
 #include "surface/front/front.h"
 #include "surface/laws/validate_surface.h"
 

@@ -25,8 +25,8 @@
 #include <xxhash.h>
 
 #include "engine/mt/node_blocks.h"
-#include "io/amt/file.h"
-#include "terrain/build/build.h"
+#include "io/store/amt/file.h"
+#include "terrain/builder/build.h"
 
 namespace arete::test {
 

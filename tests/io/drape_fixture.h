@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "io/dem/raster_reader.h"
+#include "io/geo/dem/raster_reader.h"
 #include "io/io_fixture.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 
 namespace arete::test {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <string>
 
-#include "io/crs/reader.h"
+#include "io/geo/crs/reader.h"
 #include "terrain/model/georeference.h"
 
 namespace arete::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// GLB files made by hand, for the tests of io/mesh/glb.
+// GLB files made by hand, for the tests of io/formats/glb.
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/exchange/mesh_formats.h"
+#include "io/formats/exchange/mesh_formats.h"
 
 namespace arete::test {
 

@@ -16,7 +16,7 @@
 
 #include "datasets/families.h"
 #include "engine/base/triangle_mesh.h"
-#include "io/exchange/mesh_formats.h"
+#include "io/formats/exchange/mesh_formats.h"
 #include "io/io_fixture.h"
 
 namespace arete::test {

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "io/crs/reader.h"
-#include "io/table/height_table.h"
-#include "io/table/point_table.h"
+#include "io/geo/crs/reader.h"
+#include "io/geo/table/height_table.h"
+#include "io/geo/table/point_table.h"
 
 /// What tests of tables share.
 namespace arete::test {

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "io/formats/glb/glb.h"
 #include "io/glb_fixture.h"
-#include "io/mesh/glb/glb.h"
 #include "io/mesh_fixture.h"
 #include "surface/model/surface_mesh.h"
 

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "io/dem/raster_reader.h"
+#include "io/geo/dem/raster_reader.h"
 
 namespace arete {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "engine/mt/multitriangulation.h"
 #include "full_run.h"
-#include "terrain/build/build_in_tiles.h"
+#include "terrain/builder/build_in_tiles.h"
 #include "terrain/model/build_options.h"
 
 namespace arete {

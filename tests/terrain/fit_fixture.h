@@ -13,7 +13,7 @@
 #include "datasets/families.h"
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 #include "terrain/fit/mesh.h"
 #include "terrain/fit/samples.h"
 

@@ -15,7 +15,7 @@
 
 #include "datasets/families.h"
 #include "datasets/random.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 #include "terrain/model/camera.h"
 
 namespace arete::test {

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "datasets/random.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 #include "terrain/model/camera.h"
 
 namespace arete::test {

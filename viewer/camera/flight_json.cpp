@@ -14,9 +14,9 @@
 #include <optional>
 #include <utility>
 
-#include "io/crs/names.h"
-#include "io/file/file_bytes.h"
-#include "io/file/file_writer.h"
+#include "io/files/file_bytes.h"
+#include "io/files/file_writer.h"
+#include "io/geo/crs/names.h"
 
 namespace arete {
 namespace {

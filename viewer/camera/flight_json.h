@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "io/crs/longitude_turns.h"
+#include "io/geo/crs/longitude_turns.h"
 #include "terrain/model/georeference.h"
 #include "viewer/camera/flight.h"
 

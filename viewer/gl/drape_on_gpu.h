@@ -9,7 +9,7 @@
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
 #include "engine/parallel/run_context.h"
-#include "io/drape/reader.h"
+#include "io/geo/drape/reader.h"
 #include "viewer/gl/gl_objects.h"
 
 namespace arete {

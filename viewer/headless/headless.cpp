@@ -18,7 +18,7 @@
 #include <system_error>
 
 #include "engine/base/stopwatch.h"
-#include "io/file/text_scan.h"
+#include "io/files/text_scan.h"
 #include "viewer/gl/frame_target.h"
 #include "viewer/gl/offscreen.h"
 

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <utility>
 
-#include "io/file/file_writer.h"
+#include "io/files/file_writer.h"
 
 namespace arete {
 namespace {

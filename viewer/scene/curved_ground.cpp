@@ -20,8 +20,8 @@
 
 #include "engine/mt/curved_mt.h"
 #include "engine/parallel/with_threads.h"
-#include "io/crs/lonlat.h"
-#include "terrain/model/local_frame.h"
+#include "io/geo/crs/local_frame.h"
+#include "io/geo/crs/lonlat.h"
 
 namespace arete {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh/colors.h"
+#include "io/formats/mesh/colors.h"
 #include "viewer/surface/shading_normals.h"
 
 namespace arete {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine/base/result.h"
-#include "io/crs/longitude_turns.h"
+#include "io/geo/crs/longitude_turns.h"
 #include "terrain/model/georeference.h"
 #include "viewer/camera/flight.h"
 

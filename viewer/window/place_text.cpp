@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Typed text is parsed by io/crs/position_argument.h, as on the command line.
+// Typed text is parsed by io/geo/crs/position_argument.h, as on the command line.
 #include "viewer/window/place_text.h"
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 #include <cmath>
 #include <utility>
 
-#include "io/crs/position_argument.h"
+#include "io/geo/crs/position_argument.h"
 
 namespace arete {
 

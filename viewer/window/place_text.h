@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "io/crs/lonlat.h"
+#include "io/geo/crs/lonlat.h"
 #include "terrain/locate/surface_height.h"
 
 namespace arete {
@@ -29,8 +29,8 @@ class PlaceText {
     double ground = 0;             ///< height of the terrain there; without terrain there: the stated height
     std::optional<double> height;  ///< in the DEM's heights; empty: a place on the ground
   };
-  /// "X,Y" or "X,Y,H", H as io/crs/position_argument.h has it; a longitude may be whole turns off. Errors:
-  /// usage, invalidData, naming the text; invalidData: a place outside the terrain without a height.
+  /// "X,Y" or "X,Y,H", H as io/geo/crs/position_argument.h has it; a longitude may be whole turns off.
+  /// Errors: usage, invalidData, naming the text; invalidData: a place outside the terrain without a height.
   Result<Goal> read(const std::string& text, bool isLonLat) const;
 
  private:

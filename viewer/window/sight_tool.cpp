@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "io/crs/ellipsoid_earth.h"
-#include "io/crs/lonlat.h"
+#include "io/geo/crs/ellipsoid_earth.h"
+#include "io/geo/crs/lonlat.h"
 
 namespace arete {
 namespace {

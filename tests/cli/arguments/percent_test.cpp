@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "cli/mesh_fixture.h"
-#include "io/dem/raster_reader.h"
+#include "io/geo/dem/raster_reader.h"
 #include "terrain/model/relief.h"
 
 namespace arete::cli_test {

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "cli/cli_fixture.h"
-#include "io/exchange/mesh_formats.h"
+#include "io/formats/exchange/mesh_formats.h"
 
 namespace arete::cli_test {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/cli_fixture.h"
-#include "io/dem/raster_reader.h"
+#include "io/geo/dem/raster_reader.h"
 
 namespace arete::cli_test {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "cli/arguments_fixture.h"
-#include "io/gdal/support.h"
+#include "io/geo/gdal/support.h"
 
 namespace arete::cli_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "cli/cli_fixture.h"
-#include "io/dem/raster_reader.h"
+#include "io/geo/dem/raster_reader.h"
 
 namespace arete::cli_test {
 namespace {

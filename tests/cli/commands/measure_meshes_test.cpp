@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "cli/cli_fixture.h"
-#include "io/exchange/mesh_formats.h"
+#include "io/formats/exchange/mesh_formats.h"
 
 namespace arete::cli_test {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "cli/cli_fixture.h"
 #include "full_run.h"
-#include "io/dem/raster_reader.h"
+#include "io/geo/dem/raster_reader.h"
 
 namespace arete::cli_test {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cli/sight_fixture.h"
-#include "io/dem/raster_reader.h"
-#include "io/dem/raster_writer.h"
+#include "io/geo/dem/raster_reader.h"
+#include "io/geo/dem/raster_writer.h"
 
 namespace arete::cli_test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "datasets/families.h"
 #include "engine/copied_mt.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 
 namespace arete {
 namespace {

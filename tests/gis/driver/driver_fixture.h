@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "gis/driver/register.h"
-#include "io/amt/file.h"
 #include "io/io_fixture.h"
-#include "terrain/build/build.h"
+#include "io/store/amt/file.h"
+#include "terrain/builder/build.h"
 
 namespace arete::test {
 

@@ -6,8 +6,8 @@
 
 #include "engine/cut/cut.h"
 #include "gis/driver/driver_fixture.h"
-#include "io/amt/surface_file.h"
-#include "surface/build/build.h"
+#include "io/store/amt/surface_file.h"
+#include "surface/builder/build.h"
 #include "surface/families.h"
 
 namespace arete {

@@ -8,7 +8,7 @@
 #include "engine/criteria/refine_order.h"
 #include "engine/criteria/space_region.h"
 #include "full_run.h"
-#include "surface/build/build.h"
+#include "surface/builder/build.h"
 #include "surface/displacement/displaced_places.h"
 #include "surface/displacement/find_displacement.h"
 #include "surface/families.h"

@@ -9,7 +9,7 @@
 
 #include "engine/cut/cut.h"
 #include "full_run.h"
-#include "surface/build/build.h"
+#include "surface/builder/build.h"
 #include "surface/families.h"
 #include "surface/fit/held_vertices.h"
 #include "surface/front/front.h"

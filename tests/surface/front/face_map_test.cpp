@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "surface/build/build.h"
+#include "surface/builder/build.h"
 #include "surface/front/front.h"
 #include "surface/laws/validate_surface.h"
 #include "surface/shapes.h"

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "engine/cut/cut.h"
-#include "surface/build/build.h"
+#include "surface/builder/build.h"
 #include "surface/families.h"
 #include "surface/laws/errors_law.h"
 #include "surface/parted.h"

@@ -5,7 +5,7 @@
 
 #include <numeric>
 
-#include "surface/build/build.h"
+#include "surface/builder/build.h"
 #include "surface/shapes.h"
 
 namespace arete {

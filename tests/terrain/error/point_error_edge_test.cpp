@@ -11,7 +11,7 @@
 #include "datasets/families.h"
 #include "engine/base/id_array.h"
 #include "engine/ids_of.h"
-#include "terrain/build/checks.h"
+#include "terrain/builder/checks.h"
 #include "terrain/triangulation/finest_points.h"
 
 namespace arete {

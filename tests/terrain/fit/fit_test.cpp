@@ -15,7 +15,7 @@
 #include <string>
 
 #include "datasets/families.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 #include "terrain/chebyshev_oracle.h"
 #include "terrain/features/fixed_vertices.h"
 #include "terrain/measure/measure.h"

@@ -10,7 +10,7 @@
 
 #include "datasets/families.h"
 #include "datasets/hostile_heights.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 #include "terrain/laws/compare_source.h"
 #include "terrain/laws/validate_model.h"
 

@@ -12,7 +12,7 @@
 #include "datasets/families.h"
 #include "engine/mt/node_blocks.h"
 #include "engine/mt/saturated_balls.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 
 namespace arete {
 namespace {

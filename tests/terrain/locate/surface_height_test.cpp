@@ -15,7 +15,7 @@
 #include "datasets/families.h"
 #include "datasets/random.h"
 #include "engine/cut/cut.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 
 namespace arete {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "datasets/families.h"
 #include "datasets/random.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 
 namespace arete {
 namespace {

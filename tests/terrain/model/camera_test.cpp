@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "datasets/families.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 
 namespace arete {
 namespace {

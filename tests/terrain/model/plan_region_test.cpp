@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "datasets/families.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 
 namespace arete {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "datasets/families.h"
 #include "datasets/random.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 #include "terrain/sight/engine.h"
 
 namespace arete::test {

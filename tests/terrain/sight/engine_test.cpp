@@ -15,7 +15,7 @@
 #include "datasets/families.h"
 #include "engine/cut/cut.h"
 #include "full_run.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 #include "terrain/sight_pairs.h"
 
 namespace arete::test {

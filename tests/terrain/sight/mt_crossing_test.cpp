@@ -9,7 +9,7 @@
 #include "datasets/families.h"
 #include "datasets/random.h"
 #include "engine/cut/cut.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 #include "terrain/sight_oracle.h"
 
 namespace arete::test {

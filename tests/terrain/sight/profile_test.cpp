@@ -13,7 +13,7 @@
 
 #include "datasets/families.h"
 #include "datasets/random.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 #include "terrain/sight/fresnel.h"
 #include "terrain/sight/grid.h"
 

@@ -9,7 +9,7 @@
 #include "datasets/families.h"
 #include "engine/cut/cut.h"
 #include "engine/ids_of.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 #include "terrain/laws/validate_model.h"
 
 namespace arete {

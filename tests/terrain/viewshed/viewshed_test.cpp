@@ -13,7 +13,7 @@
 
 #include "datasets/families.h"
 #include "datasets/random.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 #include "terrain/viewshed/many.h"
 #include "terrain/viewshed_cells.h"
 

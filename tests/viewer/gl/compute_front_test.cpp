@@ -13,7 +13,7 @@
 #include "datasets/terrain_generator.h"
 #include "engine/criteria/view_error.h"
 #include "engine/cut/cut.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 #include "viewer/drawn_mesh.h"
 #include "viewer/gl/terrain_view.h"
 

@@ -15,7 +15,7 @@
 #include "engine/criteria/view_error.h"
 #include "engine/cut/cut.h"
 #include "engine/morph/geomorph.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 #include "viewer/drawn_mesh.h"
 #include "viewer/gl/frame_target.h"
 #include "viewer/picture/color_ramp.h"

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "io/amt/file.h"
-#include "io/dem/raster_writer.h"
-#include "io/exchange/mesh_formats.h"
+#include "io/formats/exchange/mesh_formats.h"
+#include "io/geo/dem/raster_writer.h"
+#include "io/store/amt/file.h"
 #include "terrain/measure/measure.h"
 
 namespace arete {

@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "datasets/terrain_generator.h"
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 #include "terrain/locate/surface_height.h"
 #include "viewer/camera/home_view.h"
 #include "viewer/camera/round_flight.h"

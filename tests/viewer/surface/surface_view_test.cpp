@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "surface/build/build.h"
+#include "surface/builder/build.h"
 #include "surface/families.h"
 #include "viewer/drawn_mesh.h"
 #include "viewer/surface/headless.h"

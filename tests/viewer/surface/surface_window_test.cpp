@@ -7,7 +7,7 @@
 
 #include <unistd.h>
 
-#include "surface/build/build.h"
+#include "surface/builder/build.h"
 #include "surface/families.h"
 #include "viewer/under_xvfb.h"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "surface/build/build.h"
+#include "surface/builder/build.h"
 #include "surface/families.h"
 
 namespace arete {

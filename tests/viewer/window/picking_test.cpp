@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "terrain/build/build.h"
+#include "terrain/builder/build.h"
 #include "viewer/camera_models.h"
 
 namespace arete {

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
+#include "io/formats/exchange/axes.h"
+#include "io/formats/exchange/mesh_formats.h"
+
+namespace arete {
+
+struct ConvertOptions {
+  std::string crs = {};     ///< any text that GDAL accepts; empty: that of the mesh. Nothing is reprojected.
+  std::string format = {};  ///< MeshWriteOptions::format
+  /// What happens to the other layers of a GeoPackage that exists.
+  ExistingFile existing = ExistingFile::keepsOtherLayers;
+  MeshPlacing placing = {};  ///< what the file does not say of its axes and its unit
+  /// Whether the coordinates of the source are floats; empty: if those of the mesh are.
+  std::optional<bool> isOfFloats = {};
+};
+
+/// The result of a conversion.
+struct ConvertedMesh {
+  MeshFrame frame;                ///< of the file that was written
+  std::string crsWkt;             ///< of the coordinates, even if the format cannot hold it
+  std::string verticalUnit;       ///< likewise
+  std::vector<std::string> lost;  ///< what the mesh has and the format cannot hold: "the CRS", ...
+  std::vector<std::filesystem::path> filesBeside;  ///< MTL, pictures
+  std::uint64_t triangles = 0, vertices = 0;       ///< of the mesh
+  std::uint64_t joinedVertices = 0;                ///< MeshFile::joinedVertices
+  std::vector<std::uint32_t> triangleOf;           ///< trianglesOfFile()
+  std::vector<std::string> warnings;
+  /// Of a PLY with doubles of a source with floats, which so takes twice the bytes for its coordinates: how
+  /// far floats would have moved one; otherwise 0.
+  double movedByFloats = 0;
+};
+
+/// How far the farthest coordinate of a mesh lies from the nearest float of 32 bits. O(vertices).
+double movedByFloats(const TriangleMesh& mesh);
+
+/// Writes a mesh in the format that options.format or the extension of `path` names, with its CRS, unit and
+/// errors as far as the format can hold them. A mesh is turned and scaled only where options.placing says so
+/// (placeMesh()), and a mesh of which y is up where options.crs states a CRS, in which z is up.
+///
+/// Errors: those of writeMesh() and placeMesh(). usage, with the text as culprit: options.crs is not a CRS;
+/// culprit `unit`: options.crs states the unit. O(size), O(n log n) to a format that rounds.
+Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& path,
+                                  const ConvertOptions& options = {}, const RunContext& context = {});
+
+}  // namespace arete

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One table lists the formats; everything else looks a format up in it.
+#include "io/formats/exchange/mesh_formats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "engine/base/caught_failure.h"
+#include "io/files/no_file.h"
+#include "io/files/output_file.h"
+#include "io/files/text/utf8.h"
+#include "io/files/text_scan.h"
+#include "io/formats/2dm/2dm.h"
+#include "io/formats/exchange/grouped_faces.h"
+#include "io/formats/exchange/joined.h"
+#include "io/formats/glb/glb.h"
+#include "io/formats/glb/texture_transform.h"
+#include "io/formats/gpkg/gpkg.h"
+#include "io/formats/mesh/texture_set.h"
+#include "io/formats/obj/obj.h"
+#include "io/formats/off/off.h"
+#include "io/formats/ply/ply.h"
+#include "io/formats/stl/stl.h"
+
+namespace arete {
+
+namespace {
+
+constexpr MeshFormatTraits kHoldsAll = {
+    .isExact = true, .holdsCrs = true, .holdsVerticalUnit = true, .holdsErrors = true};
+constexpr MeshFormatTraits kHoldsQualities = {.isExact = true,
+                                              .holdsCrs = true,
+                                              .holdsVerticalUnit = true,
+                                              .holdsErrors = true,
+                                              .holdsQualities = true};
+constexpr MeshFormatTraits kHoldsNoErrors = {.isExact = true, .holdsCrs = true, .holdsVerticalUnit = true};
+
+constexpr MeshFormatTraits kHoldsFrame = {.holdsCrs = true, .holdsVerticalUnit = true};
+
+constexpr std::array kFormats = {
+    MeshFormat{"PLY", ".ply", &readPly, &writePly, kHoldsQualities},
+    MeshFormat{"OBJ", ".obj", &readObj, &writeObj, kHoldsNoErrors},
+    MeshFormat{"OFF", ".off", &readOff, &writeOff, kHoldsNoErrors},
+    MeshFormat{"STL", ".stl", &readStl, &writeStl, {}},
+    MeshFormat{"GLB", ".glb", &readGlb, &writeGlb, kHoldsFrame},
+    MeshFormat{"glTF", ".gltf", &readGltf, &writeGltf, kHoldsFrame},
+    MeshFormat{"2DM", ".2dm", &read2dm, &write2dm, kHoldsNoErrors},
+    MeshFormat{"GeoPackage", ".gpkg", &readGpkg, &writeGpkg, kHoldsAll},
+};
+
+template <class Predicate>
+std::string extensionsOf(Predicate isListed) {
+  std::string list;
+  for (const MeshFormat& format : kFormats)
+    if (isListed(format)) list += fmt::format("{}{}", list.empty() ? "" : ", ", format.extension);
+  return list;
+}
+
+/// Names that are not UTF-8 are Latin-1.
+void nameInUtf8(MeshFile& file) {
+  const auto change = [](std::string& name) {
+    if (!text::isUtf8(name)) name = text::asUtf8(name);
+  };
+  SurfaceMesh& mesh = file.mesh;
+  for (auto* const attributes : {&mesh.vertexAttributes, &mesh.wedgeAttributes, &mesh.triangleAttributes})
+    for (Attribute& attribute : *attributes) change(attribute.name);
+  for (auto* const names : {&mesh.objects, &mesh.groups, &file.warnings})
+    for (std::string& name : *names) change(name);
+  for (Material& material : mesh.materials) {
+    change(material.name);
+    change(material.alphaMode);
+    for (TextureUse& use : material.textures) {
+      change(use.role);
+      change(use.picture);
+    }
+    std::map<std::string, std::string> verbatim;
+    for (auto& [key, text] : material.verbatim) verbatim.emplace(text::asUtf8(key), text::asUtf8(text));
+    material.verbatim = std::move(verbatim);
+  }
+  for (EmbeddedPicture& picture : mesh.pictures) {
+    change(picture.name);
+    change(picture.mimeType);
+  }
+  change(file.crsWkt);
+  change(file.verticalUnit);
+}
+
+Result<MeshFile> readAs(const std::filesystem::path& path, const RunContext& context, std::string_view name,
+                        bool needsFaces) {
+  ARETE_TRY(const MeshFormat format, meshFormatOf(path, name));
+  if (!format.read)
+    return failure(ErrorCode::unsupported, fmt::format("{} files can be written, not read", format.name),
+                   path.string());
+  const bool isPointsToo = !needsFaces && format.read == &readPly;
+  Result<MeshFile> file = isPointsToo ? readPlyOfPoints(path, context) : format.read(path, context);
+  if (!file) return file;
+  nameInUtf8(*file);
+  // A NaN, infinite or negative error is invalid; then the file counts as one without errors.
+  if (!std::ranges::all_of(file->triangleErrors, [](float e) { return e >= 0 && std::isfinite(e); }))
+    file->triangleErrors.clear();
+  if (!file->crsWkt.empty()) file->up = MeshUp::z;
+  if (!isNoFile(path)) file->folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (const Status joined = joinSoup(*file, context); !joined)
+    return failure(joined.error().code, joined.error().message, path.string());
+  return file;
+}
+
+bool isGltf(const MeshFormat& format) {
+  return format.write == &writeGlb || format.write == &writeGltf;
+}
+
+/// Writes a mesh as the format can have it: textures where their transforms put them, one set of texture
+/// coordinates, faces sorted by what they belong to.
+Result<MeshWriteReport> writeFitted(const MeshFormat& format, MeshRef mesh, const std::filesystem::path& path,
+                                    MeshWriteOptions options, const RunContext& context) {
+  std::optional<SurfaceMesh> fitted;
+  const auto current = [&] { return fitted ? MeshRef(*fitted) : mesh; };
+  const auto copy = [&] {
+    if (fitted) return;
+    fitted.emplace(mesh.shape);
+    static_cast<MeshAttributes&>(*fitted) = mesh.attributes;
+  };
+  if (const Status ok = mesh.validate(); !ok)
+    return failure(ErrorCode::invalidData, ok.error().message, path.string());
+  std::vector<std::string> lost;
+  const bool holdsMtl = format.write == &writeObj;
+  if (!isGltf(format) && hasTextureTransforms(mesh.attributes, !holdsMtl)) {
+    copy();
+    if (!applyTextureTransforms(*fitted, !holdsMtl).empty())
+      lost.emplace_back("textures of one material that are placed in several ways");
+  }
+  if (format.write == &writePly || format.write == &writeObj || format.write == &writeOff)
+    if (std::optional<SurfaceMesh> one = withOneTextureSet(current())) fitted = std::move(one);
+  const std::vector<std::uint32_t> triangleOf = trianglesOfFile(current(), format);
+  std::vector<float> errors;
+  if (!triangleOf.empty()) {
+    fitted = inOrder(current(), triangleOf);
+    if (!options.triangleErrors.empty()) {
+      for (const std::uint32_t t : triangleOf) errors.push_back(options.triangleErrors[t]);
+      options.triangleErrors = errors;
+    }
+  }
+  Result<MeshWriteReport> report = format.write(current(), path, options, context);
+  if (!report) return report;
+  report->lost.insert(report->lost.end(), lost.begin(), lost.end());
+  return report;
+}
+
+}  // namespace
+
+std::span<const MeshFormat> meshFormats() {
+  return kFormats;
+}
+
+std::string readableMeshExtensions() {
+  return extensionsOf([](const MeshFormat& format) { return format.read != nullptr; });
+}
+
+std::string writableMeshExtensions() {
+  return extensionsOf([](const MeshFormat& format) { return format.write != nullptr; });
+}
+
+Result<MeshFormat> meshFormatOf(const std::filesystem::path& path, std::string_view name) try {
+  const std::string extension =
+      text::lowered(name.empty() ? path.extension().string() : fmt::format(".{}", name));
+  for (const MeshFormat& format : kFormats)
+    if (extension == format.extension) return format;
+  if (extension == ".amt")
+    return failure(ErrorCode::unsupported,
+                   "is a multitriangulation, not a mesh; arete extract takes a mesh from it", path.string());
+  std::string known;
+  for (const MeshFormat& format : kFormats)
+    known += fmt::format("{}{} ({})", known.empty() ? "" : ", ", format.name, format.extension);
+  return failure(ErrorCode::unsupported,
+                 extension.empty()
+                     ? fmt::format("a mesh file needs an extension that names its format: {}", known)
+                     : fmt::format("{} is no known mesh format; known are {}", extension, known),
+                 path.string());
+} catch (...) {
+  return caughtFailure();
+}
+
+bool isMeshFile(const std::filesystem::path& path) {
+  const Result<MeshFormat> format = meshFormatOf(path);
+  return format && format->read && (format->read != &readGpkg || holdsSurfaces(path));
+}
+
+Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context,
+                          std::string_view name) try {
+  return readAs(path, context, name, true);
+} catch (...) {
+  return caughtFailure(path.native());
+}
+
+Result<MeshFile> readMeshOrPoints(const std::filesystem::path& path, const RunContext& context) try {
+  return readAs(path, context, {}, false);
+} catch (...) {
+  return caughtFailure(path.native());
+}
+
+Result<MeshWriteReport> writeMesh(MeshRef mesh, const std::filesystem::path& path,
+                                  const MeshWriteOptions& options, const RunContext& context) try {
+  ARETE_TRY(const MeshFormat format, meshFormatOf(path, options.format));
+  if (!format.write)
+    return failure(ErrorCode::unsupported, fmt::format("{} files can be read, not written", format.name),
+                   path.string());
+  if (format.write == &writeGpkg && isNoFile(path))
+    return failure(ErrorCode::unsupported, "is not a file, and a GeoPackage is a database that needs one",
+                   path.string());
+  OutputGroup together;
+  Result<MeshWriteReport> report = writeFitted(format, mesh, path, options, context);
+  if (!report) return report;
+  ARETE_CHECK(together.commit());
+  return report;
+} catch (...) {
+  return caughtFailure(path.native());
+}
+
+}  // namespace arete

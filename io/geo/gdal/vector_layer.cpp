@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/geo/gdal/vector_layer.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace arete {
+namespace {
+
+bool mayHold(OGRwkbGeometryType declared, LayerKind kind) {
+  const OGRwkbGeometryType type = wkbFlatten(declared);
+  if (type == wkbUnknown || type == wkbGeometryCollection) return true;
+  if (kind == LayerKind::points) return type == wkbPoint || type == wkbMultiPoint;
+  const bool isLines = OGR_GT_IsSubClassOf(type, wkbCurve) || OGR_GT_IsSubClassOf(type, wkbMultiCurve);
+  if (kind == LayerKind::linesOrTable)
+    return isLines || type == wkbNone || type == wkbPoint || type == wkbMultiPoint;
+  if (kind == LayerKind::polygonsAndLines && isLines) return true;
+  if (kind == LayerKind::surfaces && OGR_GT_IsSubClassOf(type, wkbPolyhedralSurface)) return true;
+  return OGR_GT_IsSubClassOf(type, wkbCurvePolygon) || OGR_GT_IsSubClassOf(type, wkbMultiSurface);
+}
+
+}  // namespace
+
+Result<OGRLayer*> chooseLayer(GDALDataset& dataset, const std::string& name, LayerKind kind) {
+  if (kind == LayerKind::shapes) {
+    bool hasOthers = false, hasPoints = false;
+    for (OGRLayer* layer : dataset.GetLayers()) {
+      hasOthers = hasOthers || mayHold(layer->GetGeomType(), LayerKind::polygonsAndLines);
+      hasPoints = hasPoints || mayHold(layer->GetGeomType(), LayerKind::points);
+    }
+    kind = hasOthers || !hasPoints ? LayerKind::polygonsAndLines : LayerKind::points;
+  }
+  std::vector<std::string> all, fitting;
+  OGRLayer* found = nullptr;
+  for (int i = 0; i < dataset.GetLayerCount(); ++i) {
+    OGRLayer* layer = dataset.GetLayer(i);
+    all.emplace_back(layer->GetName());
+    if (!name.empty() && name == layer->GetName()) return layer;
+    if (!mayHold(layer->GetGeomType(), kind)) continue;
+    fitting.emplace_back(layer->GetName());
+    found = layer;
+  }
+  if (all.empty()) return failure(ErrorCode::unsupported, "holds no vector layer");
+  const char* what = kind == LayerKind::points             ? "points"
+                     : kind == LayerKind::polygons         ? "polygons"
+                     : kind == LayerKind::polygonsAndLines ? "polygons or lines"
+                     : kind == LayerKind::linesOrTable     ? "lines or a table"
+                                                           : "surfaces";
+  if (!name.empty())
+    return failure(ErrorCode::notFound,
+                   fmt::format("has no layer '{}'; its layers: {}", name, fmt::join(all, ", ")));
+  if (fitting.empty())
+    return failure(ErrorCode::unsupported,
+                   fmt::format("has no layer of {}; its layers: {}", what, fmt::join(all, ", ")));
+  if (fitting.size() > 1)
+    return failure(ErrorCode::unsupported, fmt::format("has {} layers that may hold {}; name one of them: {}",
+                                                       fitting.size(), what, fmt::join(fitting, ", ")));
+  return found;
+}
+
+}  // namespace arete

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The cut comes from the engine (takeTin()). The proof does not use it: the exported file is read back and
+// measured, in source coordinates, against the samples that the model was built from (measureAndWrite()).
+// Where the format rounds heights and the cut's error and the rounding together may exceed the tolerance, the
+// TIN is taken a second time with a smaller tolerance.
+#include "io/query/extract/tin.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "engine/base/caught_failure.h"
+#include "engine/cut/cut.h"
+#include "io/files/output_file.h"
+#include "io/files/text_scan.h"
+#include "io/formats/exchange/mesh_formats.h"
+#include "io/formats/exchange/written_mesh.h"
+#include "io/geo/dem/raster_writer.h"
+#include "io/query/extract/criterion.h"
+#include "terrain/model/plan_region.h"
+
+namespace arete {
+namespace {
+
+/// Heights are written as float32 if rounding changes them by less than this, in their unit.
+constexpr double kNegligibleRounding = 1e-3;
+
+bool isRaster(const ExtractRequest& request) {
+  return request.format.empty() && isGeoTiffName(request.output);
+}
+
+/// The largest stored error of the triangles that meet the region.
+double storedErrorInside(const TerrainModel& model, const Cut& cut, const Region& region) {
+  const VertexArrays& v = model.mt.vertices();
+  double largest = 0;
+  for (std::size_t i = 0; i < cut.triangles.size(); ++i) {
+    const double error = model.mt.error(TriangleId(cut.ids[i]));
+    if (error <= largest) continue;
+    const auto position = [&](int k) { return v.planPosition(VertexId(cut.vertices[cut.triangles[i][k]])); };
+    if (region.meetsTriangle(position(0), position(1), position(2))) largest = error;
+  }
+  return largest;
+}
+
+/// A file's name without its folder, which an export does not tell.
+std::string nameOf(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
+std::string commentOf(const ExtractRequest& request, const TerrainModel& model, const ExtractedTin& tin) {
+  return fmt::format(
+      "arete: TIN of {} ({}), vertical error at most {}{}{}{}", nameOf(model.source), model.sourceChecksum,
+      tin.promisedError, model.georeference.verticalUnit.empty() ? "" : " " + model.georeference.verticalUnit,
+      request.region ? " in the region " + request.criterion.region : "", tin.fit ? ", heights fitted" : "");
+}
+
+Status within(Status status, const std::string& path) {
+  if (!status && status.error().culprit.empty()) status.error().culprit = path;
+  return status;
+}
+
+ExportFormat formatOf(const std::string& path, const WrittenMesh& written, const MeshWriteOptions& options) {
+  const Result<MeshFormat> format = meshFormatOf(path, options.format);
+  if (!format) return {};
+  return {.name = std::string(format->name),
+          .frame = written.frame,
+          .heightRounding = written.heightRounding,
+          .saysCrs = format->holds.holdsCrs && !options.crsWkt.empty(),
+          .saysVerticalUnit = format->holds.holdsVerticalUnit && !options.verticalUnit.empty(),
+          .saysErrors = format->holds.holdsErrors};
+}
+
+}  // namespace
+
+Status checkExtractOutput(const std::string& path, const TerrainModel& model, const std::string& name) try {
+  if (name.empty() && isGeoTiffName(path)) {
+    if (model.isRaster) return {};
+    return failure(ErrorCode::usage,
+                   "the model was built from scattered points: there is no source grid to sample the TIN on",
+                   path);
+  }
+  std::string known;
+  for (const MeshFormat& format : meshFormats())
+    if (format.write) known += fmt::format("{} ({}), ", format.extension, format.name);
+  const Result<MeshFormat> format = meshFormatOf(path, name);
+  if (format && format->write) return {};
+  const std::string extension = text::lowerExtension(path);
+  return failure(
+      ErrorCode::usage,
+      fmt::format("{}; known are {}.tif (GeoTIFF: the TIN sampled on the source grid)",
+                  extension.empty() ? "the extension that names a format is missing"
+                                    : fmt::format("'.{}' is not a format that can be written", extension),
+                  known),
+      path);
+} catch (...) {
+  return caughtFailure();
+}
+
+Result<TinExport> takeTin(const TerrainModel& model, const ExtractCriterion& c,
+                          const std::optional<Region>& region, double reserve, std::optional<Cut> taken,
+                          ExtractedTin& tin, const RunContext& context) try {
+  const auto describe = [&](const Cut& cut) {
+    tin.isComplete = cut.isComplete;
+    tin.triangles = cut.triangles.size();
+    tin.vertices = cut.vertices.size();
+    tin.storedError = cut.achievedError;
+    if (c.promisesMaxError(cut.isComplete))
+      tin.promisedError = *c.maxError;
+    else
+      tin.promisedError = region ? storedErrorInside(model, cut, *region) : cut.achievedError;
+  };
+  const auto finish = [&](const Result<FittedCut>& fitted) -> Result<TinExport> {
+    if (!fitted) return tl::unexpected(fitted.error());
+    describe(fitted->cut);
+    tin.fit = FitFigures{fitted->trianglesBefore, fitted->errorBefore};
+    return exportTin(model, *fitted);
+  };
+  if (c.fit == ExtractFit::triangles) {
+    const double maxError = std::max(0.0, c.maxError.value_or(0) - reserve);
+    const Result<FittedCut> fewest = fitFewestTriangles(model,
+                                                        {.maxError = maxError,
+                                                         .region = region ? &*region : nullptr,
+                                                         .outsideError = std::max(maxError, c.outsideError)},
+                                                        {}, context);
+    if (!fewest || !c.maxTriangles || fewest->cut.triangles.size() <= *c.maxTriangles) return finish(fewest);
+    // Where the budget ends the cut, the fit makes its error as small as so many triangles allow.
+  }
+  ARETE_TRY(const auto criterion, engineCriterion(c, region, reserve, model));
+  if (!taken) {
+    ARETE_TRY(const auto options, engineOptions(c, model));
+    ARETE_TRY(Cut cut, takeCut(model.mt, *criterion, options, context));
+    taken = std::move(cut);
+  }
+  if (c.fit == ExtractFit::error || (c.fit == ExtractFit::triangles && !region))
+    return finish(fitLeastError(model, *taken, {}, context));
+  if (c.camera) tin.pixels = worstSeverity(model.mt, *criterion, *taken);
+  // Where a triangle passed by the bound over a node's ball, its own bound may be the looser of the two.
+  if (c.camera && c.pixelError && taken->isComplete) tin.pixels = std::min(*tin.pixels, *c.pixelError);
+  describe(*taken);
+  return exportTin(model, *taken);
+} catch (...) {
+  return caughtFailure();
+}
+
+const TinExtractor::Samples& TinExtractor::samples() {
+  if (!samples_) {
+    if (model_.isRaster)
+      samples_.emplace(model_.rasterSamples());
+    else
+      samples_.emplace(model_.pointSamples());
+  }
+  return *samples_;
+}
+
+Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, double reserve,
+                                               std::optional<Cut> taken, ExtractedTin& tin,
+                                               const RunContext& context) const {
+  ARETE_TRY(TinExport made,
+            takeTin(model_, request.criterion, request.region, reserve, std::move(taken), tin, context));
+  TinExport& exported = made;
+  if (isRaster(request)) {
+    tin.format = {.name = "GeoTIFF",
+                  .saysCrs = !model_.georeference.crsWkt.empty(),
+                  .saysVerticalUnit = !model_.georeference.verticalUnit.empty()};
+    return std::move(exported.mesh);
+  }
+  const MeshWriteOptions write{.crsWkt = model_.georeference.crsWkt,
+                               .verticalUnit = model_.georeference.verticalUnit,
+                               .verticalUnitMetres = model_.georeference.verticalUnitMetres,
+                               .triangleErrors = exported.errors,
+                               .origin = exported.origin,
+                               .format = request.format,
+                               .notes = {commentOf(request, model_, tin)},
+                               .existing = request.existing};
+  Result<WrittenMesh> written =
+      writeAndReadBack(exported.mesh, request.output, write, model_.isRaster, context);
+  if (!written) return tl::unexpected(within(tl::unexpected(written.error()), request.output).error());
+  tin.format = formatOf(request.output, *written, write);
+  if (!request.criterion.promisesMaxError(tin.isComplete)) tin.promisedError += tin.format.heightRounding;
+  return written->mesh ? std::move(*written->mesh) : std::move(exported.mesh);
+}
+
+Status TinExtractor::deepen(double maxError, double reserve, const RunContext& context) {
+  if (!readAll_ || reserve <= kReadReserve * maxError) return {};
+  ARETE_TRY(TerrainModel whole, readAll_(context));
+  model_ = std::move(whole);
+  readAll_ = {};
+  return {};
+}
+
+Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const RunContext& context,
+                                           std::optional<Cut> taken) try {
+  ExtractedTin tin;
+  OutputGroup together;
+  Result<TriangleMesh> mesh = cutAndWrite(request, 0, std::move(taken), tin, context);
+  if (!mesh) return tl::unexpected(mesh.error());
+  // Twice, because another cut may be rounded differently.
+  const double reserve = 2 * tin.format.heightRounding;
+  const double promised = tin.promisedError;
+  if (reserve > 0 && request.criterion.promisesMaxError(tin.isComplete) && reserve < promised &&
+      tin.storedError + reserve > promised) {
+    ARETE_CHECK(deepen(promised, reserve, context));
+    mesh = cutAndWrite(request, reserve, std::nullopt, tin, context);
+    if (!mesh) return tl::unexpected(mesh.error());
+  }
+  // A fit promises nothing before it is measured.
+  const bool needsMeasure =
+      tin.fit || isRaster(request) || !request.certificate.empty() || !request.errorRaster.empty();
+  if (needsMeasure) ARETE_CHECK(measureAndWrite(request, *mesh, tin, context));
+  ARETE_CHECK(together.commit());
+  return tin;
+} catch (...) {
+  return caughtFailure(request.output);
+}
+
+Status TinExtractor::measureAndWrite(const ExtractRequest& request, const TriangleMesh& mesh,
+                                     ExtractedTin& tin, const RunContext& context) {
+  const bool wantsRasters = isRaster(request) || !request.errorRaster.empty();
+  MeasureRasters rasters;
+  const Vec3& rounding = tin.format.frame.rounding;
+  const auto measureWith = [&](MeasureOptions options, MeasureRasters* into) {
+    options.planRounding = {rounding.x, rounding.y};
+    return std::visit([&](const auto& field) { return measure(mesh, field, options, context, into); },
+                      samples());
+  };
+  ARETE_TRY(MeasureReport all, measureWith({}, wantsRasters ? &rasters : nullptr));
+  tin.measured = std::move(all);
+  if (request.region) {
+    const auto mask =
+        std::visit([&](const auto& field) { return samplesInside(*request.region, field); }, samples());
+    MeasureOptions options;
+    options.mask = mask;
+    ARETE_TRY(MeasureReport inside, measureWith(options, nullptr));
+    tin.measuredInside = std::move(inside);
+  }
+  const ExpectOptions expect{.allowCoveredNodata = model_.options.rimTolerance > 0};
+  tin.isKept =
+      keepsPromise(tin.measuredInside ? *tin.measuredInside : *tin.measured, tin.promisedError, expect);
+
+  if (!isRaster(request))
+    tin.format.planTolerancePixels =
+        planTolerancePixels({.planRounding = {rounding.x, rounding.y}}, model_.georeference);
+  ARETE_CHECK(writeRasters(request, rasters, tin, context));
+  if (request.certificate.empty()) return {};
+  const Certificate certificate{
+      .file = request.output,
+      .model = modelPath_,
+      .format = tin.format,
+      .criterion = request.criterion,
+      .isComplete = tin.isComplete,
+      .storedError = tin.storedError,
+      .fit = tin.fit,
+      .measured = *tin.measured,
+      .measuredInside = tin.measuredInside,
+      .promisedError = tin.promisedError,
+      .isKept = tin.isKept,
+      .checkCommand = checkCommand_ ? checkCommand_(request, tin.promisedError) : ""};
+  return within(writeCertificate(request.certificate, certificate, model_), request.certificate);
+}
+
+Status TinExtractor::writeRasters(const ExtractRequest& request, const MeasureRasters& rasters,
+                                  ExtractedTin& tin, const RunContext& context) const {
+  if (isRaster(request)) {
+    double largest = 0;
+    for (const double z : rasters.tinHeights)
+      if (!std::isnan(z)) largest = std::max(largest, std::abs(z));
+    GeoTiffOptions options;
+    options.description = "TIN height";
+    if (largest * std::numeric_limits<float>::epsilon() / 2 > kNegligibleRounding)
+      options.sample = GeoTiffOptions::Sample::float64;
+    tin.format.frame.coordinates = options.sample == GeoTiffOptions::Sample::float64
+                                       ? "float64 heights on the source grid"
+                                       : "float32 heights on the source grid";
+    if (Status written = writeGeoTiff(request.output, model_.columns, model_.rows, rasters.tinHeights,
+                                      model_.georeference, options, context);
+        !written)
+      return within(written, request.output);
+  }
+  if (request.errorRaster.empty()) return {};
+  GeoTiffOptions options;
+  options.description = "TIN height minus DEM height";
+  return within(writeGeoTiff(request.errorRaster, model_.columns, model_.rows, rasters.errors,
+                             model_.georeference, options, context),
+                request.errorRaster);
+}
+
+}  // namespace arete

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "engine/base/result.h"
+#include "engine/criteria/region.h"
+#include "engine/cut/cut.h"
+#include "engine/parallel/run_context.h"
+#include "io/formats/exchange/export_tin.h"
+#include "io/query/extract/certificate.h"
+#include "terrain/measure/measure.h"
+#include "terrain/model/heightfield.h"
+#include "terrain/model/terrain_model.h"
+
+namespace arete {
+
+/// One TIN to take from a model, and the files to write.
+struct ExtractRequest {
+  ExtractCriterion criterion;
+  std::optional<Region> region;  ///< criterion.region in plan coordinates
+  std::string output;       ///< a mesh by its extension, or .tif: the TIN sampled back on the source grid
+  std::string format;       ///< MeshWriteOptions::format; empty: by the extension
+  std::string certificate;  ///< JSON; empty = none
+  std::string errorRaster;  ///< GeoTIFF of z_TIN - z_DEM; empty = none
+  /// What happens to the other layers of a GeoPackage that exists.
+  ExistingFile existing = ExistingFile::keepsOtherLayers;
+};
+
+/// What extract() made of a request.
+struct ExtractedTin {
+  std::uint64_t triangles = 0, vertices = 0;
+  bool isComplete = true;        ///< false: a budget or a deadline ended the cut before the criterion was met
+  std::optional<double> pixels;  ///< with a camera: the worst error in its picture
+  double storedError = 0;        ///< largest error of the triangles of the cut, as stored or as fitted
+  std::optional<FitFigures> fit;          ///< where heights were fitted
+  double promisedError = 0;               ///< the tolerance, or what a budget came to; inside the region
+  ExportFormat format;                    ///< what the file holds
+  std::optional<MeasureReport> measured;  ///< where a certificate, a raster or a fit needs it
+  std::optional<MeasureReport> measuredInside;  ///< the same of the samples inside the region
+  bool isKept = true;                           ///< false when the measurement contradicts the promise
+};
+
+/// Checks that an output's format, or else its extension, names a format that can be written; .tif needs a
+/// model of a raster. Errors: usage: an unknown extension (the message lists the known ones), .tif for
+/// scattered points.
+Status checkExtractOutput(const std::string& path, const TerrainModel& model, const std::string& format = {});
+
+/// The cut of a request, or its fit, as a mesh; nothing is written. Heights that were fitted promise nothing
+/// before they are measured.
+/// @param reserve  what the tolerance is reduced by
+/// @param taken    the cut, where it is known
+/// @param tin      what is said of it is filled in
+/// Errors: those of takeCut() and of the fit (terrain/fit/fit.h).
+Result<TinExport> takeTin(const TerrainModel& model, const ExtractCriterion& criterion,
+                          const std::optional<Region>& region, double reserve, std::optional<Cut> taken,
+                          ExtractedTin& tin, const RunContext& context = {});
+
+/// Takes TINs from one model and writes them. Keeps the model's samples once a measurement needed them.
+class TinExtractor {
+ public:
+  using ReadAll = std::function<Result<TerrainModel>(const RunContext&)>;
+  /// How to check an export that promises this error, as text.
+  using CheckCommand = std::function<std::string(const ExtractRequest&, double promisedError)>;
+
+  /// The share of a tolerance by which readForExtract() reads deeper, so that a format may round heights.
+  static constexpr double kReadReserve = 1.0 / 8;
+
+  /// @param model         the whole of a file's model, or the part that readForExtract() returns
+  /// @param modelPath     the file's name, for certificates
+  /// @param readAll       where the model is a part: reads the whole. Called at most once, when a format
+  ///                      rounds heights by more than kReadReserve provides for.
+  /// @param checkCommand  the `check` of certificates; empty = an empty text
+  TinExtractor(TerrainModel model, std::string modelPath, ReadAll readAll = {},
+               CheckCommand checkCommand = {})
+      : model_(std::move(model)),
+        modelPath_(std::move(modelPath)),
+        readAll_(std::move(readAll)),
+        checkCommand_(std::move(checkCommand)) {}
+
+  /// Takes the cut, exports it, and measures the exported mesh against the source's samples where heights
+  /// were fitted or a raster or a certificate is to be written. The files appear whole and together, or none.
+  /// Where a format rounds heights, the cut is taken again with a tolerance that is smaller by the rounding,
+  /// so that the promise holds for the numbers in the file. A measurement that contradicts the promise is
+  /// reported by isKept; the files are written all the same.
+  /// @param taken  the cut of this request, of the extractor's model with the full tolerance, where
+  ///               readForExtract() has taken it; it is used instead of a new one
+  /// Errors: those of takeCut(), writeMesh(), writeGeoTiff(), writeCertificate(); outOfMemory. O(cut), and
+  /// O(samples) where the mesh is measured.
+  Result<ExtractedTin> extract(const ExtractRequest& request, const RunContext& context = {},
+                               std::optional<Cut> taken = std::nullopt);
+
+ private:
+  using Samples = std::variant<RasterHeightfield, PointHeightfield>;
+
+  const Samples& samples();
+  /// Reads the whole model if the part is not enough for a tolerance smaller by `reserve`.
+  Status deepen(double maxError, double reserve, const RunContext& context);
+  /// takeTin(), written where the output is a mesh. Returns the mesh as the file holds it.
+  Result<TriangleMesh> cutAndWrite(const ExtractRequest& request, double reserve, std::optional<Cut> taken,
+                                   ExtractedTin& tin, const RunContext& context) const;
+  Status measureAndWrite(const ExtractRequest& request, const TriangleMesh& mesh, ExtractedTin& tin,
+                         const RunContext& context);
+  Status writeRasters(const ExtractRequest& request, const MeasureRasters& rasters, ExtractedTin& tin,
+                      const RunContext& context) const;
+
+  TerrainModel model_;
+  std::string modelPath_;
+  ReadAll readAll_;
+  CheckCommand checkCommand_;
+  std::optional<Samples> samples_;
+};
+
+}  // namespace arete

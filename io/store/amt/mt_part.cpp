@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A subset is copied in two passes over the words of the set. The first counts the slots of each word, from
+// which the first slot of each node follows. The second copies; vertices, removers and triangles get new
+// numbers by the rank of the node that they belong to. A remover outside the set becomes kNone. A vertex or a
+// triangle of a node outside the set is an error, because the parents of a node create its floor and the
+// vertices of its link are corners of the floor.
+//
+// Every index is compared with the sizes of the arrays before it is used.
+#include "io/store/amt/mt_part.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "engine/memory/uninitialized_vector.h"
+#include "engine/mt/hole_limit.h"
+#include "engine/mt/node_blocks.h"
+
+namespace arete {
+namespace {
+
+constexpr std::uint32_t kNone = MultiTriangulation::kNone;
+constexpr std::size_t kGrain = std::size_t{1} << 14;
+constexpr std::uint32_t kNodesPerBlock = MultiTriangulation::kNodesPerBlock,
+                        kNodesPerPage = MultiTriangulation::kNodesPerPage,
+                        kSlotsPerHint = MultiTriangulation::kSlotsPerHint;
+
+/// The slots of a node.
+struct Slots {
+  std::uint32_t begin = 0, size = 0;  // 0: the arrays are damaged
+};
+
+Slots slotsOf(const MtArrays& a, std::uint32_t n) {
+  const std::uint32_t begin = a.slotBegin[n], end = a.slotBegin[n + 1];
+  if (end > a.link.size() || begin > end || end - begin < 3 || end - begin > std::uint32_t{kMaxHoleCorners})
+    return {};
+  // Floors begin two triangles a node before slots.
+  if (begin < 3 * std::uint64_t{n} || end - 2 * (std::uint64_t{n} + 1) > a.floor.size()) return {};
+  return {begin, end - begin};
+}
+
+/// The node that owns a slot; kNone if the arrays are damaged.
+std::uint32_t ownerOf(const MtArrays& a, std::uint32_t slot) {
+  if (slot >= a.link.size()) return kNone;
+  const std::uint32_t hint = a.creatorHint[slot / kSlotsPerHint];
+  const std::uint64_t nodes = a.saturatedError.size();
+  for (std::uint64_t n = hint; n < std::min(nodes, std::uint64_t{hint} + kSlotsPerHint); ++n)
+    if (a.slotBegin[n] <= slot && slot < a.slotBegin[n + 1]) return static_cast<std::uint32_t>(n);
+  return kNone;
+}
+
+struct PrefixArrays {
+  MultiTriangulation whole;
+  UninitializedVector<std::uint32_t> remover;
+  NodeBlocks blocks;
+};
+
+struct SubsetArrays {
+  MultiTriangulation whole;  // whose root it shares
+  UninitializedVector<std::uint32_t> slotBegin, link, remover, floor, creatorHint, samples;
+  UninitializedVector<std::uint16_t> error, below, above, saturatedError;
+  UninitializedVector<Sphere> sphere;
+  UninitializedVector<Vec2> plan;
+  UninitializedVector<std::byte> rawHeights;
+  NodeBlocks blocks;
+
+  MultiTriangulation model(std::shared_ptr<const void> owner) const {
+    MtArrays a = whole.arrays();
+    a.slotBegin = slotBegin;
+    a.link = link;
+    a.remover = remover;
+    a.error = error;
+    a.below = below;
+    a.above = above;
+    a.floor = floor;
+    a.saturatedError = saturatedError;
+    a.sphere = sphere;
+    a.blockError = blocks.error;
+    a.blockSphere = blocks.sphere;
+    a.creatorHint = creatorHint;
+    a.vertices.samples = samples;
+    a.vertices.plan = plan;
+    a.vertices.rawHeights = rawHeights;
+    return {a, std::move(owner)};
+  }
+};
+
+/// Copies a subset.
+class SubsetCopy {
+ public:
+  SubsetCopy(const MultiTriangulation& whole, const RankedNodes& nodes)
+      : whole_(whole),
+        a_(whole.arrays()),
+        roots_(whole.rootTriangleCount()),
+        nodes_(nodes),
+        to_(std::make_shared<SubsetArrays>()) {}
+
+  MtSubset run() {
+    countSlots();
+    if (isDamaged_) return {MtSubset::Problem::damaged, {}};
+    allocate();
+    copyRoot();
+    forWords([&](std::size_t word) { beginSlots(word); });
+    to_->slotBegin[nodes_.size()] = slots_;
+    forWords([&](std::size_t word) { nodes_.visitWord(word, [&](std::uint32_t n) { copy(n); }); });
+    if (isDamaged_) return {MtSubset::Problem::damaged, {}};
+    if (isParentMissing_) return {MtSubset::Problem::parentMissing, {}};
+    to_->blocks = makeNodeBlocks(to_->saturatedError, to_->sphere);
+    return {MtSubset::Problem::none, to_->model(to_)};
+  }
+
+ private:
+  template <class Work>
+  void forWords(const Work& work) const {
+    constexpr std::size_t kWords = 64;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes_.wordCount(), kWords), [&](const auto& range) {
+      for (std::size_t word = range.begin(); word < range.end(); ++word) work(word);
+    });
+  }
+
+  void countSlots() {
+    slotsBefore_.resize(nodes_.wordCount());
+    forWords([&](std::size_t word) {
+      std::uint32_t count = 0;
+      nodes_.visitWord(word, [&](std::uint32_t n) {
+        const std::uint32_t size = slotsOf(a_, n).size;
+        if (size == 0) isDamaged_ = true;
+        count += size;
+      });
+      slotsBefore_[word] = count;
+    });
+    std::uint64_t before = 0;
+    for (std::uint32_t& slots : slotsBefore_) {
+      const std::uint32_t mine = slots;
+      slots = static_cast<std::uint32_t>(before);
+      before += mine;
+    }
+    // In damaged arrays the slots of nodes may overlap and be more than there are.
+    if (before > a_.link.size()) isDamaged_ = true;
+    slots_ = static_cast<std::uint32_t>(before);
+  }
+
+  void allocate() {
+    const std::size_t nodes = nodes_.size(), ids = std::size_t{roots_} + slots_;
+    SubsetArrays& to = *to_;
+    to.whole = whole_;
+    to.slotBegin.resize(nodes + 1);
+    to.link.resize(slots_);
+    to.remover.resize(ids);
+    to.error.resize(ids);
+    to.below.resize(ids);
+    to.above.resize(ids);
+    to.floor.resize(slots_ - 2 * nodes);
+    to.saturatedError.resize(nodes);
+    to.sphere.resize(nodes);
+    to.creatorHint.resize((std::size_t{slots_} + kSlotsPerHint - 1) / kSlotsPerHint);
+    const std::size_t vertices = a_.rootVertices + nodes;
+    if (a_.vertices.isLattice())
+      to.samples.resize(vertices);
+    else
+      to.plan.resize(vertices);
+    to.rawHeights.resize(vertices * a_.vertices.encoding.bytesPerHeight());
+  }
+
+  void copyRoot() {
+    for (std::uint32_t t = 0; t < roots_; ++t) copyTriangle(t, t, kNone, kNone);
+    copyVertices(0, 0, a_.rootVertices);
+  }
+
+  void beginSlots(std::size_t word) {
+    std::uint32_t rank = nodes_.rankOfWord(word), begin = slotsBefore_[word];
+    nodes_.visitWord(word, [&](std::uint32_t n) {
+      to_->slotBegin[rank++] = begin;
+      begin += slotsOf(a_, n).size;
+    });
+  }
+
+  void copy(std::uint32_t n) {
+    SubsetArrays& to = *to_;
+    const std::uint32_t rank = nodes_.rankOf(n), begin = to.slotBegin[rank];
+    const Slots slots = slotsOf(a_, n);
+    for (std::uint32_t i = 0; i < slots.size; ++i) {
+      to.link[begin + i] = vertexOf(a_.link[slots.begin + i]);
+      copyTriangle(roots_ + slots.begin + i, roots_ + begin + i, n, rank);
+    }
+    const std::uint32_t floor = slots.begin - 2 * n;
+    for (std::uint32_t i = 0; i < slots.size - 2; ++i)
+      to.floor[begin - 2 * rank + i] = triangleOf(a_.floor[floor + i]);
+    to.saturatedError[rank] = a_.saturatedError[n];
+    to.sphere[rank] = a_.sphere[n];
+    copyVertices(a_.rootVertices + n, a_.rootVertices + rank, 1);
+    const std::uint64_t end = std::uint64_t{begin} + slots.size;
+    for (std::uint64_t hint = (std::uint64_t{begin} + kSlotsPerHint - 1) / kSlotsPerHint;
+         hint * kSlotsPerHint < end; ++hint)
+      to.creatorHint[hint] = rank;
+  }
+
+  /// A triangle of node `creator`, whose new number is `rank`.
+  void copyTriangle(std::uint32_t from, std::uint32_t t, std::uint32_t creator, std::uint32_t rank) {
+    const std::uint32_t r = a_.remover[from];
+    std::uint32_t remover = kNone;
+    if (r != kNone && r == creator)
+      remover = rank;
+    else if (r < a_.saturatedError.size() && nodes_.contains(r))
+      remover = nodes_.rankOf(r);
+    to_->remover[t] = remover;
+    to_->error[t] = a_.error[from];
+    to_->below[t] = a_.below[from];
+    to_->above[t] = a_.above[from];
+  }
+
+  void copyVertices(std::size_t from, std::size_t v, std::size_t count) {
+    if (a_.vertices.isLattice())
+      std::copy_n(a_.vertices.samples.begin() + from, count, to_->samples.begin() + v);
+    else
+      std::copy_n(a_.vertices.plan.begin() + from, count, to_->plan.begin() + v);
+    const std::size_t bytes = a_.vertices.encoding.bytesPerHeight();
+    std::copy_n(a_.vertices.rawHeights.begin() + from * bytes, count * bytes,
+                to_->rawHeights.begin() + v * bytes);
+  }
+
+  std::uint32_t vertexOf(std::uint32_t v) {
+    if (v < a_.rootVertices) return v;
+    const std::uint32_t n = v - a_.rootVertices;
+    return isMember(n) ? a_.rootVertices + nodes_.rankOf(n) : 0;
+  }
+
+  std::uint32_t triangleOf(std::uint32_t t) {
+    if (t < roots_) return t;
+    const std::uint32_t slot = t - roots_, n = ownerOf(a_, slot);
+    if (!isMember(n)) return 0;
+    return roots_ + to_->slotBegin[nodes_.rankOf(n)] + (slot - a_.slotBegin[n]);
+  }
+
+  bool isMember(std::uint32_t n) {
+    if (n < a_.saturatedError.size() && nodes_.contains(n)) return true;
+    (n < a_.saturatedError.size() ? isParentMissing_ : isDamaged_) = true;
+    return false;
+  }
+
+  const MultiTriangulation& whole_;
+  const MtArrays& a_;
+  std::uint32_t roots_;
+  const RankedNodes& nodes_;
+  std::shared_ptr<SubsetArrays> to_;
+  std::vector<std::uint32_t> slotsBefore_;  // of each word
+  std::uint32_t slots_ = 0;
+  std::atomic<bool> isDamaged_ = false, isParentMissing_ = false;
+};
+
+}  // namespace
+
+std::optional<MultiTriangulation> prefixOfMt(const MultiTriangulation& whole, std::uint32_t nodes) {
+  if (nodes == whole.nodeCount()) return whole;
+  MtArrays a = whole.arrays();
+  const std::uint64_t slots = a.slotBegin[nodes], ids = a.rootTriangles.size() + slots,
+                      vertices = std::uint64_t{a.rootVertices} + nodes;
+  if (slots > a.link.size() || slots < 3 * std::uint64_t{nodes} ||
+      slots - 2 * std::uint64_t{nodes} > a.floor.size())
+    return std::nullopt;
+  const auto arrays = std::make_shared<PrefixArrays>();
+  arrays->whole = whole;
+  arrays->remover.resize(ids);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ids, kGrain), [&](const auto& range) {
+    for (std::size_t t = range.begin(); t < range.end(); ++t)
+      arrays->remover[t] = a.remover[t] < nodes ? a.remover[t] : kNone;
+  });
+  const auto copyBlocks = [&](std::uint64_t first, std::uint64_t count) {
+    const auto from = static_cast<std::ptrdiff_t>(first), size = static_cast<std::ptrdiff_t>(count);
+    auto& blocks = arrays->blocks;
+    blocks.error.insert(blocks.error.end(), a.blockError.begin() + from, a.blockError.begin() + from + size);
+    blocks.sphere.insert(blocks.sphere.end(), a.blockSphere.begin() + from,
+                         a.blockSphere.begin() + from + size);
+  };
+  copyBlocks(0, nodes / kNodesPerBlock);
+  copyBlocks(nodeBlockCount(whole.nodeCount()), nodes / kNodesPerPage);
+  a.slotBegin = a.slotBegin.first(nodes + 1);
+  a.link = a.link.first(slots);
+  a.remover = arrays->remover;
+  a.error = a.error.first(ids);
+  a.below = a.below.first(ids);
+  a.above = a.above.first(ids);
+  a.floor = a.floor.first(slots - 2 * std::uint64_t{nodes});
+  a.saturatedError = a.saturatedError.first(nodes);
+  a.sphere = a.sphere.first(nodes);
+  a.blockError = arrays->blocks.error;
+  a.blockSphere = arrays->blocks.sphere;
+  a.creatorHint = a.creatorHint.first((slots + kSlotsPerHint - 1) / kSlotsPerHint);
+  if (a.vertices.isLattice())
+    a.vertices.samples = a.vertices.samples.first(vertices);
+  else
+    a.vertices.plan = a.vertices.plan.first(vertices);
+  a.vertices.rawHeights = a.vertices.rawHeights.first(vertices * a.vertices.encoding.bytesPerHeight());
+  return MultiTriangulation(a, arrays);
+}
+
+MtSubset subsetOfMt(const MultiTriangulation& whole, const RankedNodes& nodes) {
+  return SubsetCopy(whole, nodes).run();
+}
+
+bool addParents(const MultiTriangulation& whole, RankedNodes& nodes) {
+  const MtArrays& a = whole.arrays();
+  const std::uint32_t roots = whole.rootTriangleCount();
+  // Parents have smaller numbers, so one pass from the last node to the first suffices.
+  for (std::uint32_t n = whole.nodeCount(); n-- > 0;) {
+    if (n % RankedNodes::kNodesPerWord == RankedNodes::kNodesPerWord - 1 &&
+        nodes.word(n / RankedNodes::kNodesPerWord) == 0) {
+      n -= RankedNodes::kNodesPerWord - 1;
+      continue;
+    }
+    if (!nodes.contains(n)) continue;
+    const Slots slots = slotsOf(a, n);
+    if (slots.size == 0) return false;
+    const std::uint32_t floor = slots.begin - 2 * n;
+    for (std::uint32_t i = floor; i < floor + slots.size - 2; ++i) {
+      if (a.floor[i] < roots) continue;
+      const std::uint32_t parent = ownerOf(a, a.floor[i] - roots);
+      if (parent >= n) return false;
+      nodes.add(parent);
+    }
+  }
+  return true;
+}
+
+}  // namespace arete

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A node is required if its saturated error exceeds the error required of the box around its sphere. Nodes
+// are sorted by falling bands of errors, so where the same error is required everywhere these are the first
+// nodes and a few more. Otherwise the spheres and largest errors of pages (1024 nodes), then of blocks (64
+// nodes), exclude most nodes without a test. A node's sphere lies in those of its parents, whose errors are
+// no smaller, so the parents of a required node are required too; where rounding breaks this they are added.
+//
+// The checksums of all segments that were read are compared before the data are used, and the indices of the
+// part are checked before they are followed. If an index is wrong the whole file is checked, so that the
+// culprit is named by its number in the file.
+//
+// Data are touched before they are used: that loads them where the file is read piece by piece, and what was
+// not loaded is zeros. A wrong index among these is met as in a damaged file.
+#include "io/store/amt/part.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "engine/mt/node_blocks.h"
+#include "engine/parallel/with_threads.h"
+#include "io/store/amt/checks.h"
+#include "io/store/amt/index_check.h"
+#include "io/store/amt/mt_part.h"
+#include "io/store/amt/segments.h"
+
+namespace arete {
+namespace {
+
+constexpr std::uint32_t kNodesPerBlock = MultiTriangulation::kNodesPerBlock,
+                        kNodesPerPage = MultiTriangulation::kNodesPerPage,
+                        kSlotsPerHint = MultiTriangulation::kSlotsPerHint,
+                        kBlocksPerPage = kNodesPerPage / kNodesPerBlock;
+static_assert(kNodesPerBlock == RankedNodes::kNodesPerWord);
+
+class PartReader {
+ public:
+  PartReader(const AmtFile& file, const RequiredError& wanted, AmtVerify verify, const RunContext& context)
+      : file_(file),
+        whole_(file.model().mt),
+        a_(whole_.arrays()),
+        required_(wanted),
+        verify_(verify),
+        context_(context),
+        segments_(file) {}
+
+  Result<MultiTriangulation> run() {
+    ARETE_CHECK(checkSegmentChecksums());
+    touchBeside();
+    choosePages();
+    if (isTheSameEverywhere()) return readPrefix();
+    RankedNodes nodes = chooseNodes();
+    if (context_.cancelled()) return interrupted();
+    return 2 * std::uint64_t{nodes.size()} >= end_ ? readPrefix() : readSubset(std::move(nodes));
+  }
+
+ private:
+  bool isRequired(OutwardScale::Code saturatedError, double error) const {
+    return !(error > 0) || a_.scale.decode(saturatedError) > error;
+  }
+
+  /// The error required of the box around a ball; 0 if the box is not finite.
+  double requiredOf(const Sphere& ball) const {
+    const MetricFrame& metric = a_.metric;
+    const double reach = ball.radius * (1 + 1e-6) + 1e-6 * (std::fabs(ball.x) + std::fabs(ball.y));
+    const double x[2] = {(ball.x - reach) / metric.scale.x + metric.origin.x,
+                         (ball.x + reach) / metric.scale.x + metric.origin.x};
+    const double y[2] = {(ball.y - reach) / metric.scale.y + metric.origin.y,
+                         (ball.y + reach) / metric.scale.y + metric.origin.y};
+    if (!std::isfinite(x[0] + x[1] + y[0] + y[1])) return 0;
+    return required_(
+        {std::min(x[0], x[1]), std::min(y[0], y[1]), std::max(x[0], x[1]), std::max(y[0], y[1])});
+  }
+
+  Status checkSegmentChecksums() const {
+    if (verify_ != AmtVerify::all) return {};
+    return checkAmtChunk(file_, amt_tag::kSegmentChecksums);
+  }
+
+  /// Finds the pages that may hold a required node, and the end of the last one.
+  void choosePages() {
+    const std::uint32_t blocks = static_cast<std::uint32_t>(nodeBlockCount(whole_.nodeCount()));
+    const std::uint32_t all = static_cast<std::uint32_t>(a_.blockError.size()) - blocks;
+    isPageRequired_.resize(all);
+    tbb::parallel_for(std::uint32_t{0}, all, [&](std::uint32_t page) {
+      isPageRequired_[page] =
+          isRequired(a_.blockError[blocks + page], requiredOf(a_.blockSphere[blocks + page]));
+    });
+    for (std::uint32_t page = 0; page < all; ++page)
+      if (isPageRequired_[page] != 0) pages_ = page + 1;
+    end_ = std::min(whole_.nodeCount(), pages_ * kNodesPerPage);
+  }
+
+  /// Whether the first block of each page requires the same error. Then the required nodes are taken to be
+  /// the first ones, without testing each of them.
+  bool isTheSameEverywhere() const {
+    std::vector<double> required(pages_);
+    tbb::parallel_for(std::uint32_t{0}, pages_, [&](std::uint32_t page) {
+      required[page] = requiredOf(a_.blockSphere[std::size_t{page} * kBlocksPerPage]);
+    });
+    return std::ranges::adjacent_find(
+               required, [](double x, double y) { return x != y && (x > 0 || y > 0); }) == required.end();
+  }
+
+  Result<MultiTriangulation> readPrefix() {
+    segments_.touch(slotBegin_, end_, end_ + 1);
+    if (!areSlots(0, end_, 0, a_.slotBegin[end_])) return culprit();
+    touchNodes(0, end_, 0, a_.slotBegin[end_]);
+    const auto part = prefixOfMt(whole_, end_);
+    if (!part) return culprit();
+    ARETE_CHECK(checkSegments());
+    return checked(*part);
+  }
+
+  Result<MultiTriangulation> readSubset(RankedNodes nodes) {
+    if (!touchSubset(nodes)) return culprit();
+    MtSubset part = subsetOfMt(whole_, nodes);
+    if (part.problem != MtSubset::Problem::none) {
+      // Parents may be nodes of which nothing is loaded.
+      for (const std::span<const std::byte> array :
+           {std::as_bytes(a_.slotBegin), std::as_bytes(a_.floor), std::as_bytes(a_.creatorHint)})
+        ARETE_CHECK(file_.container().load(array));
+      if (!addParents(whole_, nodes)) return culprit();
+      nodes.rank();
+      if (!touchSubset(nodes)) return culprit();
+      part = subsetOfMt(whole_, nodes);
+    }
+    if (part.problem != MtSubset::Problem::none) return culprit();
+    ARETE_CHECK(checkSegments());
+    return checked(part.mt);
+  }
+
+  RankedNodes chooseNodes() {
+    RankedNodes nodes(whole_.nodeCount());
+    for (std::uint32_t page = 0; page < pages_; ++page) {
+      if (isPageRequired_[page] == 0) continue;
+      const std::uint64_t begin = std::uint64_t{page} * kNodesPerPage,
+                          end = std::min<std::uint64_t>(begin + kNodesPerPage, whole_.nodeCount());
+      segments_.touch(saturatedError_, begin, end);
+      segments_.touch(sphere_, begin, end);
+    }
+    tbb::parallel_for(std::uint32_t{0}, pages_, [&](std::uint32_t page) {
+      if (isPageRequired_[page] == 0 || context_.cancelled()) return;
+      const auto end = std::min<std::size_t>((page + 1) * kBlocksPerPage, nodes.wordCount());
+      for (std::size_t block = page * kBlocksPerPage; block < end; ++block)
+        if (isRequired(a_.blockError[block], requiredOf(a_.blockSphere[block])))
+          nodes.setWord(block, requiredNodesOf(block));
+    });
+    nodes.rank();
+    return nodes;
+  }
+
+  std::uint64_t requiredNodesOf(std::size_t block) const {
+    const auto begin = static_cast<std::uint32_t>(block) * kNodesPerBlock,
+               end = std::min(begin + kNodesPerBlock, whole_.nodeCount());
+    std::uint64_t members = 0;
+    for (std::uint32_t n = begin; n < end; ++n)
+      members |= std::uint64_t{isRequired(a_.saturatedError[n], requiredOf(a_.sphere[n]))} << (n - begin);
+    return members;
+  }
+
+  /// The arrays that are read whole.
+  void touchBeside() {
+    for (const AmtTag& tag : {amt_tag::kRootTriangles, amt_tag::kBlockError, amt_tag::kBlockSphere,
+                              amt_tag::kIsolatedSamples, amt_tag::kIsolatedHeights, amt_tag::kFixedVertices})
+      segments_.touchAll(segments_.of(tag));
+    touchVertices(0, a_.rootVertices);
+    touchTriangles(0, a_.rootTriangles.size());
+  }
+
+  /// @return false if the slots are damaged
+  bool touchSubset(const RankedNodes& nodes) {
+    for (std::size_t word = 0; word < nodes.wordCount(); ++word) {
+      const std::uint64_t members = nodes.word(word);
+      if (members == 0) continue;
+      const auto first = static_cast<std::uint32_t>(word) * kNodesPerBlock;
+      const std::uint32_t begin = first + static_cast<std::uint32_t>(std::countr_zero(members)),
+                          end =
+                              first + kNodesPerBlock - static_cast<std::uint32_t>(std::countl_zero(members));
+      segments_.touch(slotBegin_, begin, end + 1);
+      if (!areSlots(begin, end, a_.slotBegin[begin], a_.slotBegin[end])) return false;
+      touchNodes(begin, end, a_.slotBegin[begin], a_.slotBegin[end]);
+    }
+    return true;
+  }
+
+  /// Whether nodes [begin, end) may have the slots [slots, slotsEnd).
+  bool areSlots(std::uint64_t begin, std::uint64_t end, std::uint64_t slots, std::uint64_t slotsEnd) const {
+    return slots >= 3 * begin && slotsEnd >= slots + 3 * (end - begin) && slotsEnd <= a_.link.size() &&
+           slotsEnd - 2 * end <= a_.floor.size();
+  }
+
+  /// The data of nodes [begin, end), whose slots are [slots, slotsEnd).
+  void touchNodes(std::uint64_t begin, std::uint64_t end, std::uint64_t slots, std::uint64_t slotsEnd) {
+    segments_.touch(slotBegin_, begin, end + 1);
+    segments_.touch(link_, slots, slotsEnd);
+    segments_.touch(floor_, slots - 2 * begin, slotsEnd - 2 * end);
+    segments_.touch(saturatedError_, begin, end);
+    segments_.touch(sphere_, begin, end);
+    segments_.touch(creatorHint_, slots / kSlotsPerHint, (slotsEnd + kSlotsPerHint - 1) / kSlotsPerHint);
+    touchTriangles(a_.rootTriangles.size() + slots, a_.rootTriangles.size() + slotsEnd);
+    touchVertices(a_.rootVertices + begin, a_.rootVertices + end);
+  }
+  void touchTriangles(std::uint64_t begin, std::uint64_t end) {
+    for (const AmtSegments::Chunk chunk : {remover_, error_, below_, above_})
+      segments_.touch(chunk, begin, end);
+  }
+  void touchVertices(std::uint64_t begin, std::uint64_t end) {
+    segments_.touch(place_, begin, end);
+    segments_.touch(height_, begin, end);
+  }
+
+  Status checkSegments() {
+    if (verify_ != AmtVerify::all) return {};
+    return segments_.check(context_);
+  }
+
+  Result<MultiTriangulation> checked(const MultiTriangulation& part) const {
+    const Status indices = checkMtIndices(part, amtGridSamples(file_), context_);
+    if (!indices && indices.error().code == ErrorCode::interrupted) return interrupted();
+    if (!indices) return culprit();
+    ARETE_CHECK(checkAmtExtras(file_));
+    return part;
+  }
+
+  tl::unexpected<Error> culprit() const {
+    ARETE_CHECK(file_.container().loaded());
+    ARETE_CHECK(checkAmt(file_, verify_, context_));
+    return failure(ErrorCode::corrupt, "has nodes that contradict each other", file_.path());
+  }
+  tl::unexpected<Error> interrupted() const {
+    return failure(ErrorCode::interrupted, "the check was interrupted", file_.path());
+  }
+
+  const AmtFile& file_;
+  const MultiTriangulation& whole_;
+  const MtArrays& a_;
+  const RequiredError& required_;
+  AmtVerify verify_;
+  const RunContext& context_;
+  AmtSegments segments_;
+  const AmtSegments::Chunk slotBegin_ = segments_.of(amt_tag::kSlotBegin),
+                           link_ = segments_.of(amt_tag::kLink), remover_ = segments_.of(amt_tag::kRemover),
+                           error_ = segments_.of(amt_tag::kError), below_ = segments_.of(amt_tag::kBelow),
+                           above_ = segments_.of(amt_tag::kAbove), floor_ = segments_.of(amt_tag::kFloor),
+                           saturatedError_ = segments_.of(amt_tag::kSaturatedError),
+                           sphere_ = segments_.of(amt_tag::kSphere),
+                           creatorHint_ = segments_.of(amt_tag::kCreatorHint),
+                           place_ = segments_.of(file_.model().isRaster ? amt_tag::kSamples : amt_tag::kPlan),
+                           height_ = segments_.of(amt_tag::kHeights);
+  std::vector<std::uint8_t> isPageRequired_;
+  std::uint32_t pages_ = 0, end_ = 0;  // up to the end of the last required page; end_ in nodes
+};
+
+}  // namespace
+
+Result<MultiTriangulation> readAmtPart(const AmtFile& file, const RequiredError& wanted, AmtVerify verify,
+                                       const RunContext& context) {
+  return withThreads(context, [&] { return PartReader(file, wanted, verify, context).run(); });
+}
+
+}  // namespace arete

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Chunks must have the sizes that follow from the counts in the metadata.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "engine/base/caught_failure.h"
+#include "engine/mt/node_blocks.h"
+#include "io/store/amt/file.h"
+#include "io/store/amt/mt_chunks.h"
+#include "io/store/amt/part.h"
+#include "io/store/format/metadata.h"
+#include "io/store/packed/packed.h"
+
+namespace arete {
+
+class AmtOpener {
+ public:
+  static Result<AmtFile> open(AmtContainer container);
+
+ private:
+  explicit AmtOpener(AmtFile& file) : file_(file), all_(file.container_) {}
+
+  Result<AmtMetadata> readMetadata() const;
+  Status placeArrays(const AmtMetadata& metadata);
+
+  template <class T>
+  void place(AmtTag tag, std::span<const T>& to) const {
+    to = all_.elements<T>(tag);
+  }
+
+  AmtFile& file_;
+  const AmtContainer& all_;
+};
+
+static_assert(sizeof(Vec2) == 16 && sizeof(Sphere) == 16 && sizeof(std::array<std::uint32_t, 3>) == 12);
+
+Result<AmtMetadata> AmtOpener::readMetadata() const {
+  if (all_.isOfSurface())
+    return failure(ErrorCode::unsupported, "is of a surface, and terrain is wanted here", all_.path());
+  Result<AmtMetadata> read = fromAmtJson(all_.metadata());
+  if (!read) return all_.corrupt(fmt::format("chunk META: {}", read.error().message));
+  return read;
+}
+
+Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
+  const bool isPacked = all_.find(amt_tag::kPackedDirectory) != nullptr;
+  std::vector<AmtShape> shapes = amtShapes(metadata, isPacked);
+  if (isPacked)
+    for (const AmtTag tag : {amt_tag::kPackedDirectory, amt_tag::kPackedTables, amt_tag::kPackedNodes})
+      shapes.push_back({tag, AmtScalar::u8, 1, all_.find(tag) == nullptr ? 0 : all_.find(tag)->bytes});
+  const bool hasSegments = all_.find(amt_tag::kSegmentChecksums) != nullptr;
+  if (hasSegments) {
+    std::uint64_t segments = 0;
+    for (const AmtChunk& chunk : all_.chunks()) segments += amtSegmentCount(chunk.tag, chunk.bytes);
+    shapes.push_back(amtSegmentShape(segments));
+  }
+  ARETE_CHECK(all_.checkShapes(shapes));
+
+  file_.writer_ = metadata.writer;
+  file_.model_ = metadata.model;
+  file_.nodeCount_ = metadata.counts.nodes;
+  MtArrays a;
+  const auto rootVertices = static_cast<std::uint32_t>(metadata.counts.rootVertices);
+  a.rootVertices = rootVertices;
+  place(amt_tag::kIsolatedSamples, file_.isolatedSamples_);
+  place(amt_tag::kIsolatedHeights, file_.isolatedHeights_);
+  place(amt_tag::kFixedVertices, file_.fixedVertices_);
+  if (hasSegments) place(amt_tag::kSegmentChecksums, file_.segmentChecksums_);
+  if (isPacked) {
+    place(amt_tag::kPackedDirectory, file_.packedDirectory_);
+    place(amt_tag::kPackedTables, file_.packedTables_);
+    place(amt_tag::kPackedNodes, file_.packedNodes_);
+    file_.metadata_ = std::make_shared<const AmtMetadata>(metadata);
+    file_.model_.mt = MultiTriangulation(a, all_.owner());
+    return {};
+  }
+  a = placeMtChunks(all_);
+  a.rootVertices = rootVertices;
+  place(amt_tag::kBelow, a.below);
+  place(amt_tag::kAbove, a.above);
+  if (metadata.model.isRaster)
+    place(amt_tag::kSamples, a.vertices.samples);
+  else
+    place(amt_tag::kPlan, a.vertices.plan);
+  a.vertices.columns = metadata.model.columns;
+  a.vertices.encoding = metadata.encoding;
+  place(amt_tag::kHeights, a.vertices.rawHeights);
+  a.scale = metadata.scale;
+  a.metric = metadata.metric;
+  file_.model_.mt = MultiTriangulation(a, all_.owner());
+  return {};
+}
+
+Result<AmtFile> AmtOpener::open(AmtContainer container) {
+  AmtFile file;
+  file.container_ = std::move(container);
+  AmtOpener opener(file);
+  ARETE_TRY(const AmtMetadata metadata, opener.readMetadata());
+  ARETE_CHECK(opener.placeArrays(metadata));
+  return file;
+}
+
+Status AmtFile::loadAllButPacked() const {
+  for (const AmtChunk& chunk : chunks())
+    if (chunk.tag != amt_tag::kPackedNodes) ARETE_CHECK(container_.load(bytes(chunk)));
+  return {};
+}
+
+double AmtFile::errorBeyond(std::uint64_t nodes) const {
+  if (isPacked())
+    return container_.load(packedDirectory_) ? packedErrorBeyond(packedDirectory_, metadata_->scale, nodes)
+                                             : 0;
+  if (!hasSegments()) return 0;
+  const MtArrays& a = model_.mt.arrays();
+  if (!container_.load(std::as_bytes(a.blockError))) return 0;
+  const std::uint64_t page = nodes / MultiTriangulation::kNodesPerPage + 1,
+                      entry = nodeBlockCount(nodeCount_) + page;
+  return entry < a.blockError.size() ? a.scale.decode(a.blockError[entry]) : 0;
+}
+
+Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const RunContext& context) const {
+  const bool isPart = options.wanted && options.verify != AmtVerify::none && !isPacked() && hasSegments();
+  if (isPart) return readAmtPart(*this, options.wanted, options.verify, context);
+  ARETE_CHECK(loadAllButPacked());
+  ARETE_CHECK(checkAmt(*this, options.verify, context));
+  if (!isPacked()) return model_.mt;
+  const AmtContainer& all = container_;
+  Result<MultiTriangulation> mt =
+      unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options.wanted, context,
+               [&all](std::span<const std::byte> packet) { return all.load(packet).has_value(); });
+  ARETE_CHECK(container_.loaded());
+  if (!mt) return failure(mt.error().code, mt.error().message, path());
+  return mt;
+}
+
+Result<TerrainModel> AmtFile::read(const AmtReadOptions& options, const RunContext& context) const try {
+  ARETE_TRY(MultiTriangulation mt, readMt(options, context));
+  TerrainModel model = model_;
+  model.mt = std::move(mt);
+  model.options.fixedVertices.assign(fixedVertices_.begin(), fixedVertices_.end());
+  model.isolated.reserve(isolatedSamples_.size());
+  for (std::size_t i = 0; i < isolatedSamples_.size(); ++i)
+    model.isolated.push_back({isolatedSamples_[i], isolatedHeights_[i]});
+  return model;
+} catch (...) {
+  return caughtFailure(path());
+}
+
+Result<AmtFile> openAmt(const std::string& path, const AmtOpenOptions& options) try {
+  ARETE_TRY(AmtContainer container, AmtContainer::open(path, options));
+  return AmtOpener::open(std::move(container));
+} catch (...) {
+  return caughtFailure(path);
+}
+
+Result<AmtFile> openAmt(AmtContainer container) try {
+  return AmtOpener::open(std::move(container));
+} catch (...) {
+  return caughtFailure();
+}
+
+Result<TerrainModel> loadAmt(const std::string& path, const AmtLoadOptions& options,
+                             const RunContext& context) try {
+  ARETE_TRY(const AmtFile file, openAmt(path, options.open));
+  return file.read({options.verify, options.wanted}, context);
+} catch (...) {
+  return caughtFailure();
+}
+
+}  // namespace arete

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
+#include "io/store/amt/file.h"
+#include "surface/model/surface_model.h"
+
+namespace arete {
+
+/// The .amt file of a surface: format version 3 (docs/topics/amt-format.md). As of terrain, a file is written
+/// whole from a model in memory and read by mapping it: the arrays of the multitriangulation lie in the file;
+/// what is beside it is copied. A packed file is unpacked.
+
+/// How writeSurfaceAmt() writes.
+struct SurfaceWriteOptions {
+  std::string writer = {};  ///< names the program in the file; empty = "Arete" and its version
+  bool isPacked = false;    ///< compressed: see io/store/packed/packed.h for what changes
+  int positionBits = 0;     ///< of a packed file: see SurfacePackOptions
+};
+
+/// Writes the model. The same model and options give the same bytes. Errors: as writeAmt(), those of
+/// SurfaceModel::validate(), and of packSurfaceMt().
+Status writeSurfaceAmt(const std::string& path, const SurfaceModel& model, const RunContext& context = {},
+                       const SurfaceWriteOptions& options = {});
+
+/// Whether a file holds a surface. Errors: those of AmtContainer::open(). O(1).
+Result<bool> isSurfaceAmt(const std::string& path);
+
+/// Whether a file is packed, as isSurfaceAmt().
+Result<bool> isPackedAmt(const std::string& path);
+
+/// Reads a file and checks checksums, indices and sizes as `verify` says. Errors: those of openAmt() and of
+/// the checks; unsupported: the file is of terrain.
+Result<SurfaceModel> loadSurfaceAmt(const std::string& path, AmtVerify verify = AmtVerify::all,
+                                    const RunContext& context = {});
+/// The same of what is open.
+Result<SurfaceModel> loadSurfaceAmt(const AmtContainer& container, AmtVerify verify = AmtVerify::all,
+                                    const RunContext& context = {});
+
+}  // namespace arete

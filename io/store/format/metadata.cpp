@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// visitMetadata() declares the fields once; a writer and a reader visit them (io/store/format/json_fields.h).
+// Doubles are written with the fewest digits that read back to the same double (nlohmann-json does both),
+// negative zeros included.
+#include "io/store/format/metadata.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "engine/mt/hole_limit.h"
+#include "engine/mt/node_blocks.h"
+#include "io/files/text/address_text.h"
+#include "io/files/text/json_tree.h"
+#include "io/store/format/json_fields.h"
+#include "terrain/builder/checks.h"
+
+namespace arete {
+namespace {
+
+using json_fields::Choice;
+
+constexpr std::uint64_t kMaxCount = 0xFFFFFFFEu;  // 0xFFFFFFFF is the invalid id
+constexpr std::uint32_t kMaxMetricTerm = 1u << 16;
+
+constexpr std::array<Choice<HeightEncoding::Type>, 3> kHeightTypes = {
+    {{HeightEncoding::Type::int16, "int16"},
+     {HeightEncoding::Type::float32, "float32"},
+     {HeightEncoding::Type::float64, "float64"}}};
+
+AmtScalar scalarOf(HeightEncoding::Type type) {
+  switch (type) {
+    case HeightEncoding::Type::int16:
+      return AmtScalar::i16;
+    case HeightEncoding::Type::float32:
+      return AmtScalar::f32;
+    default:
+      return AmtScalar::f64;
+  }
+}
+
+/// Values that the file holds and a model has no member for.
+struct Stored {
+  std::uint32_t scaleBase = 0;
+  double thresholdRatio = 0;
+  std::string nodataWord;  ///< a stated NODATA value that JSON has no number for: nan, inf or -inf
+};
+
+/// Visits the fields of the metadata, in the order of the file.
+template <class Visitor, class Metadata, class OtherValues>
+void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
+  auto& model = m.model;
+  top.field("writer", m.writer);
+  top.field("source", model.source);
+  top.field("sourceChecksum", model.sourceChecksum);
+  top.field("isRaster", model.isRaster);
+  top.field("columns", model.columns);
+  top.field("rows", model.rows);
+  top.object("counts", [&](auto& counts) {
+    counts.field("rootVertices", m.counts.rootVertices);
+    counts.field("rootTriangles", m.counts.rootTriangles);
+    counts.field("nodes", m.counts.nodes);
+    counts.field("slots", m.counts.slots);
+    counts.field("isolated", m.counts.isolated);
+    counts.field("fixedVertices", m.counts.fixedVertices);
+  });
+  top.object("heights", [&](auto& heights) {
+    heights.choice("type", m.encoding.type, kHeightTypes);
+    heights.field("scale", m.encoding.scale);
+    heights.field("offset", m.encoding.offset);
+  });
+  top.field("errorScaleBase", stored.scaleBase);
+  top.object("metricFrame", [&](auto& metric) {
+    metric.field("origin", m.metric.origin);
+    metric.field("scale", m.metric.scale);
+  });
+  top.object("georeference", [&](auto& georeference) {
+    auto& g = model.georeference;
+    georeference.field("geoTransform", g.geoTransform);
+    georeference.field("hasGeoTransform", g.hasGeoTransform);
+    georeference.flag("repeatsFirstColumn", g.repeatsFirstColumn);
+    georeference.field("crsWkt", g.crsWkt);
+    georeference.field("isGeographic", g.isGeographic);
+    georeference.field("angularUnitRadians", g.angularUnitRadians);
+    georeference.field("linearUnitMetres", g.linearUnitMetres);
+    georeference.optional("mapScale", g.mapScale);
+    georeference.field("semiMajorAxisMetres", g.semiMajorAxisMetres);
+    georeference.field("inverseFlattening", g.inverseFlattening);
+    georeference.field("verticalUnit", g.verticalUnit);
+    georeference.field("verticalUnitMetres", g.verticalUnitMetres);
+    georeference.field("verticalDatum", g.verticalDatum);
+  });
+  top.object("build", [&](auto& build) {
+    const std::array<Choice<HoleShape>, 2> shapes = {
+        {{HoleShape::delaunay, toString(HoleShape::delaunay)},
+         {HoleShape::dataDependent, toString(HoleShape::dataDependent)}}};
+    auto& o = model.options;
+    build.choice("shape", o.shape, shapes);
+    build.field("maxDegree", o.maxDegree);
+    build.field("thresholdRatio", stored.thresholdRatio);
+    build.field("minimumAspect", o.minimumAspect);
+    build.field("rimTolerance", o.rimTolerance);
+    build.field("metricP", model.metricP);
+    build.field("metricQ", model.metricQ);
+    build.field("levels", model.levels);
+  });
+  // Absent from the files of earlier writers.
+  top.optionalObject("reading", [&](auto& reading) {
+    auto& r = model.reading;
+    reading.optional("band", r.band);
+    reading.optional("layer", r.layer);
+    reading.optional("zField", r.zField);
+    reading.optional("samePlace", r.samePlace);
+    reading.optional("crs", r.crs);
+    reading.optional("nodata", r.nodata);
+    reading.optional("nodataWord", stored.nodataWord);
+    reading.optional("verticalUnit", r.verticalUnit);
+    reading.optional("isDepth", r.isDepth);
+    reading.optional("otherFiles", r.otherFiles);
+  });
+}
+
+std::optional<std::string> findNumberProblem(const AmtMetadata& m) {
+  const Georeference& g = m.model.georeference;
+  const auto ofFinite = [](const char* what,
+                           std::initializer_list<double> values) -> std::optional<std::string> {
+    for (const double value : values)
+      if (!std::isfinite(value)) return fmt::format("the {} holds {}, which is not finite", what, value);
+    return std::nullopt;
+  };
+  const auto& t = g.geoTransform;
+  if (auto problem = ofFinite("geotransform", {t[0], t[1], t[2], t[3], t[4], t[5]})) return problem;
+  if (auto problem = ofFinite("height encoding", {m.encoding.scale, m.encoding.offset})) return problem;
+  const Vec3 &o = m.metric.origin, &s = m.metric.scale;
+  if (auto problem = ofFinite("metric frame", {o.x, o.y, o.z, s.x, s.y, s.z})) return problem;
+  if (s.x < 0 || s.y < 0 || s.z < 0) return "the metric frame has a negative scale";
+  for (const auto& [what, value] :
+       {std::pair{"angular unit", g.angularUnitRadians}, std::pair{"linear unit", g.linearUnitMetres},
+        std::pair{"semi-major axis", g.semiMajorAxisMetres}, std::pair{"vertical unit", g.verticalUnitMetres},
+        std::pair{"scale of the map", g.mapScale ? (*g.mapScale)[0] : 1},
+        std::pair{"scale of the map", g.mapScale ? (*g.mapScale)[1] : 1}})
+    if (!(value > 0 && std::isfinite(value)))
+      return fmt::format("the {} is {}, not a positive number", what, value);
+  if (!(g.inverseFlattening == 0 || (g.inverseFlattening > 1 && std::isfinite(g.inverseFlattening))))
+    return fmt::format("the inverse flattening is {}, which no ellipsoid has", g.inverseFlattening);
+  if (auto problem = findScaleProblem(m.scale)) return problem;
+  for (const std::uint32_t term : {m.model.metricP, m.model.metricQ})
+    if (term < 1 || term > kMaxMetricTerm)
+      return fmt::format("the Delaunay metric has the term {}, not 1 to {}", term, kMaxMetricTerm);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> findCountProblem(const AmtCounts& c) {
+  const auto limit = [](const char* what, std::uint64_t count) -> std::optional<std::string> {
+    if (count <= kMaxCount) return std::nullopt;
+    return fmt::format("{} {} are more than 32-bit ids can name", count, what);
+  };
+  for (const auto& [what, count] :
+       {std::pair{"root vertices", c.rootVertices}, std::pair{"root triangles", c.rootTriangles},
+        std::pair{"nodes", c.nodes}, std::pair{"slots", c.slots}, std::pair{"isolated samples", c.isolated},
+        std::pair{"fixed vertices", c.fixedVertices}})
+    if (auto problem = limit(what, count)) return problem;
+  // Sums and products of 32-bit counts do not overflow 64 bits.
+  if (auto problem = limit("vertices", c.rootVertices + c.nodes)) return problem;
+  if (auto problem = limit("triangles", c.rootTriangles + c.slots)) return problem;
+  if (c.rootTriangles == 0 || c.rootVertices < 3) return "there is no root triangle";
+  if (c.slots < 3 * c.nodes || c.slots > std::uint64_t{kMaxHoleCorners} * c.nodes)
+    return fmt::format("{} slots do not make the stars of {} nodes, 3 to {} slots each", c.slots, c.nodes,
+                       kMaxHoleCorners);
+  return std::nullopt;
+}
+
+std::optional<std::string> findScaleProblem(const OutwardScale& scale) {
+  // A greater base would decode its largest code to more than the largest float.
+  constexpr std::uint32_t kMaxBase = (0x7F800000u >> 12) - 1 - OutwardScale::kMaxCode;
+  if (scale.base() <= kMaxBase) return std::nullopt;
+  return fmt::format("the error scale's base is {}, more than {}", scale.base(), kMaxBase);
+}
+
+AmtMetadata amtMetadataOf(const TerrainModel& model, std::string writer) {
+  const MtArrays& a = model.mt.arrays();
+  AmtMetadata m;
+  m.writer = std::move(writer);
+  m.counts = {a.rootVertices, a.rootTriangles.size(), a.saturatedError.size(),
+              a.link.size(),  model.isolated.size(),  model.options.fixedVertices.size()};
+  m.model.georeference = model.georeference;
+  m.model.isRaster = model.isRaster;
+  m.model.columns = model.columns;
+  m.model.rows = model.rows;
+  m.model.source = nameWithoutQuery(model.source);
+  m.model.sourceChecksum = model.sourceChecksum;
+  m.model.reading = model.reading;
+  m.model.options = model.options;
+  m.model.options.fixedVertices.clear();
+  m.model.metricP = model.metricP;
+  m.model.metricQ = model.metricQ;
+  m.model.levels = model.levels;
+  m.encoding = a.vertices.encoding;
+  m.scale = a.scale;
+  m.metric = a.metric;
+  return m;
+}
+
+std::optional<std::string> findAmtProblem(const AmtMetadata& m) {
+  if (auto problem = findCountProblem(m.counts)) return problem;
+  const TerrainModel& model = m.model;
+  const std::uint64_t samples = std::uint64_t{model.columns} * model.rows;
+  if (model.isRaster) {
+    if (samples == 0 || samples > 0xFFFFFFFFu)
+      return fmt::format("a grid of {} columns and {} rows has no samples or too many", model.columns,
+                         model.rows);
+    if (m.counts.rootVertices + m.counts.nodes > samples || m.counts.isolated > samples)
+      return fmt::format("{} vertices and {} isolated samples are more than the grid has",
+                         m.counts.rootVertices + m.counts.nodes, m.counts.isolated);
+    if (const double determinant = model.georeference.determinant();
+        determinant == 0 || !std::isfinite(determinant))
+      return "the geotransform is not invertible";
+  } else if (samples != 0 || model.columns != 0 || model.rows != 0 || m.counts.isolated != 0) {
+    return "scattered points come with a grid size or isolated samples";
+  }
+  if (auto problem = findNumberProblem(m)) return problem;
+  if (const Status options = checkOptions(model.options, 0); !options)
+    return fmt::format("the build options are wrong: {}", options.error().message);
+  return std::nullopt;
+}
+
+std::string toAmtJson(const AmtMetadata& metadata) {
+  JsonTree object(nlohmann::ordered_json::object());
+  json_fields::Writer writer(*object);
+  const std::optional<double> nodata = metadata.model.reading.nodata;
+  const Stored stored{metadata.scale.base(), metadata.model.options.thresholdRatioOrDefault(),
+                      nodata && !std::isfinite(*nodata) ? fmt::format("{}", *nodata) : ""};
+  visitMetadata(writer, metadata, stored);
+  return (*object).dump(1) + "\n";
+}
+
+Result<AmtMetadata> fromAmtJson(std::string_view text) {
+  const JsonTree object(nlohmann::json::parse(text, nullptr, false));
+  if (!(*object).is_object()) return failure(ErrorCode::corrupt, "the metadata is not a JSON object");
+  AmtMetadata m;
+  std::string problem;
+  json_fields::Reader reader(*object, problem);
+  Stored stored;
+  visitMetadata(reader, m, stored);
+  m.model.source = nameWithoutQuery(m.model.source);  // older files may have one
+  m.scale = OutwardScale::fromBase(stored.scaleBase);
+  m.model.options.thresholdRatio = stored.thresholdRatio;
+  if (stored.nodataWord == "nan") m.model.reading.nodata = std::numeric_limits<double>::quiet_NaN();
+  if (stored.nodataWord == "inf") m.model.reading.nodata = std::numeric_limits<double>::infinity();
+  if (stored.nodataWord == "-inf") m.model.reading.nodata = -std::numeric_limits<double>::infinity();
+  if (problem.empty()) problem = findAmtProblem(m).value_or("");
+  if (!problem.empty()) return failure(ErrorCode::corrupt, fmt::format("the metadata is wrong: {}", problem));
+  return m;
+}
+
+std::vector<AmtShape> mtShapes(const AmtCounts& c, std::span<const AmtTag> ofTriangles) {
+  const std::uint64_t triangles = c.rootTriangles + c.slots;
+  constexpr std::uint64_t kSlotsPerHint = MultiTriangulation::kSlotsPerHint;
+  std::vector<AmtShape> shapes = {
+      {amt_tag::kRootTriangles, AmtScalar::u32, 12, c.rootTriangles},
+      {amt_tag::kSlotBegin, AmtScalar::u32, 4, c.nodes + 1},
+      {amt_tag::kLink, AmtScalar::u32, 4, c.slots},
+      {amt_tag::kRemover, AmtScalar::u32, 4, triangles},
+      {amt_tag::kError, AmtScalar::u16, 2, triangles},
+  };
+  for (const AmtTag& tag : ofTriangles) shapes.push_back({tag, AmtScalar::u16, 2, triangles});
+  const AmtShape rest[] = {
+      {amt_tag::kFloor, AmtScalar::u32, 4, c.slots - 2 * c.nodes},
+      {amt_tag::kSaturatedError, AmtScalar::u16, 2, c.nodes},
+      {amt_tag::kSphere, AmtScalar::f32, 16, c.nodes},
+      {amt_tag::kBlockError, AmtScalar::u16, 2, nodeBlockAndPageCount(c.nodes)},
+      {amt_tag::kBlockSphere, AmtScalar::f32, 16, nodeBlockAndPageCount(c.nodes)},
+      {amt_tag::kCreatorHint, AmtScalar::u32, 4, (c.slots + kSlotsPerHint - 1) / kSlotsPerHint},
+  };
+  shapes.insert(shapes.end(), std::begin(rest), std::end(rest));
+  return shapes;
+}
+
+std::vector<AmtShape> amtShapes(const AmtMetadata& m, bool isPacked) {
+  const AmtCounts& c = m.counts;
+  const std::uint64_t vertices = c.rootVertices + c.nodes;
+  std::vector<AmtShape> shapes;
+  if (!isPacked) {
+    shapes = mtShapes(c, std::array{amt_tag::kBelow, amt_tag::kAbove});
+    shapes.push_back(m.model.isRaster ? AmtShape{amt_tag::kSamples, AmtScalar::u32, 4, vertices}
+                                      : AmtShape{amt_tag::kPlan, AmtScalar::f64, 16, vertices});
+    shapes.push_back({amt_tag::kHeights, scalarOf(m.encoding.type),
+                      static_cast<std::uint32_t>(m.encoding.bytesPerHeight()), vertices});
+  }
+  shapes.push_back({amt_tag::kIsolatedSamples, AmtScalar::u32, 4, c.isolated});
+  shapes.push_back({amt_tag::kIsolatedHeights, AmtScalar::f64, 8, c.isolated});
+  shapes.push_back({amt_tag::kFixedVertices, AmtScalar::u32, 4, c.fixedVertices});
+  return shapes;
+}
+
+}  // namespace arete

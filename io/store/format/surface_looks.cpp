@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Names can be many (objects of a city), so the looks are a chunk of their own, and their values one of
+// bytes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "io/files/text/json_tree.h"
+#include "io/store/format/json_fields.h"
+#include "io/store/format/surface_metadata.h"
+
+namespace arete {
+namespace {
+
+using Json = nlohmann::json;
+using json_fields::Choice;
+
+constexpr std::array<Choice<ScalarType>, 8> kTypes = {{{ScalarType::int8, "int8"},
+                                                       {ScalarType::uint8, "uint8"},
+                                                       {ScalarType::int16, "int16"},
+                                                       {ScalarType::uint16, "uint16"},
+                                                       {ScalarType::int32, "int32"},
+                                                       {ScalarType::uint32, "uint32"},
+                                                       {ScalarType::float32, "float32"},
+                                                       {ScalarType::float64, "float64"}}};
+constexpr std::array<Choice<AttributeMeaning>, 5> kMeanings = {
+    {{AttributeMeaning::other, "other"},
+     {AttributeMeaning::normal, "normal"},
+     {AttributeMeaning::tangent, "tangent"},
+     {AttributeMeaning::textureCoords, "textureCoords"},
+     {AttributeMeaning::color, "color"}}};
+constexpr std::array<Choice<ColorSpace>, 3> kSpaces = {
+    {{ColorSpace::none, "none"}, {ColorSpace::srgb, "srgb"}, {ColorSpace::linear, "linear"}}};
+
+template <class Visitor, class A>
+void visitAttribute(Visitor& visitor, A& a) {
+  visitor.field("name", a.name);
+  visitor.choice("meaning", a.meaning, kMeanings);
+  visitor.choice("type", a.type, kTypes);
+  visitor.flag("isNormalized", a.isNormalized);
+  visitor.choice("colorSpace", a.colorSpace, kSpaces);
+  visitor.flag("isFromTop", a.isFromTop);
+}
+
+template <class Visitor, class M>
+void visitMaterial(Visitor& visitor, M& m) {
+  visitor.field("name", m.name);
+  visitor.field("baseColor", m.baseColor);
+  visitor.flag("isDoubleSided", m.isDoubleSided);
+  visitor.field("alphaMode", m.alphaMode);
+  visitor.field("alphaCutoff", m.alphaCutoff);
+}
+
+template <class Visitor, class T>
+void visitTexture(Visitor& visitor, T& t) {
+  visitor.field("role", t.role);
+  visitor.field("picture", t.picture);
+  visitor.field("textureCoords", t.textureCoords);
+}
+
+nlohmann::ordered_json written(const auto& visit) {
+  nlohmann::ordered_json object = nlohmann::ordered_json::object();
+  json_fields::Writer writer(object);
+  visit(writer);
+  return object;
+}
+
+/// The arrays of attributes by their names in the file.
+auto attributeLists(auto& a) {
+  return std::array{std::pair{"vertexAttributes", &a.vertexAttributes},
+                    std::pair{"wedgeAttributes", &a.wedgeAttributes},
+                    std::pair{"faceAttributes", &a.triangleAttributes}};
+}
+auto faceLists(auto& a) {
+  return std::array{std::pair{"hasObjects", &a.objectOf}, std::pair{"hasGroups", &a.groupOf},
+                    std::pair{"hasMaterials", &a.materialOf}, std::pair{"hasFaces", &a.faceOf}};
+}
+
+/// Reads a row of objects, one by one.
+template <class Read>
+void readRow(const Json& object, const char* key, std::string& problem, const Read& read) {
+  const auto found = object.find(key);
+  if (found == object.end()) return;
+  if (!found->is_array()) {
+    if (problem.empty()) problem = fmt::format("{} is not an array", key);
+    return;
+  }
+  for (const Json& element : *found) {
+    if (!element.is_object()) {
+      if (problem.empty()) problem = fmt::format("{} holds what is not an object", key);
+      return;
+    }
+    json_fields::Reader reader(element, problem);
+    read(reader, element);
+  }
+}
+
+}  // namespace
+
+std::string toLooksJson(const SurfaceModel& model) {
+  const MeshAttributes& a = model.attributes;
+  JsonTree tree(nlohmann::ordered_json::object());
+  nlohmann::ordered_json& looks = *tree;
+  json_fields::Writer top(looks);
+  for (const auto& [key, attributes] : attributeLists(a))
+    for (const Attribute& attribute : *attributes)
+      looks[key].push_back(written([&](auto& w) {
+        visitAttribute(w, attribute);
+        w.field("components", std::uint32_t{attribute.components});
+      }));
+  top.optional("objects", a.objects);
+  top.optional("groups", a.groups);
+  for (const auto& [key, list] : faceLists(a)) top.flag(key, !list->empty());
+  for (const Material& material : a.materials)
+    looks["materials"].push_back(written([&](auto& w) {
+      visitMaterial(w, material);
+      std::vector<std::string> verbatim;
+      for (const auto& [format, text] : material.verbatim) {
+        verbatim.push_back(format);
+        verbatim.push_back(text);
+      }
+      w.optional("verbatim", verbatim);
+    }));
+  for (std::size_t m = 0; m < a.materials.size(); ++m)
+    for (const TextureUse& texture : a.materials[m].textures)
+      looks["materials"][m]["textures"].push_back(written([&](auto& w) { visitTexture(w, texture); }));
+  for (const EmbeddedPicture& picture : a.pictures)
+    looks["pictures"].push_back(written([&](auto& w) {
+      w.field("name", picture.name);
+      w.field("mimeType", picture.mimeType);
+      w.field("bytes", std::uint64_t{picture.bytes.size()});
+    }));
+  return looks.dump(1) + "\n";
+}
+
+Status fromLooksJson(std::string_view text, std::uint64_t attributeBytes, SurfaceModel& model,
+                     std::vector<std::uint64_t>& pictureBytes) {
+  const JsonTree tree(Json::parse(text, nullptr, false));
+  const Json& looks = *tree;
+  if (!looks.is_object()) return failure(ErrorCode::corrupt, "chunk LOOK is not a JSON object");
+  std::string problem;
+  MeshAttributes& a = model.attributes;
+  json_fields::Reader top(looks, problem);
+  for (const auto& list : attributeLists(a))
+    readRow(looks, list.first, problem, [&](json_fields::Reader& r, const Json&) {
+      Attribute& attribute = list.second->emplace_back();
+      visitAttribute(r, attribute);
+      std::uint32_t components = 0;
+      r.field("components", components);
+      if ((components == 0 || components > 255) && problem.empty())
+        problem = fmt::format("attribute {} has {} components", attribute.name, components);
+      attribute.components = static_cast<std::uint8_t>(components);
+    });
+  top.optional("objects", a.objects);
+  top.optional("groups", a.groups);
+  for (const auto& [key, list] : faceLists(a)) {
+    bool has = false;
+    top.flag(key, has);
+    if (!has) continue;
+    // The number of faces is only stated; that of the values is how many there are.
+    if (model.sourceFaces > attributeBytes / sizeof(std::uint32_t))
+      return failure(ErrorCode::corrupt, fmt::format("chunk ATTR has {} bytes, too few for {} of {} faces",
+                                                     attributeBytes, key, model.sourceFaces));
+    list->resize(model.sourceFaces);
+  }
+  readRow(looks, "materials", problem, [&](json_fields::Reader& r, const Json& object) {
+    Material& material = a.materials.emplace_back();
+    visitMaterial(r, material);
+    std::vector<std::string> verbatim;
+    r.optional("verbatim", verbatim);
+    for (std::size_t i = 0; i + 1 < verbatim.size(); i += 2) material.verbatim[verbatim[i]] = verbatim[i + 1];
+    readRow(object, "textures", problem,
+            [&](json_fields::Reader& t, const Json&) { visitTexture(t, material.textures.emplace_back()); });
+  });
+  readRow(looks, "pictures", problem, [&](json_fields::Reader& r, const Json&) {
+    EmbeddedPicture& picture = a.pictures.emplace_back();
+    r.field("name", picture.name);
+    r.field("mimeType", picture.mimeType);
+    r.field("bytes", pictureBytes.emplace_back());
+  });
+  if (!problem.empty()) return failure(ErrorCode::corrupt, fmt::format("chunk LOOK: {}", problem));
+  return {};
+}
+
+std::vector<std::byte> attributeBytesOf(const SurfaceModel& model) {
+  std::vector<std::byte> bytes;
+  const auto add = [&](std::span<const std::byte> more) {
+    bytes.insert(bytes.end(), more.begin(), more.end());
+  };
+  for (const auto& [key, attributes] : attributeLists(model.attributes))
+    for (const Attribute& attribute : *attributes) add(attribute.values);
+  for (const auto& [key, list] : faceLists(model.attributes)) add(std::as_bytes(std::span(*list)));
+  return bytes;
+}
+
+Status takeAttributeBytes(std::span<const std::byte> bytes, std::uint64_t vertices, SurfaceModel& model) {
+  MeshAttributes& a = model.attributes;
+  const std::array<std::uint64_t, 3> counts{vertices, a.wedgeCount, model.sourceFaces};
+  std::uint64_t wanted = 0;
+  std::size_t kind = 0;
+  for (const auto& [key, attributes] : attributeLists(a)) {
+    for (const Attribute& attribute : *attributes) wanted += counts[kind] * attribute.elementBytes();
+    ++kind;
+  }
+  for (const auto& [key, list] : faceLists(a)) wanted += std::uint64_t{list->size()} * sizeof(std::uint32_t);
+  if (wanted != bytes.size())
+    return failure(ErrorCode::corrupt,
+                   fmt::format("chunk ATTR has {} bytes instead of {}", bytes.size(), wanted));
+  std::size_t at = 0;
+  kind = 0;
+  for (const auto& [key, attributes] : attributeLists(a)) {
+    for (Attribute& attribute : *attributes) {
+      const std::span<const std::byte> values = bytes.subspan(at, counts[kind] * attribute.elementBytes());
+      attribute.values.assign(values.begin(), values.end());
+      at += values.size();
+    }
+    ++kind;
+  }
+  for (const auto& [key, list] : faceLists(a)) {
+    const std::size_t size = list->size() * sizeof(std::uint32_t);
+    if (size > 0) std::memcpy(list->data(), bytes.data() + at, size);
+    at += size;
+  }
+  return {};
+}
+
+}  // namespace arete

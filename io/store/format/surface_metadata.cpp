@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/store/format/surface_metadata.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "engine/mt/hole_limit.h"
+#include "io/files/text/address_text.h"
+#include "io/files/text/json_tree.h"
+#include "io/store/format/json_fields.h"
+
+namespace arete {
+namespace {
+
+struct Stored {
+  std::uint32_t scaleBase = 0;
+  std::optional<double> positionStep, positionError;
+  std::optional<std::uint64_t> fileFaces, splitFaces;
+};
+
+template <class T>
+std::optional<T> unlessZero(T x) {
+  return x == 0 ? std::nullopt : std::optional(x);
+}
+
+/// What a file without the number of splits must have: what its finest front has more than the faces left.
+std::uint64_t splitFacesOf(const SurfaceMetadata& m) {
+  const SurfaceMending& mending = m.model.mending;
+  const std::uint64_t leftOut = mending.duplicateFaces + mending.degenerateFaces,
+                      kept = m.model.sourceFaces > leftOut ? m.model.sourceFaces - leftOut : 0;
+  return m.finestTriangles > kept ? m.finestTriangles - kept : 0;
+}
+
+/// Visits the fields of the metadata, in the order of the file.
+template <class Visitor, class Metadata, class OtherValues>
+void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
+  auto& model = m.model;
+  top.field("writer", m.writer);
+  top.field("source", model.source);
+  top.field("sourceChecksum", model.sourceChecksum);
+  top.object("counts", [&](auto& counts) {
+    counts.field("rootVertices", m.counts.rootVertices);
+    counts.field("rootTriangles", m.counts.rootTriangles);
+    counts.field("nodes", m.counts.nodes);
+    counts.field("slots", m.counts.slots);
+    counts.field("finestTriangles", m.finestTriangles);
+    counts.field("wedges", m.wedges);
+    counts.field("sourceVertices", model.sourceVertices);
+    counts.field("sourceFaces", model.sourceFaces);
+  });
+  top.flag("hasDoubles", m.hasDoubles);
+  top.flag("hasAllFaces", m.hasAllFaces);
+  top.field("errorScaleBase", stored.scaleBase);
+  top.object("metricFrame", [&](auto& metric) {
+    metric.field("origin", m.metric.origin);
+    metric.field("scale", m.metric.scale);
+  });
+  top.optional("positionStep", stored.positionStep);
+  top.optional("positionError", stored.positionError);
+  top.optional("fileFaces", stored.fileFaces);
+  top.field("diagonal", model.diagonal);
+  top.flag("boundsLines", model.boundsLines);
+  top.optional("crsWkt", model.crsWkt);
+  top.optional("verticalUnit", model.verticalUnit);
+  top.optional("up", model.up);
+  top.object("build", [&](auto& build) {
+    build.flag("keepsBorders", model.options.keepsBorders);
+    build.field("maxDegree", model.options.maxDegree);
+    build.field("thresholdRatio", model.options.thresholdRatio);
+    build.field("levels", model.levels);
+  });
+  top.object("mending", [&](auto& mending) {
+    mending.field("duplicateFaces", model.mending.duplicateFaces);
+    mending.field("degenerateFaces", model.mending.degenerateFaces);
+    mending.optional("splitFaces", stored.splitFaces);
+    mending.field("joinedVertices", model.mending.joinedVertices);
+    mending.field("turnedFaces", model.mending.turnedFaces);
+    mending.field("addedVertices", model.mending.addedVertices);
+    mending.field("unusedVertices", model.mending.unusedVertices);
+    mending.flag("dropsFlatNormals", model.mending.dropsFlatNormals);
+  });
+}
+
+}  // namespace
+
+SurfaceMetadata surfaceMetadataOf(const SurfaceModel& model, std::string writer) {
+  const MtArrays& a = model.mt.arrays();
+  SurfaceMetadata m;
+  m.writer = std::move(writer);
+  m.counts = {a.rootVertices, a.rootTriangles.size(), a.saturatedError.size(), a.link.size(), 0, 0};
+  m.finestTriangles = model.mt.finestTriangleCount();
+  m.wedges = model.attributes.wedgeCount;
+  m.hasDoubles = !a.vertices.places64.empty();
+  m.hasAllFaces = model.hasFaceAttributes();
+  m.scale = a.scale;
+  m.metric = a.metric;
+  SurfaceModel& to = m.model;
+  to.sourceVertices = model.sourceVertices;
+  to.sourceFaces = model.sourceFaces;
+  to.fileFaces = model.fileFaces;
+  to.diagonal = model.diagonal;
+  to.mending = model.mending;
+  to.options = model.options;
+  to.levels = model.levels;
+  to.positionError = model.positionError;
+  to.boundsLines = model.boundsLines;
+  to.source = nameWithoutQuery(model.source);
+  to.sourceChecksum = model.sourceChecksum;
+  to.crsWkt = model.crsWkt;
+  to.verticalUnit = model.verticalUnit;
+  to.up = model.up;
+  return m;
+}
+
+std::optional<std::string> findSurfaceProblem(const SurfaceMetadata& m) {
+  if (auto problem = findCountProblem(m.counts)) return problem;
+  constexpr std::uint64_t kMost = 0xFFFFFFFE;
+  if (m.wedges > kMost || m.model.sourceVertices > kMost || m.model.sourceFaces > kMost)
+    return "wedges, vertices or faces are more than 32-bit numbers can name";
+  // Sums and differences of these do not wrap around, so that no law holds by overflow.
+  const SurfaceMending& mending = m.model.mending;
+  for (const auto& [what, count] :
+       {std::pair{"fileFaces", m.model.fileFaces}, std::pair{"duplicateFaces", mending.duplicateFaces},
+        std::pair{"degenerateFaces", mending.degenerateFaces}, std::pair{"splitFaces", mending.splitFaces},
+        std::pair{"joinedVertices", mending.joinedVertices}, std::pair{"turnedFaces", mending.turnedFaces},
+        std::pair{"addedVertices", mending.addedVertices},
+        std::pair{"unusedVertices", mending.unusedVertices}})
+    if (count > kMost) return fmt::format("{} is {}, more than 32-bit numbers can name", what, count);
+  // Each wedge is that of a corner.
+  if (const std::uint64_t corners = 3 * (m.counts.rootTriangles + m.counts.slots); m.wedges > corners)
+    return fmt::format("{} wedges are more than the {} corners of the triangles", m.wedges, corners);
+  if (m.finestTriangles > m.counts.rootTriangles + m.counts.slots)
+    return "the finest front has more triangles than there are";
+  const Vec3 &o = m.metric.origin, &s = m.metric.scale;
+  if (!isFinite(o) || !isFinite(s) || s.x < 0 || s.y < 0 || s.z < 0)
+    return "the metric frame is not one of finite numbers";
+  if (!(m.model.diagonal > 0 && std::isfinite(m.model.diagonal)))
+    return fmt::format("the diagonal is {}, not a positive number", m.model.diagonal);
+  int exponent = 0;
+  if (m.positionStep != 0 && (!std::isnormal(m.positionStep) || std::frexp(m.positionStep, &exponent) != 0.5))
+    return "the step of the positions is no power of two";
+  if (!(m.model.positionError >= 0 && std::isfinite(m.model.positionError)))
+    return "the error of the positions is not a distance";
+  if (auto problem = findScaleProblem(m.scale)) return problem;
+  if (m.model.options.maxDegree < 3 || m.model.options.maxDegree > kMaxHoleCorners - 1 ||
+      !(m.model.options.thresholdRatio > 1))
+    return "the build options are wrong";
+  return std::nullopt;
+}
+
+std::string toSurfaceJson(const SurfaceMetadata& metadata) {
+  JsonTree object(nlohmann::ordered_json::object());
+  json_fields::Writer writer(*object);
+  const SurfaceModel& model = metadata.model;
+  const Stored stored{metadata.scale.base(), unlessZero(metadata.positionStep),
+                      unlessZero(model.positionError), model.fileFaces, model.mending.splitFaces};
+  visitMetadata(writer, metadata, stored);
+  return (*object).dump(1) + "\n";
+}
+
+Result<SurfaceMetadata> fromSurfaceJson(std::string_view text) {
+  const JsonTree object(nlohmann::json::parse(text, nullptr, false));
+  if (!(*object).is_object()) return failure(ErrorCode::corrupt, "the metadata is not a JSON object");
+  SurfaceMetadata m;
+  std::string problem;
+  json_fields::Reader reader(*object, problem);
+  Stored stored;
+  visitMetadata(reader, m, stored);
+  m.scale = OutwardScale::fromBase(stored.scaleBase);
+  m.positionStep = stored.positionStep.value_or(0);
+  m.model.positionError = stored.positionError.value_or(0);
+  m.model.fileFaces = stored.fileFaces.value_or(m.model.sourceFaces);
+  m.model.mending.splitFaces = stored.splitFaces.value_or(splitFacesOf(m));
+  if (problem.empty()) problem = findSurfaceProblem(m).value_or("");
+  if (!problem.empty()) return failure(ErrorCode::corrupt, fmt::format("the metadata is wrong: {}", problem));
+  return m;
+}
+
+std::vector<AmtShape> surfaceShapes(const SurfaceMetadata& m) {
+  const AmtCounts& c = m.counts;
+  const std::uint64_t triangles = c.rootTriangles + c.slots, vertices = c.rootVertices + c.nodes;
+  std::vector<AmtShape> shapes = mtShapes(c, std::array<AmtTag, 1>{amt_tag::kRms});
+  shapes.push_back(m.hasDoubles ? AmtShape{amt_tag::kPlaces, AmtScalar::f64, 24, vertices}
+                                : AmtShape{amt_tag::kPlaces, AmtScalar::f32, 12, vertices});
+  shapes.push_back({amt_tag::kVertexNumbers, AmtScalar::u32, 4, vertices});
+  shapes.push_back({amt_tag::kFaceNumbers, AmtScalar::u32, 4, m.hasAllFaces ? triangles : m.finestTriangles});
+  if (m.wedges > 0) shapes.push_back({amt_tag::kWedges, AmtScalar::u32, 12, triangles});
+  return shapes;
+}
+
+}  // namespace arete

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "io/store/format/metadata.h"
+#include "io/store/format/shapes.h"
+#include "surface/model/surface_model.h"
+
+namespace arete {
+
+/// The content of the metadata chunk of a surface: all of a model but its arrays and its looks.
+struct SurfaceMetadata {
+  std::string writer;
+  AmtCounts counts;
+  std::uint64_t wedges = 0;
+  bool hasDoubles = false;   ///< places are doubles, not floats
+  bool hasAllFaces = false;  ///< every triangle has a face number, not only those of the finest front
+  std::uint64_t finestTriangles = 0;
+  double positionStep = 0;  ///< of a packed file: see io/store/packed/packed.h
+  OutwardScale scale;
+  MetricFrame metric;
+  SurfaceModel model;  ///< without mt, arrays and attributes
+};
+
+SurfaceMetadata surfaceMetadataOf(const SurfaceModel& model, std::string writer);
+/// As findAmtProblem(), toAmtJson() and fromAmtJson() of terrain.
+std::optional<std::string> findSurfaceProblem(const SurfaceMetadata& metadata);
+std::string toSurfaceJson(const SurfaceMetadata& metadata);
+Result<SurfaceMetadata> fromSurfaceJson(std::string_view text);
+
+/// The chunks whose sizes follow from the metadata, in the order in which they are written.
+std::vector<AmtShape> surfaceShapes(const SurfaceMetadata& metadata);
+
+/// What a file says of the looks of a surface: declarations of attributes, objects, groups, materials,
+/// pictures, as JSON. The values are in chunks of their own.
+std::string toLooksJson(const SurfaceModel& model);
+/// Reads it into model.attributes, without values. Errors: corrupt.
+/// @param attributeBytes the size of the values, which memory for them is held against.
+/// @param pictureBytes receives the sizes of the pictures.
+Status fromLooksJson(std::string_view text, std::uint64_t attributeBytes, SurfaceModel& model,
+                     std::vector<std::uint64_t>& pictureBytes);
+
+/// The values of all attributes one after the other, then the objects, groups, materials and file's faces of
+/// the faces, as far as there are.
+std::vector<std::byte> attributeBytesOf(const SurfaceModel& model);
+/// Takes them apart. Errors: corrupt: another number of bytes than the declarations need.
+Status takeAttributeBytes(std::span<const std::byte> bytes, std::uint64_t vertices, SurfaceModel& model);
+
+}  // namespace arete

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The root's triangles are joined by sorting their edges. Saturation goes from the last node of a packet to
+// the first, so children come before parents; packets are saturated after those that depend on them. A node's
+// sphere contains its star and grows around the spheres of its children. A radius is negative until the
+// sphere and the saturated error are final, and is written after them: in a damaged file a child may belong
+// to any packet.
+#include "io/store/packed/nodes/arrays.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "engine/mt/enclosing_ball.h"
+
+namespace arete::packed {
+
+constexpr std::uint32_t kNone = MultiTriangulation::kNone;
+constexpr std::uint32_t kAhead = 8;
+
+bool Arrays::allocate(const AmtCounts& counts, std::uint64_t borders) {
+  rootVertices = static_cast<std::uint32_t>(counts.rootVertices);
+  roots = static_cast<std::uint32_t>(counts.rootTriangles);
+  nodes = static_cast<std::uint32_t>(counts.nodes);
+  slots = static_cast<std::uint32_t>(counts.slots);
+  const std::size_t n = nodes, s = slots, ids = std::size_t{roots} + s, v = std::size_t{rootVertices} + n;
+  constexpr std::size_t k = MultiTriangulation::kSlotsPerHint;
+  const bool hasMemory = stays.lay([&](const auto& array) {
+    array(rootTriangles, roots);
+    array(slotBegin, n + 1);
+    array(link, s);
+    array(remover, ids);
+    array(floor, s - 2 * n);
+    array(creatorHint, (s + k - 1) / k);
+    array(error, ids);
+    array(below, isSurface ? 0 : ids);
+    array(above, isSurface ? 0 : ids);
+    array(rms, isSurface ? ids : 0);
+    array(saturatedError, n);
+    array(sphere, n);
+    array(samples, !isSurface && isLattice ? v : 0);
+    array(plan, isSurface || isLattice ? 0 : v);
+    array(rawHeights, isSurface ? 0 : v * encoding.bytesPerHeight());
+    array(places32, isSurface && !hasDoubles ? v : 0);
+    array(places64, isSurface && hasDoubles ? v : 0);
+  }) && goes.lay([&](const auto& array) {
+    array(floatPlaces, !isSurface && holdsFloats() ? v : 0);
+    array(doublePlaces, isSurface || holdsFloats() ? 0 : v);
+    array(star, n);
+    array(border, roots + borders);
+  });
+  if (!hasMemory) return false;
+  if (isSurface) return true;
+  wholeErrors.assign((kLatticeErrorArea + 1) * 16, 0);
+  for (unsigned area = 1; area <= kLatticeErrorArea; ++area)
+    for (unsigned whole = 0; whole < 16; ++whole)
+      wholeErrors[area * 16 + whole] = wholeErrorCode(scale, encoding, whole, area);
+  return true;
+}
+
+void Arrays::joinRoot() {
+  struct Side {
+    std::uint64_t edge;
+    std::uint32_t at;
+  };
+  std::vector<Side> sides;
+  sides.reserve(3 * std::size_t{roots});
+  for (std::uint32_t t = 0; t < roots; ++t)
+    for (std::uint32_t e = 0; e < 3; ++e) {
+      const std::uint64_t p = rootTriangles[t][e], q = rootTriangles[t][(e + 1) % 3];
+      sides.push_back({std::min(p, q) << 32 | std::max(p, q), 3 * t + e});
+    }
+  std::ranges::sort(
+      sides, [](const Side& a, const Side& b) { return a.edge != b.edge ? a.edge < b.edge : a.at < b.at; });
+  for (std::uint32_t t = 0; t < roots; ++t) border[t] = {rootTriangles[t], t, {kNone, kNone, kNone}};
+  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+    const std::uint32_t p = sides[i].at, q = sides[i + 1].at;
+    if (sides[i].edge != sides[i + 1].edge) continue;
+    border[p / 3].across[p % 3] = q / 3;
+    border[q / 3].across[q % 3] = p / 3;
+  }
+  for (std::uint32_t t = 0; t < roots; ++t)
+    std::atomic_ref(remover[t]).store(kMarks | t, std::memory_order_release);
+}
+
+void Arrays::finish() {
+  for (std::uint32_t t = 0; t < roots; ++t)
+    if ((remover[t] & kMark) != 0) remover[t] = kNone;
+  slotBegin[nodes] = slots;
+  constexpr std::uint32_t k = MultiTriangulation::kSlotsPerHint;
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, nodes, 1u << 14), [&](const auto& range) {
+    for (std::uint32_t n = range.begin(); n < range.end(); ++n)
+      for (std::uint32_t h = (slotBegin[n] + k - 1) / k; h * k < slotBegin[n + 1]; ++h) creatorHint[h] = n;
+  });
+  if (finestError == 0 && finestRms == 0) return;
+  for (std::uint32_t t = 0; t < roots + slots; ++t)
+    if (remover[t] == kNone) {
+      error[t] = finestError;
+      rms[t] = finestRms;
+    }
+}
+
+MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
+  Arrays& from = *arrays;
+  from.floatPlaces = {};
+  from.doublePlaces = {};
+  from.star = {};
+  from.border = {};
+  from.goes = {};
+  from.blocks = makeNodeBlocks(from.saturatedError.view(), from.sphere.view());
+  MtArrays a;
+  a.rootVertices = from.rootVertices;
+  a.rootTriangles = from.rootTriangles.view();
+  a.slotBegin = from.slotBegin.view();
+  a.link = from.link.view();
+  a.remover = from.remover.view();
+  a.error = from.error.view();
+  a.below = from.below.view();
+  a.above = from.above.view();
+  a.rms = from.rms.view();
+  a.floor = from.floor.view();
+  a.saturatedError = from.saturatedError.view();
+  a.sphere = from.sphere.view();
+  a.blockError = from.blocks.error;
+  a.blockSphere = from.blocks.sphere;
+  a.creatorHint = from.creatorHint.view();
+  a.scale = from.scale;
+  a.metric = from.metric;
+  a.vertices.samples = from.samples.view();
+  a.vertices.columns = !from.isSurface && from.isLattice ? from.columns : 0;
+  a.vertices.plan = from.plan.view();
+  a.vertices.places32 = from.places32.view();
+  a.vertices.places64 = from.places64.view();
+  a.vertices.encoding = from.encoding;
+  a.vertices.rawHeights = from.rawHeights.view();
+  return MultiTriangulation(a, std::move(arrays));
+}
+
+namespace {
+
+/// Grows a ball around others, as EnclosingBall::encloseChild() does, but branch-free, because a processor
+/// cannot predict which of two balls contains the other. In floats, for faster roots and quotients; rounded()
+/// widens the ball by what they lose.
+struct GrowingBall {
+  float x, y, z, radius;
+
+  void enclose(const Sphere& child) {
+    const float dx = child.x - x, dy = child.y - y, dz = child.z - z, other = child.radius;
+    const float distance = std::sqrt(dx * dx + dy * dy + dz * dz);
+    const float grown = std::max(std::max(radius, other), (distance + radius + other) * 0.5f);
+    // The part of the way to the child's centre: all of it if the child contains this ball.
+    const float part = std::min((grown - radius) / std::max(distance, 1e-30f), 1.0f);
+    x += dx * part;
+    y += dy * part;
+    z += dz * part;
+    radius = grown;
+  }
+  /// The ball after `count` steps, each of which lost at most two units in the last place of centre and
+  /// radius, widened as by EnclosingBall.
+  Sphere rounded(std::uint32_t count) const {
+    const float lost = (std::fabs(x) + std::fabs(y) + std::fabs(z) + radius) * 0x1p-22f;
+    return {x, y, z, radius * (1 + 3e-6f) + static_cast<float>(count) * lost};
+  }
+};
+
+/// A node's children, each once or twice.
+struct Children {
+  std::array<std::uint32_t, 40> nodes;
+  std::uint32_t count;
+};
+
+/// Finds the children of a node and prefetches their spheres. Replaces marks by kNone.
+void find(const Arrays& a, std::uint32_t n, Children& children) {
+  std::uint32_t* const remover = a.remover.get() + a.roots + a.slotBegin[n];
+  const std::uint32_t size = a.starSize(n);
+  std::uint32_t count = 0, previous = n;
+  for (std::uint32_t i = 0; i < size; ++i) {
+    // A mark becomes kNone, and stands for n; so does n itself, behind an open star.
+    static_assert(Arrays::kMark == 1u << 31);
+    const std::uint32_t isNone = 0u - (remover[i] >> 31), child = (remover[i] & ~isNone) | (n & isNone);
+    remover[i] |= isNone;
+    children.nodes[count] = child;
+    count += static_cast<std::uint32_t>(child != n) & static_cast<std::uint32_t>(child != previous);
+    previous = child;
+    __builtin_prefetch(&a.sphere[child]);
+  }
+  children.count = count;
+}
+
+/// Computes the saturated error and sphere of a node. Precondition: the children are complete; in a damaged
+/// file they may not be, which is returned as a problem.
+const char* complete(const Arrays& a, std::uint32_t n, const Children& children, std::uint16_t least,
+                     std::uint32_t band) {
+  Sphere& sphere = a.sphere[n];
+  GrowingBall ball{sphere.x, sphere.y, sphere.z, -sphere.radius};
+  std::uint16_t saturated = std::max(least, a.saturatedError[n]);
+  float unready = 0;
+  for (std::uint32_t i = 0; i < children.count; ++i) {
+    Sphere& child = a.sphere[children.nodes[i]];
+    const float radius = std::atomic_ref(child.radius).load(std::memory_order_acquire);
+    unready = std::min(unready, radius);
+    saturated = std::max(saturated, a.saturatedError[children.nodes[i]]);
+    ball.enclose({child.x, child.y, child.z, radius});
+  }
+  const Sphere grown = ball.rounded(children.count + 1);
+  a.saturatedError[n] = saturated;
+  sphere.x = grown.x;
+  sphere.y = grown.y;
+  sphere.z = grown.z;
+  std::atomic_ref(sphere.radius).store(grown.radius, std::memory_order_release);
+  if (!std::isfinite(grown.x + grown.y + grown.z + grown.radius)) return "an invalid sphere";
+  if (unready < 0) return "a child that is not a descendant";
+  if (MultiTriangulation::bandOf(saturated) != band) return "a saturated error outside of its band";
+  return nullptr;
+}
+
+}  // namespace
+
+std::optional<std::string> saturate(Arrays& a, const Packet& packet, bool isPart) {
+  std::array<Children, kAhead> ahead;
+  for (auto run = packet.runs.rbegin(); run != packet.runs.rend(); ++run) {
+    const auto least =
+        isPart ? static_cast<std::uint16_t>(run->band << MultiTriangulation::kBandShift) : std::uint16_t{0};
+    const std::uint32_t last = run->firstNode + run->nodes - 1;
+    for (std::uint32_t i = 0; i < std::min(run->nodes, kAhead); ++i) find(a, last - i, ahead[i]);
+    for (std::uint32_t i = 0; i < run->nodes; ++i) {
+      Children& children = ahead[i % kAhead];
+      if (const char* const bad = complete(a, last - i, children, least, run->band))
+        return fmt::format("node {} has {}", last - i, bad);
+      if (run->nodes - i > kAhead) find(a, last - i - kAhead, children);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace arete::packed

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The writer walks over the nodes as the reader will (node_coder.h) and records every symbol with its table.
+// When all packets have been walked, the tables follow from how often each symbol occurs, and every packet is
+// encoded. Packets are walked in parallel, each after those that it depends on, as they are read.
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "engine/base/caught_failure.h"
+#include "engine/parallel/with_threads.h"
+#include "io/store/format/checksum.h"
+#include "io/store/packed/heightfield/form.h"
+#include "io/store/packed/nodes/node_coder.h"
+#include "io/store/packed/nodes/order.h"
+#include "io/store/packed/nodes/plan.h"
+#include "io/store/packed/packed.h"
+#include "io/store/packed/surface/form.h"
+#include "io/store/packed/surface/rounded_surface.h"
+#include "io/store/packed/writer_io.h"
+#include "terrain/model/terrain_model.h"
+
+namespace arete {
+namespace packed {
+namespace {
+
+class Packer {
+ public:
+  Packer(const MultiTriangulation& mt, const MtKind& kind, const RunContext& context)
+      : context_(context), plan_(planPackets(mt, kind)), walk_{mt, plan_, arrays_, {}, {}, {}, {}, {}} {
+    static_cast<MtKind&>(arrays_) = kind;
+  }
+
+  Result<PackedMt> run() {
+    if (walk_.mt.rootTriangleCount() + plan_.directory.borders() > kMostBorders)
+      return failure(ErrorCode::invalidData, "has more triangles in its root than can be packed");
+    if (!prepare()) return failure(ErrorCode::outOfMemory, "needs more memory to be packed than there is");
+    const auto& packets = plan_.directory.packets;
+    std::vector<Streams> streams(packets.size());
+    std::uint64_t done = 0;
+    const auto problem = forPackets(
+        packets, Direction::forwards, context_, [&](std::size_t i) { return walkPacket(i, streams[i]); },
+        [&](std::size_t i) {
+          done += packets[i].nodes;
+          context_.report("pack",
+                          0.7 * static_cast<double>(done) / (static_cast<double>(walk_.mt.nodeCount()) + 1));
+        });
+    if (context_.cancelled()) return failure(ErrorCode::interrupted, "packing was interrupted");
+    if (problem)
+      return failure(ErrorCode::invalidData,
+                     fmt::format("packet {} of its nodes {}", problem->packet, problem->what));
+    order_ = orderOf();
+    giveWalkBack();
+    const std::vector<RansTable> tables = tablesFor(streams);
+    std::vector<std::vector<std::byte>> bytes(packets.size());
+    tbb::parallel_for(std::size_t{0}, packets.size(), [&](std::size_t i) {
+      if (!context_.cancelled()) bytes[i] = encode(plan_.directory.packets[i], streams[i], tables, i == 0);
+    });
+    if (context_.cancelled()) return failure(ErrorCode::interrupted, "packing was interrupted");
+    plan_.directory.number();
+    PackedMt packed;
+    packed.directory = toBytes(plan_.directory);
+    packed.tables = toBytes(tables);
+    packed.nodes.reserve(packets.back().offset + packets.back().bytes());
+    for (auto& b : bytes) {
+      packed.nodes.insert(packed.nodes.end(), b.begin(), b.end());
+      b = {};
+    }
+    context_.report("pack", 1);
+    return packed;
+  }
+
+  /// The order of the packed MT, after run(). Leaves the packer without it.
+  PackedOrder takeOrder() { return std::move(order_); }
+
+ private:
+  bool prepare() {
+    const MultiTriangulation& mt = walk_.mt;
+    const MtArrays& from = mt.arrays();
+    if (!arrays_.allocate(
+            {from.rootVertices, from.rootTriangles.size(), mt.nodeCount(), from.link.size(), 0, 0},
+            plan_.directory.borders()))
+      return false;
+    std::copy(from.rootTriangles.begin(), from.rootTriangles.end(), arrays_.rootTriangles.get());
+    if (arrays_.isSurface)
+      prepareSurface();
+    else
+      prepareHeightfield();
+    walk_.oldNode.resize(mt.nodeCount());
+    walk_.newNode.assign(mt.nodeCount(), MultiTriangulation::kNone);
+    walk_.oldTriangle.resize(from.link.size());
+    walk_.turn.resize(mt.nodeCount());
+    walk_.ownParentsLeft = std::move(plan_.ownParents);
+    return true;
+  }
+  void prepareHeightfield() {
+    const MtArrays& from = walk_.mt.arrays();
+    if (arrays_.isLattice)
+      std::copy_n(from.vertices.samples.begin(), from.rootVertices, arrays_.samples.get());
+    else
+      std::copy_n(from.vertices.plan.begin(), from.rootVertices, arrays_.plan.get());
+    std::copy_n(from.vertices.rawHeights.begin(), from.rootVertices * from.vertices.encoding.bytesPerHeight(),
+                arrays_.rawHeights.get());
+  }
+  void prepareSurface() {
+    const MtArrays& from = walk_.mt.arrays();
+    for (std::uint32_t v = 0; v < from.rootVertices; ++v)
+      arrays_.setPlace(v, from.vertices.place(VertexId(v)));
+    unsigned codes = 1u << ((1u << packed::kShiftBits) - 1);
+    for (std::size_t t = 0; t < from.error.size(); ++t) codes |= unsigned{from.error[t]} | from.rms[t];
+    arrays_.errorShift = static_cast<unsigned>(std::countr_zero(codes));
+    const auto stays = std::ranges::find(from.remover, MultiTriangulation::kNone) - from.remover.begin();
+    if (static_cast<std::size_t>(stays) == from.remover.size()) return;
+    arrays_.finestError = from.error[static_cast<std::size_t>(stays)];
+    arrays_.finestRms = from.rms[static_cast<std::size_t>(stays)];
+  }
+
+  /// Of a surface only: those of heightfields have nothing beside the MT that is in its order.
+  PackedOrder orderOf() const {
+    PackedOrder order;
+    if (!arrays_.isSurface) return order;
+    const std::uint32_t rootVertices = walk_.mt.rootVertexCount(), roots = walk_.mt.rootTriangleCount();
+    order.vertexOf.resize(walk_.mt.vertexCount());
+    order.triangleOf.resize(walk_.mt.triangleIdCount());
+    std::iota(order.vertexOf.begin(), order.vertexOf.begin() + rootVertices, 0u);
+    std::iota(order.triangleOf.begin(), order.triangleOf.begin() + roots, 0u);
+    for (std::uint32_t n = 0; n < walk_.mt.nodeCount(); ++n)
+      order.vertexOf[rootVertices + n] = rootVertices + walk_.oldNode[n];
+    std::ranges::copy(walk_.oldTriangle, order.triangleOf.begin() + roots);
+    return order;
+  }
+
+  /// Frees the memory that only the walk needs.
+  void giveWalkBack() {
+    arrays_ = {};
+    walk_.oldNode = {};
+    walk_.newNode = {};
+    walk_.oldTriangle = {};
+    walk_.turn = {};
+    walk_.ownParentsLeft = {};
+    spaces_.clear();
+  }
+
+  std::optional<std::string> walkPacket(std::size_t i, Streams& streams) {
+    Streams& recorded = spaces_.local().streams;
+    recorded.clear();
+    WriterIo io(walk_, static_cast<std::uint32_t>(i), recorded);
+    std::optional<std::string> bad = arrays_.isSurface       ? walkNodes<SurfaceForm>(i, io)
+                                     : arrays_.holdsFloats() ? walkNodes<HeightfieldForm<float>>(i, io)
+                                                             : walkNodes<HeightfieldForm<double>>(i, io);
+    recorded.rawBits = io.rawBits.take();
+    streams = recorded;  // a copy without spare capacity; `recorded` keeps its memory for the next packet
+    return bad;
+  }
+
+  template <class Form>
+  std::optional<std::string> walkNodes(std::size_t i, WriterIo& io) {
+    if (i == 0 && !codeRoot<Form>(arrays_, io)) return "come after an invalid root";
+    NodeCoder<Form, WriterIo> coder(arrays_, plan_.directory, plan_.directory.packets[i], io,
+                                    spaces_.local().coder);
+    if (!coder.run()) return coder.problem();
+    return std::nullopt;
+  }
+
+  static std::vector<RansTable> tablesFor(const std::vector<Streams>& streams) {
+    std::vector<std::array<std::uint64_t, RansTable::kAlphabet>> counts(kTables);
+    for (const Streams& s : streams)
+      for (const auto& symbols : s.symbols)
+        for (const RansSymbol symbol : symbols) ++counts[symbol.table][symbol.symbol];
+    std::vector<RansTable> tables;
+    for (const auto& c : counts) tables.push_back(RansTable::ofCounts(c));
+    return tables;
+  }
+
+  std::vector<std::byte> encode(Packet& packet, Streams& streams, std::span<const RansTable> tables,
+                                bool isFirst) const {
+    std::vector<std::byte> bytes;
+    for (unsigned s = 0; s < kStreams; ++s) {
+      const auto coded = ransEncode(streams.symbols[s], tables);
+      packet.streamBytes[s] = static_cast<std::uint32_t>(coded.size());
+      bytes.insert(bytes.end(), coded.begin(), coded.end());
+      streams.symbols[s] = {};
+    }
+    packet.streamBytes[kBoundBytes] = static_cast<std::uint32_t>(streams.boundBytes.size());
+    bytes.insert(bytes.end(), streams.boundBytes.begin(), streams.boundBytes.end());
+    const MultiTriangulation& mt = walk_.mt;
+    const std::uint64_t roots = std::uint64_t{mt.arrays().rootVertices} + mt.rootTriangleCount();
+    const std::uint64_t things = packet.nodes + (isFirst ? roots : 0);
+    const std::uint64_t least = leastBytes(things);
+    if (bytes.size() + streams.rawBits.size() < least) streams.rawBits.resize(least - bytes.size());
+    packet.streamBytes[kRawBits] = static_cast<std::uint32_t>(streams.rawBits.size());
+    bytes.insert(bytes.end(), streams.rawBits.begin(), streams.rawBits.end());
+    packet.checksum = amtChecksum(bytes);
+    return bytes;
+  }
+
+  /// Memory of a thread, reused from packet to packet.
+  struct Space {
+    Streams streams;
+    CoderSpace coder;
+  };
+
+  const RunContext& context_;
+  Plan plan_;
+  Arrays arrays_;
+  Walk walk_;
+  PackedOrder order_;
+  tbb::enumerable_thread_specific<Space> spaces_;
+};
+
+/// Whether all triangles that stay have the same error and RMS, of which a packed file says one.
+bool hasOneFinestError(const MtArrays& a) {
+  std::size_t first = a.remover.size();
+  for (std::size_t t = 0; t < a.remover.size(); ++t) {
+    if (a.remover[t] != MultiTriangulation::kNone) continue;
+    if (first == a.remover.size()) first = t;
+    if (a.error[t] != a.error[first] || a.rms[t] != a.rms[first]) return false;
+  }
+  return true;
+}
+
+Result<PackedSurfaceMt> packSurface(const MultiTriangulation& mt, const SurfacePackOptions& options,
+                                    const RunContext& context) {
+  ARETE_TRY(RoundedSurface rounded, roundedSurface(mt, options.positionBits));
+  const MtArrays& a = rounded.mt.arrays();
+  if (!hasOneFinestError(a))
+    return failure(ErrorCode::invalidData, "has triangles that stay with different errors");
+  MtKind kind;
+  kind.isSurface = true;
+  kind.hasDoubles = !a.vertices.places64.empty();
+  kind.step = rounded.step;
+  kind.scale = a.scale;
+  kind.metric = a.metric;
+  Packer packer(rounded.mt, kind, context);
+  ARETE_TRY(PackedMt packed, packer.run());
+  return PackedSurfaceMt{std::move(packed), packer.takeOrder(), kind.hasDoubles,
+                         kind.step,         rounded.moved,      a.scale};
+}
+
+}  // namespace
+}  // namespace packed
+
+Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context) try {
+  return withThreads(context, [&] { return packed::Packer(model.mt, packed::kindOf(model), context).run(); });
+} catch (...) {
+  return caughtFailure();
+}
+
+Result<PackedSurfaceMt> packSurfaceMt(const MultiTriangulation& mt, const SurfacePackOptions& options,
+                                      const RunContext& context) try {
+  return withThreads(context, [&] { return packed::packSurface(mt, options, context); });
+} catch (...) {
+  return caughtFailure();
+}
+
+}  // namespace arete

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A packet is decoded after those that it depends on; then saturated errors and spheres are computed in the
+// opposite order (order.h). The walk checks every index before it writes it, so the indices need no check
+// afterwards. A sphere's radius is negative until it is final, which shows if a damaged file makes a parent
+// depend on a child that is not.
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <new>
+#include <optional>
+
+#include "engine/base/caught_failure.h"
+#include "engine/parallel/with_threads.h"
+#include "io/store/format/checksum.h"
+#include "io/store/format/metadata.h"
+#include "io/store/format/surface_metadata.h"
+#include "io/store/packed/heightfield/form.h"
+#include "io/store/packed/nodes/node_coder.h"
+#include "io/store/packed/nodes/order.h"
+#include "io/store/packed/packed.h"
+#include "io/store/packed/reader_io.h"
+#include "io/store/packed/surface/form.h"
+
+namespace arete {
+namespace packed {
+namespace {
+
+/// Drops from each packet the bands that are not required, by it or by a packet that depends on it. (Parents
+/// are of no lower band than their children.)
+/// @return whether the lowest required band is the same in all packets
+bool keepRequired(Directory& directory, const RequiredError& wanted, const OutwardScale& scale) {
+  constexpr std::uint32_t kNone = MultiTriangulation::kBands;
+  std::vector<Packet>& packets = directory.packets;
+  std::vector<std::uint32_t> lowest(packets.size());
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    const Packet& c = packets[i];
+    const double error = wanted({c.xMin, c.yMin, c.xMax, c.yMax});
+    lowest[i] = error == std::numeric_limits<double>::infinity() ? kNone
+                : error > 0 ? MultiTriangulation::bandOf(scale.floorCode(error))
+                            : 0;
+  }
+  for (std::size_t i = packets.size(); i-- > 1;) {
+    lowest[0] = std::min(lowest[0], lowest[i]);
+    for (const std::uint32_t other : packets[i].dependsOn) lowest[other] = std::min(lowest[other], lowest[i]);
+  }
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    Packet& c = packets[i];
+    c.isCut = std::erase_if(c.runs, [&](const Run& run) { return run.band < lowest[i]; }) > 0;
+    if (i > 0 && c.runs.empty()) c.borders = 0;
+  }
+  directory.number();
+  return std::ranges::all_of(lowest, [&](std::uint32_t band) { return band == lowest[0]; });
+}
+
+class Unpacker {
+ public:
+  Unpacker(Directory directory, std::span<const RansTable> tables, std::span<const std::byte> bytes,
+           const RunContext& context, bool isPart, const LoadPacked& load)
+      : directory_(std::move(directory)), bytes_(bytes), context_(context), isPart_(isPart), load_(load) {
+    tables_.resize(kTables * RansTable::kEntries);
+    for (std::size_t t = 0; t < kTables; ++t) tables[t].writeEntries(&tables_[t * RansTable::kEntries]);
+  }
+
+  Result<MultiTriangulation> run(const MtKind& kind, AmtCounts counts) {
+    const auto arrays = std::make_shared<Arrays>();
+    static_cast<MtKind&>(*arrays) = kind;
+    counts.nodes = directory_.nodes();
+    counts.slots = directory_.slots();
+    if (!arrays->allocate(counts, directory_.borders()))
+      return failure(ErrorCode::outOfMemory, "needs more memory to be unpacked than there is");
+    arrays_ = arrays.get();
+
+    auto problem = overPackets(Direction::forwards, [this](std::size_t i) { return decode(i); });
+    if (!problem && !context_.cancelled())
+      problem = overPackets(Direction::backwards, [this](std::size_t i) {
+        return saturate(*arrays_, directory_.packets[i], isPart_);
+      });
+    if (context_.cancelled()) return failure(ErrorCode::interrupted, "unpacking was interrupted");
+    if (problem)
+      return failure(ErrorCode::corrupt,
+                     fmt::format("packet {} of the packed nodes: {}", problem->packet, problem->what));
+    arrays->finish();
+    context_.report("unpack", 1);
+    return Arrays::model(arrays);
+  }
+
+ private:
+  /// Calls body(i) for the packets that are required.
+  template <class Body>
+  std::optional<PacketProblem> overPackets(Direction direction, const Body& body) {
+    return forPackets(
+        directory_.packets, direction, context_,
+        [&](std::size_t i) -> std::optional<std::string> {
+          if (directory_.packets[i].runs.empty() && i != 0) return std::nullopt;
+          return body(i);
+        },
+        [&](std::size_t i) {
+          done_ += directory_.packets[i].nodes;
+          context_.report("unpack",
+                          static_cast<double>(done_) / (2 * static_cast<double>(arrays_->nodes) + 1));
+        });
+  }
+
+  std::optional<std::string> decode(std::size_t index) {
+    const Packet& packet = directory_.packets[index];
+    const auto bytes = bytes_.subspan(packet.offset, packet.bytes());
+    if (load_ && !load_(bytes)) return "cannot be read";
+    if (amtChecksum(bytes) != packet.checksum) return "has been altered: its checksum does not match";
+    ReaderIo io(*arrays_, directory_, index, tables_.data(), bytes);
+    return arrays_->isSurface       ? decode<SurfaceForm>(index, io)
+           : arrays_->holdsFloats() ? decode<HeightfieldForm<float>>(index, io)
+                                    : decode<HeightfieldForm<double>>(index, io);
+  }
+  template <class Form>
+  std::optional<std::string> decode(std::size_t index, ReaderIo& io) {
+    if (index == 0 && !codeRoot<Form>(*arrays_, io)) return "has an invalid root";
+    NodeCoder<Form, ReaderIo> coder(*arrays_, directory_, directory_.packets[index], io, spaces_.local());
+    if (!coder.run()) return coder.problem();
+    if (!directory_.packets[index].isCut && !io.isAtEnd())
+      return "has symbols that do not end where they should";
+    return std::nullopt;
+  }
+
+  Directory directory_;
+  std::span<const std::byte> bytes_;
+  const RunContext& context_;
+  bool isPart_;
+  const LoadPacked& load_;
+  std::vector<std::uint32_t> tables_;  ///< entries of all tables
+  Arrays* arrays_ = nullptr;
+  tbb::enumerable_thread_specific<CoderSpace> spaces_;
+  std::uint64_t done_ = 0;
+};
+
+}  // namespace
+}  // namespace packed
+
+namespace {
+
+Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& counts,
+                                  std::span<const std::byte> directoryBytes,
+                                  std::span<const std::byte> tableBytes, std::span<const std::byte> nodes,
+                                  const RequiredError& wanted, const RunContext& context,
+                                  const LoadPacked& load = {}) {
+  std::string problem;
+  auto directory = packed::directoryOf(directoryBytes, problem, kind.isSurface);
+  if (!directory) return failure(ErrorCode::corrupt, "the directory of the packed nodes " + problem);
+  if (directory->nodes() != counts.nodes || directory->slots() != counts.slots)
+    return failure(ErrorCode::corrupt, "the packed nodes are not as many as the metadata says");
+  std::uint64_t bytes = 0, things = counts.rootVertices + counts.rootTriangles;
+  for (const packed::Packet& packet : directory->packets) {
+    bytes += packet.bytes();
+    things += packet.nodes;
+    if (packet.bytes() < packed::leastBytes(things))
+      return failure(ErrorCode::corrupt, "the packed nodes are more than their bytes can hold");
+    things = 0;
+  }
+  if (bytes != nodes.size())
+    return failure(
+        ErrorCode::corrupt,
+        fmt::format("the packed nodes have {} bytes where their directory states {}", nodes.size(), bytes));
+  if (counts.rootTriangles + directory->borders() > packed::kMostBorders)
+    return failure(ErrorCode::corrupt,
+                   "the packed nodes leave more triangles to others than can be numbered");
+  const auto tables = tablesOf(tableBytes, packed::kTables);
+  if (!tables) return failure(ErrorCode::corrupt, "the tables of the packed nodes are damaged");
+  const bool isPart = wanted && !packed::keepRequired(*directory, wanted, kind.scale);
+  return withThreads(context, [&] {
+    return packed::Unpacker(std::move(*directory), *tables, nodes, context, isPart, load).run(kind, counts);
+  });
+}
+
+}  // namespace
+
+Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,
+                                    std::span<const std::byte> tables, std::span<const std::byte> nodes,
+                                    const RequiredError& wanted, const RunContext& context,
+                                    const LoadPacked& load) try {
+  packed::MtKind kind;
+  kind.isLattice = metadata.model.isRaster;
+  kind.hasFills = metadata.model.options.rimTolerance > 0;
+  kind.columns = metadata.model.columns;
+  kind.rows = metadata.model.rows;
+  kind.encoding = metadata.encoding;
+  kind.scale = metadata.scale;
+  kind.metric = metadata.metric;
+  return unpack(kind, metadata.counts, directory, tables, nodes, wanted, context, load);
+} catch (...) {
+  return caughtFailure();
+}
+
+Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata,
+                                           std::span<const std::byte> directory,
+                                           std::span<const std::byte> tables,
+                                           std::span<const std::byte> nodes, const RunContext& context) try {
+  packed::MtKind kind;
+  kind.isSurface = true;
+  kind.hasDoubles = metadata.hasDoubles;
+  kind.step = metadata.positionStep;
+  kind.moved = metadata.model.positionError;
+  kind.scale = metadata.scale;
+  kind.metric = metadata.metric;
+  return unpack(kind, metadata.counts, directory, tables, nodes, {}, context);
+} catch (...) {
+  return caughtFailure();
+}
+
+double packedErrorBeyond(std::span<const std::byte> directoryBytes, const OutwardScale& scale,
+                         std::uint64_t nodes) {
+  std::string problem;
+  std::optional<packed::Directory> directory;
+  try {
+    directory = packed::directoryOf(directoryBytes, problem);
+  } catch (const std::bad_alloc&) {
+    return 0;
+  }
+  if (!directory) return 0;
+  std::array<std::uint64_t, MultiTriangulation::kBands> nodesOfBand{};
+  for (const packed::Packet& packet : directory->packets)
+    for (const packed::Run& run : packet.runs) nodesOfBand[run.band] += run.nodes;
+  std::uint64_t sum = 0;
+  for (std::uint32_t band = MultiTriangulation::kBands; band-- > 1;)
+    if ((sum += nodesOfBand[band]) >= nodes)
+      return scale.decode(static_cast<OutwardScale::Code>(band << MultiTriangulation::kBandShift));
+  return 0;
+}
+
+}  // namespace arete
