@@ -33,7 +33,6 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = MultiTriangulation::kNone;
 constexpr std::size_t kCheckEvery = 1 << 12;
 
 /// Whether a triangle satisfies the criterion; a uniform error is compared as a code, without the virtual
@@ -171,7 +170,7 @@ class Sweep {
   /// errors break the laws), or if it was stopped.
   std::optional<MemberSet> run(const std::function<bool()>& stop) {
     for (std::uint32_t t = 0; t < mt_.rootTriangleCount(); ++t)
-      if (a_.remover[t] != kNone && !test_.passes(t, {})) include(a_.remover[t]);
+      if (a_.remover[t] != MultiTriangulation::kNone && !test_.passes(t, {})) include(a_.remover[t]);
     const bool isThrough = candidates_.forSpans([&](std::uint32_t begin, std::uint32_t end, auto nodeAt) {
       if (stop()) return false;
       for (std::uint32_t index = begin; index < end; ++index) {
@@ -232,7 +231,7 @@ class Sweep {
       const std::uint32_t r = removers[i], here = std::min(r, notFailing);
       const bool fails = errors[i] > code;
       included[i] = fails ? here : notFailing;
-      beyond |= fails && r >= notFailing && r != kNone ? 1 : 0;
+      beyond |= fails && r >= notFailing && r != MultiTriangulation::kNone ? 1 : 0;
     }
     std::uint8_t* const in = in_.data();
     for (std::uint32_t i = 0; i < count; ++i) in[included[i]] = 1;
@@ -271,7 +270,7 @@ class Sweep {
     std::optional<Test::Around> around;  // of the star
     for (std::uint32_t s = begin; s < end; ++s) {
       const std::uint32_t r = a_.remover[roots + s];
-      if (r == kNone || isIn(r)) continue;
+      if (r == MultiTriangulation::kNone || isIn(r)) continue;
       // The criterion allows the saturated error of a node that is no candidate, and with it all that it
       // removes.
       if (!candidates_.contains(r) && a_.error[roots + s] <= a_.saturatedError[r]) continue;
@@ -346,12 +345,12 @@ std::optional<MemberSet> leastMembersByWalk(const MultiTriangulation& mt, const 
   NodeSet in(mt.nodeCount(), 0);
   std::vector<std::uint32_t> stack;
   const auto include = [&](std::uint32_t n) {
-    if (n == kNone || in[n]) return;
+    if (n == MultiTriangulation::kNone || in[n]) return;
     in[n] = 1;
     stack.push_back(n);
   };
   for (std::uint32_t t = 0; t < roots; ++t)
-    if (a.remover[t] != kNone && !test.passes(t, {})) include(a.remover[t]);
+    if (a.remover[t] != MultiTriangulation::kNone && !test.passes(t, {})) include(a.remover[t]);
   for (std::size_t steps = 0; !stack.empty(); ++steps) {
     if (steps % kCheckEvery == 0 && stop()) return std::nullopt;
     const std::uint32_t n = stack.back();
@@ -359,7 +358,7 @@ std::optional<MemberSet> leastMembersByWalk(const MultiTriangulation& mt, const 
     for (const std::uint32_t t : mt.floor(NodeId(n))) include(mt.creator(TriangleId(t)).index());
     for (std::uint32_t s = a.slotBegin[n]; s < a.slotBegin[n + 1]; ++s) {
       const std::uint32_t r = a.remover[roots + s];
-      if (r != kNone && !in[r] && !test.passes(roots + s, NodeId(n))) include(r);
+      if (r != MultiTriangulation::kNone && !in[r] && !test.passes(roots + s, NodeId(n))) include(r);
     }
   }
   return MemberSet(in);

@@ -17,7 +17,7 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kGroupsPerRun = 64;
+constexpr std::uint32_t kMemberGroupsPerRun = 64;
 
 /// A bit per byte, set where the byte is not 0. Precondition: count <= 64.
 std::uint64_t bitsOf(const std::uint8_t* bytes, std::uint32_t count) {
@@ -96,7 +96,7 @@ MemberSet::MemberSet(std::uint32_t certain, std::uint32_t end, std::uint32_t gro
 }
 
 MemberSet::MemberSet(const NodeSet& set)
-    : MemberSet(0, static_cast<std::uint32_t>(set.size()), kGroupsPerRun,
+    : MemberSet(0, static_cast<std::uint32_t>(set.size()), kMemberGroupsPerRun,
                 [&](std::uint32_t first, std::uint32_t last, Sink& sink) {
                   for (std::uint32_t word = first; word < last; ++word) {
                     const std::size_t begin = std::size_t(word) * kNodesPerWord;
@@ -106,7 +106,7 @@ MemberSet::MemberSet(const NodeSet& set)
                 }) {}
 
 MemberSet::MemberSet(const std::vector<std::uint32_t>& nodes, std::uint32_t end)
-    : MemberSet(0, end, kGroupsPerRun, [&](std::uint32_t first, std::uint32_t last, Sink& sink) {
+    : MemberSet(0, end, kMemberGroupsPerRun, [&](std::uint32_t first, std::uint32_t last, Sink& sink) {
         auto at = std::ranges::lower_bound(nodes, first * kNodesPerWord);
         while (at != nodes.end() && *at / kNodesPerWord < last) {
           const std::uint32_t word = *at / kNodesPerWord;

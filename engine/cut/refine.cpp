@@ -25,8 +25,7 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = MultiTriangulation::kNone;
-constexpr std::size_t kCheckEvery = 1 << 12;
+constexpr std::size_t kRefinementsPerCheck = 1 << 12;
 constexpr std::uint8_t kClaimed = 2;  // about to enter
 /// A walk to fewer triangles than one for so many nodes takes shorter than the evaluations that would shorten
 /// it.
@@ -66,7 +65,7 @@ class Walk {
       return true;
     };
     for (std::size_t steps = 0;; ++steps) {
-      if (steps % kCheckEvery == 0 && context.cancelled())
+      if (steps % kRefinementsPerCheck == 0 && context.cancelled())
         return failure(ErrorCode::interrupted, "the cut was interrupted");
       while (!heap_.empty() && isIn(mt_.arrays().remover[heap_.top().triangle])) heap_.pop();
       recordState();
@@ -103,7 +102,7 @@ class Walk {
   void offer(std::uint32_t id, NodeId creator) {
     const TriangleId t(id);
     const std::uint32_t remover = mt_.arrays().remover[id];
-    if (remover == kNone || isIn(remover)) return;
+    if (remover == MultiTriangulation::kNone || isIn(remover)) return;
     const Criterion::Corners corners = mt_.corners(t, creator);
     if (isSatisfied(mt_, criterion_, t, corners)) return;
     const RefineKey key = options_.order ? options_.order->key(mt_, criterion_, t, corners, arrivals_)

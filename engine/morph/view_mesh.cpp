@@ -21,7 +21,7 @@
 namespace arete {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kMostBetween = 8;  // unchanged triangles that do not end a range
 
 }  // namespace
@@ -80,7 +80,7 @@ class ViewMesh::State {
 
   /// The middle of the box of the root's vertices, which contains the terrain in plan.
   Vec3 middle() const {
-    Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
+    Vec3 low{kInfinite, kInfinite, kInfinite}, high{-kInfinite, -kInfinite, -kInfinite};
     for (std::uint32_t v = 0; v < mt().rootVertexCount(); ++v) {
       const Vec3 p = metric().toMetric(mt().position(VertexId(v)));
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};

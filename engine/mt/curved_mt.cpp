@@ -31,7 +31,7 @@ namespace {
 
 constexpr double kRounding = 1 + 1e-9;
 
-struct Owner {
+struct CurvedOwner {
   MultiTriangulation original;
   Bending bending;
   std::vector<OutwardScale::Code> error, saturatedError;
@@ -123,7 +123,7 @@ double curvedAway(const Bending& bending, const Vec3& a, const Vec3& b, const Ve
 MultiTriangulation curved(const MultiTriangulation& mt, Bending bending) {
   assert(bending.plan.size() == mt.vertexCount() && bending.heights.size() == mt.vertexCount());
   assert(bending.curvature >= 0 && bending.turning >= 0 && bending.metric.scale.z > 0);
-  auto owner = std::make_shared<Owner>();
+  auto owner = std::make_shared<CurvedOwner>();
   owner->original = mt;
   owner->bending = std::move(bending);
   MtArrays a = mt.arrays();

@@ -16,7 +16,7 @@
 namespace arete {
 namespace {
 
-struct Owner {
+struct ExaggeratedOwner {
   MultiTriangulation original;
   std::vector<Sphere> sphere;
   NodeBlocks blocks;
@@ -26,7 +26,7 @@ struct Owner {
 
 MultiTriangulation exaggerated(const MultiTriangulation& mt, double factor) {
   assert(std::isfinite(factor) && factor > 0);
-  auto owner = std::make_shared<Owner>();
+  auto owner = std::make_shared<ExaggeratedOwner>();
   owner->original = mt;
   MtArrays a = mt.arrays();
   a.metric.scale.z *= factor;

@@ -10,14 +10,14 @@
 namespace arete {
 namespace {
 
-constexpr std::size_t kSpan = 1 << 14;
+constexpr std::size_t kVerticesPerSpan = 1 << 14;
 
 }  // namespace
 
 void ThresholdList::assign(std::span<const VertexId> vertices, std::span<const std::uint8_t> isFixed) {
   // All threads fill the arrays: the first write to fresh memory is what takes time.
   index_.resize(isFixed.size());
-  forRanges(LoopThreads::all, index_.size(), kSpan, [&](std::size_t begin, std::size_t end) {
+  forRanges(LoopThreads::all, index_.size(), kVerticesPerSpan, [&](std::size_t begin, std::size_t end) {
     std::fill(index_.begin() + std::ptrdiff_t(begin), index_.begin() + std::ptrdiff_t(end), kNoIndex);
   });
   vertices_.resize(vertices.size() + 1);
@@ -25,7 +25,7 @@ void ThresholdList::assign(std::span<const VertexId> vertices, std::span<const s
   vertices_[kNoIndex] = VertexId();
   thresholds_[kNoIndex] = kNow;
   std::atomic<std::size_t> fixed = 0;
-  forRanges(LoopThreads::all, vertices.size(), kSpan, [&](std::size_t begin, std::size_t end) {
+  forRanges(LoopThreads::all, vertices.size(), kVerticesPerSpan, [&](std::size_t begin, std::size_t end) {
     std::size_t fixedHere = 0;
     for (std::size_t i = begin; i != end; ++i) {
       const VertexId v = vertices[i];
@@ -42,7 +42,7 @@ void ThresholdList::assign(std::span<const VertexId> vertices, std::span<const s
 }
 
 void ThresholdList::collect(double threshold, std::vector<VertexId>& due, Scratch& scratch) const {
-  scratch(all().size(), kSpan, due, [&](std::size_t begin, std::size_t end, VertexId* to) {
+  scratch(all().size(), kVerticesPerSpan, due, [&](std::size_t begin, std::size_t end, VertexId* to) {
     const std::size_t first = all().begin;
     return collectTo(first + begin, first + end, threshold, to);
   });
@@ -64,7 +64,7 @@ VertexId* ThresholdList::collectTo(std::size_t begin, std::size_t end, double th
 
 void ThresholdList::collect(std::span<const VertexId> some, double threshold, std::vector<VertexId>& due,
                             Scratch& scratch) const {
-  scratch(some.size(), kSpan, due, [&](std::size_t begin, std::size_t end, VertexId* to) {
+  scratch(some.size(), kVerticesPerSpan, due, [&](std::size_t begin, std::size_t end, VertexId* to) {
     for (const VertexId v : some.subspan(begin, end - begin)) {
       *to = v;
       to += index_[v] != kNoIndex && thresholds_[index_[v]] <= threshold ? 1 : 0;
@@ -112,7 +112,7 @@ void ThresholdList::compact() {
   if (removable_ + fixed_ + 1 >= vertices_.size() / 2) return;
   UninitializedVector<std::uint32_t> kept;  // indices
   const std::size_t first = all().begin;
-  ParallelFilter<std::uint32_t>()(all().size(), kSpan, kept,
+  ParallelFilter<std::uint32_t>()(all().size(), kVerticesPerSpan, kept,
                                   [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
                                     for (std::size_t index = first + begin; index < first + end; ++index) {
                                       *to = static_cast<std::uint32_t>(index);
@@ -124,7 +124,7 @@ void ThresholdList::compact() {
   UninitializedVector<float> thresholds(vertices.size());
   vertices[kNoIndex] = vertices_[kNoIndex];
   thresholds[kNoIndex] = thresholds_[kNoIndex];
-  forRanges(LoopThreads::all, kept.size(), kSpan, [&](std::size_t begin, std::size_t end) {
+  forRanges(LoopThreads::all, kept.size(), kVerticesPerSpan, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) {
       const std::size_t index = first + i;
       vertices[index] = vertices_[kept[i]];

@@ -14,11 +14,11 @@
 namespace arete {
 namespace {
 
-constexpr std::size_t kMostFiles = 128, kLongestPath = 1024;
+constexpr std::size_t kMostFiles = 128, kLongestWatchedPath = 1024;
 
 struct Watched {
   std::atomic<bool> isSet = false;
-  std::array<char, kLongestPath> path;
+  std::array<char, kLongestWatchedPath> path;
   struct stat status;
 };
 
@@ -43,7 +43,8 @@ void watchInputFiles() noexcept {
 
 void watchInputFile(const std::string& path) noexcept {
   struct stat now {};
-  if (!isWatching || path.size() >= kLongestPath || ::stat(path.c_str(), &now) != 0 || !S_ISREG(now.st_mode))
+  if (!isWatching || path.size() >= kLongestWatchedPath || ::stat(path.c_str(), &now) != 0 ||
+      !S_ISREG(now.st_mode))
     return;
   const std::lock_guard lock(mutex);
   // What was noted first stays: a file that is opened twice is the same both times.

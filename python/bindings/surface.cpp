@@ -69,14 +69,14 @@ SurfacePtr buildArrays(const Doubles& vertices, const Indices& triangles, const 
 }
 
 /// What is asked of a cut.
-struct CutRequest {
+struct SurfaceCutRequest {
   SurfaceCriterion criterion;
   bool isDisplaced = true, isFitted = false;
 };
 
 /// Adds a warning where rounding leaves more than the tolerance.
-void sayWhatRoundingLeft(const SurfaceModel& model, const CutRequest& request, const Criterion& criterion,
-                         const Cut& cut, Tin& tin) {
+void sayWhatRoundingLeft(const SurfaceModel& model, const SurfaceCutRequest& request,
+                         const Criterion& criterion, const Cut& cut, Tin& tin) {
   const SurfaceCriterion& c = request.criterion;
   if (!c.maxError && !c.pixelError && (!c.camera || c.maxTriangles))
     return;  // a budget alone states no tolerance
@@ -89,7 +89,8 @@ void sayWhatRoundingLeft(const SurfaceModel& model, const CutRequest& request, c
                   model.positionError, left));
 }
 
-Result<Tin> takeSurfaceTin(const SurfaceModel& model, const CutRequest& request, const RunContext& context) {
+Result<Tin> takeSurfaceTin(const SurfaceModel& model, const SurfaceCutRequest& request,
+                           const RunContext& context) {
   ARETE_TRY(const auto criterion, engineCriterion(request.criterion, model));
   ARETE_TRY(const Cut cut, takeCut(model.mt, *criterion, engineOptions(request.criterion), context));
   Tin tin;
@@ -191,14 +192,14 @@ void defineModel(py::module_& module) {
               std::optional<std::uint32_t> maxTriangles, const std::optional<RegionOfSpace>& region,
               double outsideError, const std::optional<SurfaceCamera>& camera,
               std::optional<double> pixelError, bool isDisplaced, bool isFitted, const py::object& progress) {
-             CutRequest request{.criterion = {.maxError = maxError,
-                                              .maxTriangles = maxTriangles,
-                                              .region = region ? region->region : nullptr,
-                                              .outsideError = outsideError,
-                                              .camera = camera,
-                                              .pixelError = pixelError},
-                                .isDisplaced = isDisplaced,
-                                .isFitted = isFitted};
+             SurfaceCutRequest request{.criterion = {.maxError = maxError,
+                                                     .maxTriangles = maxTriangles,
+                                                     .region = region ? region->region : nullptr,
+                                                     .outsideError = outsideError,
+                                                     .camera = camera,
+                                                     .pixelError = pixelError},
+                                       .isDisplaced = isDisplaced,
+                                       .isFitted = isFitted};
              Tin tin = call(progress, [&](const RunContext& context) {
                return takeSurfaceTin(model, request, context);
              });

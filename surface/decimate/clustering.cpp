@@ -19,17 +19,17 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFF;
+constexpr std::uint32_t kNoCell = 0xFFFFFFFF;
 /// Halvings of the box at most; vertices nearer than that share a leaf from the beginning.
 constexpr int kMostDepth = 24;
 
-struct Cell {
-  std::uint32_t parent = kNone, childrenLeft = 0;
+struct Cluster {
+  std::uint32_t parent = kNoCell, childrenLeft = 0;
   std::vector<std::uint32_t> children;
   std::vector<std::uint32_t> triangles;  ///< of a leaf: those with a corner in it and the others elsewhere
   Quadric quadric;
   Vec3 place{0, 0, 0};
-  std::uint32_t vertex = kNone;  ///< of the source
+  std::uint32_t vertex = kNoCell;  ///< of the source
   bool isLeaf = false;
 };
 
@@ -40,7 +40,7 @@ class Clustering {
         shape_(mesh.shape),
         options_(options),
         context_(context),
-        leafOf_(mesh.shape.positions.size(), kNone) {}
+        leafOf_(mesh.shape.positions.size(), kNoCell) {}
 
   Result<FramedResult> run() {
     divide();
@@ -56,7 +56,7 @@ class Clustering {
       heap_.pop();
       join(cell);
       if (const std::uint32_t parent = cells_[cell].parent;
-          parent != kNone && --cells_[parent].childrenLeft == 0)
+          parent != kNoCell && --cells_[parent].childrenLeft == 0)
         offer(parent);
     }
     context_.report("decimate", 1);
@@ -95,7 +95,7 @@ class Clustering {
       Part part = std::move(parts.back());
       parts.pop_back();
       if (part.vertices.size() <= 1 || part.depth == kMostDepth) {
-        Cell& leaf = cells_[part.cell];
+        Cluster& leaf = cells_[part.cell];
         leaf.isLeaf = true;
         if (part.vertices.empty()) continue;
         leaf.vertex = part.vertices[0];
@@ -121,7 +121,7 @@ class Clustering {
         parts.push_back({std::move(eighths[e]), corner, half, child, part.depth + 1});
       }
     }
-    for (Cell& cell : cells_)
+    for (Cluster& cell : cells_)
       for (const std::uint32_t child : cell.children) cell.childrenLeft += cells_[child].isLeaf ? 0 : 1;
     isThere_.assign(source_.triangles.size(), 1);
     for (std::uint32_t t = 0; t < source_.triangles.size(); ++t) {
@@ -147,7 +147,7 @@ class Clustering {
 
   /// Puts a cell whose children are leaves on the heap.
   void offer(std::uint32_t c) {
-    Cell& cell = cells_[c];
+    Cluster& cell = cells_[c];
     ++evaluations_;
     std::vector<Vec3> places;
     for (const std::uint32_t child : cell.children) {
@@ -164,7 +164,7 @@ class Clustering {
 
   void join(std::uint32_t c) {
     ++steps_;
-    Cell& cell = cells_[c];
+    Cluster& cell = cells_[c];
     cell.isLeaf = true;
     std::vector<std::uint32_t> triangles;
     for (const std::uint32_t child : cell.children) {
@@ -173,7 +173,7 @@ class Clustering {
     }
     std::ranges::sort(triangles);
     triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-    const auto isMine = [&](std::uint32_t leaf) { return leaf != kNone && cells_[leaf].parent == c; };
+    const auto isMine = [&](std::uint32_t leaf) { return leaf != kNoCell && cells_[leaf].parent == c; };
     for (const std::uint32_t t : triangles)
       for (const std::uint32_t v : source_.triangles[t])
         if (isMine(leafOf_[v])) leafOf_[v] = c;
@@ -191,7 +191,7 @@ class Clustering {
   FramedResult taken() const {
     // Corners of triangles that are left know their leaf.
     TriangleMesh shape;
-    std::vector<std::uint32_t> vertexOf, faceOf, numberOf(cells_.size(), kNone);
+    std::vector<std::uint32_t> vertexOf, faceOf, numberOf(cells_.size(), kNoCell);
     std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> sorted;
     for (std::uint32_t t = 0; t < source_.triangles.size(); ++t) {
       if (isThere_[t] == 0) continue;
@@ -208,7 +208,7 @@ class Clustering {
       std::array<std::uint32_t, 3> corners{};
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t leaf = leafOf_[source_.triangles[t][k]];
-        if (numberOf[leaf] == kNone) {
+        if (numberOf[leaf] == kNoCell) {
           numberOf[leaf] = static_cast<std::uint32_t>(vertexOf.size());
           vertexOf.push_back(cells_[leaf].vertex);
           shape.positions.push_back(cells_[leaf].place);
@@ -226,9 +226,9 @@ class Clustering {
     std::vector<std::uint32_t> all(leafOf_.size());
     for (std::uint32_t v = 0; v < all.size(); ++v) {
       all[v] = v;
-      if (leafOf_[v] == kNone) continue;
+      if (leafOf_[v] == kNoCell) continue;
       std::uint32_t leaf = leafOf_[v];
-      while (cells_[leaf].parent != kNone && cells_[cells_[leaf].parent].isLeaf) leaf = cells_[leaf].parent;
+      while (cells_[leaf].parent != kNoCell && cells_[cells_[leaf].parent].isLeaf) leaf = cells_[leaf].parent;
       all[v] = cells_[leaf].vertex;
     }
     return all;
@@ -238,7 +238,7 @@ class Clustering {
   const TriangleMesh& shape_;
   const DecimateOptions& options_;
   const RunContext& context_;
-  std::vector<Cell> cells_;
+  std::vector<Cluster> cells_;
   std::vector<std::uint32_t> leafOf_;  // by vertex; right for those of triangles that are there
   std::vector<std::uint8_t> isThere_;  // by triangle
   std::uint64_t triangleCount_ = 0, evaluations_ = 0, steps_ = 0;

@@ -13,8 +13,6 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = MeshAttributes::kNone;
-
 /// The corner 3 t + c of a triangle that is at one of its vertices.
 std::uint32_t cornerAt(const ContractionMesh& mesh, std::uint32_t t, std::uint32_t v) {
   const auto& corners = mesh.corners(t);
@@ -85,7 +83,7 @@ CornerAttributes::CornerAttributes(const SurfaceMesh& mesh)
   classOf_.reserve(3 * mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint32_t wedge = mesh.hasWedges() ? mesh.wedges[t][c] : kNone;
+      const std::uint32_t wedge = mesh.hasWedges() ? mesh.wedges[t][c] : MeshAttributes::kNone;
       const auto [at, isNew] =
           known.try_emplace({mesh.triangles[t][c], wedge, partOf_.empty() ? 0 : partOf_[t]},
                             static_cast<std::uint32_t>(wedgeOf_.size()));
@@ -100,10 +98,10 @@ CornerAttributes::CornerAttributes(const SurfaceMesh& mesh)
 
 bool CornerAttributes::isOnLine(const ContractionMesh& mesh, std::uint32_t v) const {
   if (!hasClasses_) return false;
-  std::uint32_t first = kNone;
+  std::uint32_t first = MeshAttributes::kNone;
   for (const std::uint32_t t : mesh.trianglesOf(v)) {
     const std::uint32_t here = classOf_[cornerAt(mesh, t, v)];
-    if (first == kNone) first = here;
+    if (first == MeshAttributes::kNone) first = here;
     if (here != first) return true;
   }
   return false;
@@ -119,14 +117,14 @@ CornerAttributes::Continuations CornerAttributes::continuations(const Contractio
     if (known == all.end())
       all.emplace_back(mine, there);
     else if (known->second != there)
-      known->second = kNone;
+      known->second = MeshAttributes::kNone;
   }
   return all;
 }
 
 std::uint32_t CornerAttributes::continued(const Continuations& all, std::uint32_t classOfV) {
   const auto found = std::ranges::find(all, classOfV, &Continuations::value_type::first);
-  return found == all.end() ? kNone : found->second;
+  return found == all.end() ? MeshAttributes::kNone : found->second;
 }
 
 bool CornerAttributes::mayJoin(const ContractionMesh& mesh, std::span<const std::uint32_t> vertices) const {
@@ -134,7 +132,7 @@ bool CornerAttributes::mayJoin(const ContractionMesh& mesh, std::span<const std:
   for (const std::uint32_t v : vertices.subspan(1)) {
     const Continuations all = continuations(mesh, v, vertices[0]);
     for (const std::uint32_t t : mesh.trianglesOf(v))
-      if (continued(all, classOf_[cornerAt(mesh, t, v)]) == kNone) return false;
+      if (continued(all, classOf_[cornerAt(mesh, t, v)]) == MeshAttributes::kNone) return false;
   }
   return true;
 }
@@ -180,14 +178,14 @@ SurfaceMesh CornerAttributes::take(const SurfaceMesh& source, const ContractionM
   vertexOf.clear();
   faceOf.clear();
   SurfaceMesh result;
-  std::vector<std::uint32_t> numberOf(mesh.vertexCount(), kNone), wedgeNumberOf(wedgeOf_.size(), kNone),
-      classes;
+  std::vector<std::uint32_t> numberOf(mesh.vertexCount(), MeshAttributes::kNone),
+      wedgeNumberOf(wedgeOf_.size(), MeshAttributes::kNone), classes;
   for (std::uint32_t t = 0; t < source.triangles.size(); ++t)
     if (mesh.isThere(t)) faceOf.push_back(t);
   for (const std::uint32_t t : faceOf)
     for (const std::uint32_t v : mesh.corners(t)) numberOf[v] = 0;
   for (std::uint32_t v = 0; v < numberOf.size(); ++v) {
-    if (numberOf[v] == kNone) continue;
+    if (numberOf[v] == MeshAttributes::kNone) continue;
     numberOf[v] = static_cast<std::uint32_t>(vertexOf.size());
     vertexOf.push_back(v);
     result.positions.push_back(mesh.position(v));
@@ -198,7 +196,7 @@ SurfaceMesh CornerAttributes::take(const SurfaceMesh& source, const ContractionM
       corners[c] = numberOf[corners[c]];
       if (!source.hasWedges()) continue;
       const std::uint32_t one = classOf_[3 * t + c];
-      if (wedgeNumberOf[one] == kNone) {
+      if (wedgeNumberOf[one] == MeshAttributes::kNone) {
         wedgeNumberOf[one] = static_cast<std::uint32_t>(classes.size());
         classes.push_back(one);
       }

@@ -20,8 +20,6 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = MeshAttributes::kNone;
-
 bool hasTriangleWithoutArea(const TriangleMesh& mesh) {
   return std::ranges::any_of(mesh.triangles, [&](const auto& t) {
     const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
@@ -70,7 +68,7 @@ Result<DecimatedMesh> decimateMended(const SurfaceMesh& mesh, const DecimateOpti
   ARETE_TRY(const SurfaceMesh mended, transferAttributes(mesh, std::move(repaired.mesh), vertexOf, faceOf));
   if (mended.triangles.empty()) return failure(ErrorCode::degenerate, "no face of the mesh has an area");
   ARETE_TRY(DecimatedMesh result, decimateFramed(mended, options, context));
-  std::vector<std::uint32_t> triangleFor(mesh.triangles.size(), kNone);
+  std::vector<std::uint32_t> triangleFor(mesh.triangles.size(), MeshAttributes::kNone);
   for (std::size_t t = faceOf.size(); t-- > 0;) triangleFor[faceOf[t]] = result.triangleFor[t];
   result.triangleFor = std::move(triangleFor);
   for (std::uint32_t& v : result.vertexOf) v = vertexOf[v];

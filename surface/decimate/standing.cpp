@@ -11,7 +11,6 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = MeshAttributes::kNone;
 constexpr std::size_t kMostLooked = 64;  // triangles of a vertex
 constexpr int kMostSteps = 64;
 
@@ -41,17 +40,18 @@ class Search {
   Search(const FramedMesh& source, const DecimatedMesh& result)
       : source_(source), result_(result), at_(result.mesh.shape()) {}
 
-  /// @param corners vertices of the result, or kNone
+  /// @param corners vertices of the result, or MeshAttributes::kNone
   std::uint32_t triangleFor(std::uint32_t face, std::array<std::uint32_t, 3> corners) const {
     const auto& [i, j, k] = source_.shape.triangles[face];
     const auto& p = source_.shape.positions;
     const Vec3 middle = (p[i] + p[j] + p[k]) / 3.0;
     // The vertex with the fewest triangles first: it is looked at however many it has.
     std::ranges::sort(corners, {}, [&](std::uint32_t v) {
-      return v == kNone || at_[v].empty() ? std::numeric_limits<std::size_t>::max() : at_[v].size();
+      return v == MeshAttributes::kNone || at_[v].empty() ? std::numeric_limits<std::size_t>::max()
+                                                          : at_[v].size();
     });
-    if (corners[0] == kNone || at_[corners[0]].empty()) return kNone;
-    std::uint32_t best = kNone;
+    if (corners[0] == MeshAttributes::kNone || at_[corners[0]].empty()) return MeshAttributes::kNone;
+    std::uint32_t best = MeshAttributes::kNone;
     std::pair<bool, double> least{true, std::numeric_limits<double>::infinity()};
     const auto look = [&](std::uint32_t v) {
       bool isNearer = false;
@@ -66,8 +66,8 @@ class Search {
     };
     look(corners[0]);
     for (std::size_t c = 1; c < 3; ++c)
-      if (corners[c] != kNone && at_[corners[c]].size() <= kMostLooked) look(corners[c]);
-    for (int step = 0; step < kMostSteps && best != kNone; ++step) {
+      if (corners[c] != MeshAttributes::kNone && at_[corners[c]].size() <= kMostLooked) look(corners[c]);
+    for (int step = 0; step < kMostSteps && best != MeshAttributes::kNone; ++step) {
       bool isNearer = false;
       const std::array<std::uint32_t, 3> around = result_.mesh.triangles[best];
       for (const std::uint32_t v : around)
@@ -109,12 +109,13 @@ void follow(std::vector<std::uint32_t>& joinedTo) {
 std::vector<std::uint32_t> trianglesFor(const FramedMesh& source, const DecimatedMesh& result,
                                         std::span<const std::uint32_t> joinedTo) {
   const auto& faces = source.shape.triangles;
-  std::vector<std::uint32_t> numberOf(source.shape.positions.size(), kNone), standing(faces.size(), kNone);
+  std::vector<std::uint32_t> numberOf(source.shape.positions.size(), MeshAttributes::kNone),
+      standing(faces.size(), MeshAttributes::kNone);
   for (std::uint32_t v = 0; v < result.vertexOf.size(); ++v) numberOf[result.vertexOf[v]] = v;
   for (std::uint32_t t = 0; t < result.faceOf.size(); ++t) standing[result.faceOf[t]] = t;
   const Search search(source, result);
   for (std::uint32_t f = 0; f < faces.size(); ++f) {
-    if (standing[f] != kNone) continue;
+    if (standing[f] != MeshAttributes::kNone) continue;
     std::array<std::uint32_t, 3> corners{};
     for (std::size_t c = 0; c < 3; ++c) corners[c] = numberOf[joinedTo[faces[f][c]]];
     standing[f] = search.triangleFor(f, corners);

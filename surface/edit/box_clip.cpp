@@ -17,8 +17,6 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = SurfaceMesh::kNone;
-
 unsigned axisOf(unsigned face) {
   return face / 2;
 }
@@ -116,8 +114,8 @@ std::uint32_t BoxClip::cutEdge(std::uint32_t a, std::uint32_t b, unsigned face) 
   const std::uint64_t key = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
   auto [found, isNew] = cutsOfEdge_.try_emplace(key);
   std::array<std::uint32_t, 6>& known = found->second;
-  if (isNew) known.fill(kNone);
-  if (known[face] != kNone) return known[face];
+  if (isNew) known.fill(SurfaceMesh::kNone);
+  if (known[face] != SurfaceMesh::kNone) return known[face];
   if (isBefore(positions_[b], positions_[a])) std::swap(a, b);
   const unsigned axis = axisOf(face);
   const double bound = boundOf(box_, face),
@@ -126,7 +124,7 @@ std::uint32_t BoxClip::cutEdge(std::uint32_t a, std::uint32_t b, unsigned face) 
   at(position, axis) = bound;
   position = heldInBox(position, axis);
   for (const std::uint32_t other : known)
-    if (other != kNone && positionOf(other) == position) return known[face] = other;
+    if (other != SurfaceMesh::kNone && positionOf(other) == position) return known[face] = other;
   return known[face] = add({position, {a, b, b}, {1 - share, share, 0}, true});
 }
 

@@ -23,7 +23,6 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = SurfaceMesh::kNone;
 using Triangle = std::array<std::uint32_t, 3>;
 
 /// The corner of a convex outline with which to begin a fan.
@@ -131,15 +130,15 @@ class Crop {
 
   /// Positions and triangles; cuts that later ones have removed are left out.
   void numberVertices(CroppedMesh& cropped) {
-    std::vector<std::uint32_t> numberOf(mesh_.positions.size() + clip_.cuts().size(), kNone);
+    std::vector<std::uint32_t> numberOf(mesh_.positions.size() + clip_.cuts().size(), SurfaceMesh::kNone);
     for (const Triangle& triangle : triangles_)
       for (const std::uint32_t v : triangle) numberOf[v] = 0;
     for (std::uint32_t v = 0; v < numberOf.size(); ++v) {
-      if (numberOf[v] == kNone) continue;
+      if (numberOf[v] == SurfaceMesh::kNone) continue;
       numberOf[v] = static_cast<std::uint32_t>(sourceOf_.size());
       sourceOf_.push_back(v);
       cropped.mesh.positions.push_back(clip_.positionOf(v));
-      cropped.vertexOf.push_back(isCut(v) ? kNone : v);
+      cropped.vertexOf.push_back(isCut(v) ? SurfaceMesh::kNone : v);
       cropped.cutVertices += isCut(v) ? 1 : 0;
     }
     cropped.mesh.triangles = triangles_;
@@ -151,7 +150,7 @@ class Crop {
     Attribute to = emptyLike(from);
     const bool isOfLabels = isLabel(from);
     for (std::size_t v = 0; v < vertexOf.size(); ++v)
-      if (vertexOf[v] != kNone)
+      if (vertexOf[v] != SurfaceMesh::kNone)
         to.append(from.element(vertexOf[v]));
       else
         appendAverage(to, from, cutOf(sourceOf_[v]).vertices, cutOf(sourceOf_[v]).weights, isOfLabels);
@@ -163,12 +162,12 @@ class Crop {
     if (!mesh_.hasWedges()) return;
     std::vector<bool> areLabels;
     for (const Attribute& attribute : mesh_.wedgeAttributes) areLabels.push_back(isLabel(attribute));
-    std::vector<std::uint32_t> numberOf(mesh_.wedgeCount, kNone);
+    std::vector<std::uint32_t> numberOf(mesh_.wedgeCount, SurfaceMesh::kNone);
     for (std::size_t t = 0; t < triangles_.size(); ++t)
       for (const std::uint32_t v : triangles_[t])
         if (!isCut(v)) numberOf[wedgeAt(triangleOf_[t], v)] = 0;
     for (std::uint32_t w = 0; w < numberOf.size(); ++w)
-      if (numberOf[w] != kNone) {
+      if (numberOf[w] != SurfaceMesh::kNone) {
         numberOf[w] = to.wedgeCount++;
         for (std::size_t a = 0; a < mesh_.wedgeAttributes.size(); ++a) {
           if (a == to.wedgeAttributes.size())

@@ -11,12 +11,10 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = MeshAttributes::kNone;
-
 /// Leaves out what is not used; afterwards numberOf says the number of each of the others.
 template <class T>
 std::vector<std::uint32_t> keepUsed(std::vector<T>& things, const std::vector<bool>& isUsed) {
-  std::vector<std::uint32_t> numberOf(things.size(), kNone);
+  std::vector<std::uint32_t> numberOf(things.size(), MeshAttributes::kNone);
   std::uint32_t kept = 0;
   for (std::size_t i = 0; i < things.size(); ++i)
     if (isUsed[i]) {
@@ -32,10 +30,10 @@ template <class T>
 void keepNamed(std::vector<T>& things, std::vector<std::uint32_t>& numbers) {
   std::vector<bool> isUsed(things.size(), false);
   for (const std::uint32_t n : numbers)
-    if (n != kNone) isUsed[n] = true;
+    if (n != MeshAttributes::kNone) isUsed[n] = true;
   const std::vector<std::uint32_t> numberOf = keepUsed(things, isUsed);
   for (std::uint32_t& n : numbers)
-    if (n != kNone) n = numberOf[n];
+    if (n != MeshAttributes::kNone) n = numberOf[n];
   if (things.empty()) numbers.clear();
 }
 

@@ -10,8 +10,6 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = MeshAttributes::kNone;
-
 SpaceTriangle placeOf(const MultiTriangulation& mt, TriangleId t) {
   const auto [a, b, c] = mt.corners(t);
   return {mt.position(VertexId(a)), mt.position(VertexId(b)), mt.position(VertexId(c))};
@@ -21,21 +19,21 @@ SpaceTriangle placeOf(const MultiTriangulation& mt, TriangleId t) {
 
 std::vector<std::uint32_t> facesOf(const SurfaceModel& model, const Cut& cut) {
   const MultiTriangulation& mt = model.mt;
-  std::vector<std::uint32_t> numberOf(mt.triangleIdCount(), kNone);
+  std::vector<std::uint32_t> numberOf(mt.triangleIdCount(), MeshAttributes::kNone);
   for (std::uint32_t i = 0; i < cut.ids.size(); ++i) numberOf[cut.ids[i]] = i;
   requireMemory(model.sourceFaces * sizeof(std::uint32_t));
-  std::vector<std::uint32_t> found(model.sourceFaces, kNone);
+  std::vector<std::uint32_t> found(model.sourceFaces, MeshAttributes::kNone);
   for (std::uint32_t finest = 0; finest < mt.triangleIdCount(); ++finest) {
     if (mt.remover(TriangleId(finest)).isValid()) continue;
     const SpaceTriangle face = placeOf(mt, TriangleId(finest));
     const Vec3 middle = (face[0] + face[1] + face[2]) / 3.0;
     std::uint32_t t = finest;
-    while (numberOf[t] == kNone) {
-      std::uint32_t nearest = kNone;
+    while (numberOf[t] == MeshAttributes::kNone) {
+      std::uint32_t nearest = MeshAttributes::kNone;
       double least = std::numeric_limits<double>::infinity();
       for (const std::uint32_t candidate : mt.floor(mt.creator(TriangleId(t)))) {
         const double distance = distanceToTriangle(middle, placeOf(mt, TriangleId(candidate)));
-        if (distance < least || nearest == kNone) nearest = candidate;
+        if (distance < least || nearest == MeshAttributes::kNone) nearest = candidate;
         least = std::min(least, distance);
       }
       t = nearest;

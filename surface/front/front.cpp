@@ -6,7 +6,7 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
 /// Attributes of some elements, in their order.
 std::vector<Attribute> taken(const std::vector<Attribute>& attributes,
@@ -29,12 +29,12 @@ std::vector<std::uint32_t> taken(const std::vector<std::uint32_t>& numbers,
 
 /// The wedges that the triangles use, numbered by their first use.
 void takeWedges(const SurfaceModel& model, const Cut& cut, SurfaceMesh& mesh) {
-  std::vector<std::uint32_t> numberOf(model.attributes.wedgeCount, kNone), used;
+  std::vector<std::uint32_t> numberOf(model.attributes.wedgeCount, kNoVertex), used;
   for (const std::uint32_t id : cut.ids) {
     auto& wedges = mesh.wedges.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) {
       std::uint32_t& number = numberOf[model.wedgesOf[id][i]];
-      if (number == kNone) {
+      if (number == kNoVertex) {
         number = static_cast<std::uint32_t>(used.size());
         used.push_back(model.wedgesOf[id][i]);
       }

@@ -9,8 +9,6 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = MeshAttributes::kNone;
-
 Cut finestFront(const SurfaceModel& model) {
   return frontOfPrefix(model.mt, model.mt.nodeCount());
 }
@@ -61,7 +59,7 @@ CutOfTheRest withoutDropped(const MultiTriangulation& mt, const Cut& whole,
   CutOfTheRest rest;
   rest.cut.nodes = whole.nodes;
   rest.cut.isComplete = whole.isComplete;
-  std::vector<std::uint32_t> vertexNumber(whole.vertices.size(), kNone);
+  std::vector<std::uint32_t> vertexNumber(whole.vertices.size(), MeshAttributes::kNone);
   for (std::uint32_t v = 0; v < whole.vertices.size(); ++v) {
     if (dropped.isDropped[whole.vertices[v]]) continue;
     vertexNumber[v] = static_cast<std::uint32_t>(rest.cut.vertices.size());
@@ -69,8 +67,8 @@ CutOfTheRest withoutDropped(const MultiTriangulation& mt, const Cut& whole,
   }
   for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
     const auto& [a, b, c] = whole.triangles[t];
-    if (vertexNumber[a] == kNone) {
-      rest.numberOf.push_back(kNone);
+    if (vertexNumber[a] == MeshAttributes::kNone) {
+      rest.numberOf.push_back(MeshAttributes::kNone);
       continue;
     }
     rest.numberOf.push_back(static_cast<std::uint32_t>(rest.cut.triangles.size()));

@@ -7,8 +7,6 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = MeshAttributes::kNone;
-
 void reorder(std::vector<Attribute>& attributes, std::span<const std::uint32_t> oldOf) {
   for (Attribute& attribute : attributes) {
     Attribute next = emptyLike(attribute);
@@ -29,7 +27,7 @@ std::vector<T> reordered(const std::vector<T>& values, std::span<const std::uint
 /// Numbers wedges as the corners name them first, those of no corner last. @return by new wedge, the old one
 std::vector<std::uint32_t> numberWedges(const MultiTriangulation& mt, std::uint32_t wedges,
                                         std::vector<std::array<std::uint32_t, 3>>& wedgesOf) {
-  std::vector<std::uint32_t> newOf(wedges, kNone), oldOf;
+  std::vector<std::uint32_t> newOf(wedges, MeshAttributes::kNone), oldOf;
   oldOf.reserve(wedges);
   for (std::uint32_t t = 0; t < wedgesOf.size(); ++t) {
     if (const NodeId creator = mt.creator(TriangleId(t));
@@ -38,7 +36,7 @@ std::vector<std::uint32_t> numberWedges(const MultiTriangulation& mt, std::uint3
       continue;
     }
     for (std::uint32_t& w : wedgesOf[t]) {
-      if (newOf[w] == kNone) {
+      if (newOf[w] == MeshAttributes::kNone) {
         newOf[w] = static_cast<std::uint32_t>(oldOf.size());
         oldOf.push_back(w);
       }
@@ -46,7 +44,7 @@ std::vector<std::uint32_t> numberWedges(const MultiTriangulation& mt, std::uint3
     }
   }
   for (std::uint32_t w = 0; w < wedges; ++w)
-    if (newOf[w] == kNone) oldOf.push_back(w);
+    if (newOf[w] == MeshAttributes::kNone) oldOf.push_back(w);
   return oldOf;
 }
 

@@ -13,19 +13,17 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = MeshAttributes::kNone;
-
 bool isNamed(const std::vector<Attribute>& attributes, const std::string& name) {
   return std::ranges::any_of(attributes, [&](const Attribute& a) { return a.name == name; });
 }
 
-/// The elements of an attribute in another order; kNone: zeros.
+/// The elements of an attribute in another order; MeshAttributes::kNone: zeros.
 Attribute gathered(const Attribute& from, std::span<const std::uint32_t> elements) {
   Attribute to = emptyLike(from);
   const std::size_t size = from.elementBytes();
   to.values.resize(elements.size() * size);
   for (std::size_t i = 0; i < elements.size(); ++i)
-    if (elements[i] != kNone)
+    if (elements[i] != MeshAttributes::kNone)
       std::memcpy(to.values.data() + i * size, from.values.data() + std::size_t{elements[i]} * size, size);
   return to;
 }
@@ -112,9 +110,9 @@ void moveToWedges(SurfaceMesh& mesh) {
 void moveToVertices(SurfaceMesh& mesh) {
   if (!mesh.hasWedges()) return;
   CornerPairs corners{MeshRef(mesh)};
-  std::vector<std::uint32_t> firstWedge(mesh.positions.size(), kNone);
+  std::vector<std::uint32_t> firstWedge(mesh.positions.size(), MeshAttributes::kNone);
   for (const auto& [v, w] : corners.pairs)
-    if (firstWedge[v] == kNone) firstWedge[v] = w;
+    if (firstWedge[v] == MeshAttributes::kNone) firstWedge[v] = w;
   std::vector<Attribute> left;
   for (Attribute& attribute : mesh.wedgeAttributes) {
     if (isNamed(mesh.vertexAttributes, attribute.name) || !agreesAtVertices(corners, attribute))
@@ -152,12 +150,13 @@ SplitMesh splitByWedges(MeshRef mesh) {
   if (!mesh.attributes.hasWedges()) return split;
 
   const CornerPairs corners(mesh);
-  std::vector<std::uint32_t> vertexOfPair(corners.pairs.size(), kNone), wedgeOf(vertices, kNone);
+  std::vector<std::uint32_t> vertexOfPair(corners.pairs.size(), MeshAttributes::kNone),
+      wedgeOf(vertices, MeshAttributes::kNone);
   for (std::size_t c = 0; c < corners.pairOf.size(); ++c) {
     std::uint32_t& vertex = vertexOfPair[corners.pairOf[c]];
-    if (vertex == kNone) {
+    if (vertex == MeshAttributes::kNone) {
       const auto& [v, w] = corners.pairs[corners.pairOf[c]];
-      if (wedgeOf[v] == kNone) {
+      if (wedgeOf[v] == MeshAttributes::kNone) {
         vertex = v;
         wedgeOf[v] = w;
       } else {

@@ -23,7 +23,7 @@ using Four = float __attribute__((vector_size(16)));
 constexpr std::size_t kLanes = 4;
 constexpr float kUndecided = std::numeric_limits<float>::infinity();  // a margin that decides nothing
 
-Four broadcast(float x) {
+Four broadcastFour(float x) {
   return Four{x, x, x, x};
 }
 Four load(const float* x) {
@@ -83,12 +83,12 @@ ConflictLists::Triangle::Linear ConflictLists::Triangle::leftOf(const Vec3& from
 
 ConflictLists::Found ConflictLists::Triangle::next(std::size_t from, double above, double below) const {
   const auto at = [](const Linear& f, Four x, Four y) {
-    return broadcast(f.atApex) + broadcast(f.alongX) * x + broadcast(f.alongY) * y;
+    return broadcastFour(f.atApex) + broadcastFour(f.alongX) * x + broadcastFour(f.alongY) * y;
   };
   using Mask = decltype(Four{} < Four{});
-  const Four mostAbove = broadcast(static_cast<float>(above * (1 - 0x1p-22)) - planeMargin_),
-             leastBelow = broadcast(planeMargin_ - static_cast<float>(below * (1 - 0x1p-22))),
-             outside = broadcast(-edgeMargin_);
+  const Four mostAbove = broadcastFour(static_cast<float>(above * (1 - 0x1p-22)) - planeMargin_),
+             leastBelow = broadcastFour(planeMargin_ - static_cast<float>(below * (1 - 0x1p-22))),
+             outside = broadcastFour(-edgeMargin_);
   const std::size_t size = lists_.size_;
   for (std::size_t k = from & ~(kLanes - 1); k < size; k += kLanes) {
     const Four x = load(&lists_.x_[k]), y = load(&lists_.y_[k]);

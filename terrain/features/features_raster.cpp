@@ -19,7 +19,7 @@
 namespace arete {
 namespace {
 
-constexpr std::string_view kStage = "ranking features";
+constexpr std::string_view kRasterStage = "ranking features";
 constexpr unsigned kRing = 6, kMasks = 1 << kRing;
 
 /// For each mask of a ring: its first bit (kRing where it has none), the bits where a run begins, and whether
@@ -151,7 +151,7 @@ class Lattice {
 
 std::vector<Feature> rankFeatures(const RasterHeightfield& field, const FeatureOptions& options,
                                   const RunContext& context) {
-  context.report(kStage, 0);
+  context.report(kRasterStage, 0);
   std::vector<Feature> ranked = withThreads(context, [&] {
     Lattice lattice(field);
     FeatureParents parents = lattice.parents();
@@ -160,7 +160,7 @@ std::vector<Feature> rankFeatures(const RasterHeightfield& field, const FeatureO
     };
     return rankFeaturesOf(field.heights, std::move(parents), linksOf, options, context);
   });
-  if (!context.cancelled()) context.report(kStage, 1);
+  if (!context.cancelled()) context.report(kRasterStage, 1);
   return ranked;
 }
 

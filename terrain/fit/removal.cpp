@@ -15,7 +15,6 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = FitMesh::kNone;
 /// With an error of more than this many bounds the removal is rejected untried; 2.5 was the most that
 /// succeeded.
 constexpr double kHopeless = 4;
@@ -97,7 +96,7 @@ bool FitPatches::addRows(const FitMesh::Corners& corners, const Samples& samples
 }
 
 bool FitPatches::isInMesh(std::uint32_t vertex) const {
-  return vertex != kNone && mesh_.isIn(vertex);
+  return vertex != FitMesh::kNone && mesh_.isIn(vertex);
 }
 
 bool FitPatches::isTriangle(const FitMesh::Corners& corners) const {
@@ -194,7 +193,7 @@ bool FitPatches::tryTriangle(std::uint32_t slot, std::uint32_t rings) {
   for (std::uint32_t ring = 0; ring <= rings; ++ring) {
     if (ring > 0) {
       if (unknowns_.size() > kMostUnknowns) break;
-      grow(kNone);
+      grow(FitMesh::kNone);
     }
     collectSlots();
     patch_.start(unknowns_.size());

@@ -28,7 +28,6 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = FitSamples::kNone;
 constexpr std::size_t kCheckEvery = 1 << 14;      // triangles
 constexpr std::uint64_t kCheckSamples = 1 << 22;  // samples
 
@@ -86,13 +85,13 @@ Status checkTriangles(const MultiTriangulation& mt, const Cut& cut) {
 Result<FitSamples> onLattice(const MultiTriangulation& mt, const Cut& cut, const RunContext& context) {
   const VertexArrays& vertices = mt.vertices();
   const std::uint32_t columns = vertices.columns;
-  FitSamples shared{std::vector<std::uint32_t>(cut.triangles.size(), kNone),
-                    std::vector<std::uint32_t>(mt.vertexCount(), kNone)};
+  FitSamples shared{std::vector<std::uint32_t>(cut.triangles.size(), FitSamples::kNone),
+                    std::vector<std::uint32_t>(mt.vertexCount(), FitSamples::kNone)};
   std::uint32_t last = 0;
   for (const std::uint32_t s : vertices.samples) last = std::max(last, s);
   requireMemory((std::uint64_t(last) + 1) * sizeof(std::uint32_t));
   std::vector<std::uint32_t> unassigned(std::size_t(last) + 1,
-                                        kNone);  // per sample: its vertex, until assigned
+                                        FitSamples::kNone);  // per sample: its vertex, until assigned
   for (std::uint32_t v = 0; v < mt.vertexCount(); ++v) unassigned[vertices.samples[v]] = v;
   std::size_t assigned = 0;
   std::uint64_t visited = 0;
@@ -107,10 +106,10 @@ Result<FitSamples> onLattice(const MultiTriangulation& mt, const Cut& cut, const
     scanTriangle(corner, [&](std::int64_t y, std::int64_t left, std::int64_t right) {
       for (std::int64_t x = left; x <= right; ++x) {
         std::uint32_t& v = unassigned[std::size_t(y) * columns + std::size_t(x)];
-        if (v == kNone) continue;  // NODATA, or assigned to a neighbour
+        if (v == FitSamples::kNone) continue;  // NODATA, or assigned to a neighbour
         shared.next[v] = shared.first[t];
         shared.first[t] = v;
-        v = kNone;
+        v = FitSamples::kNone;
         ++assigned;
       }
       visited += static_cast<std::uint64_t>(right - left + 1);
@@ -131,7 +130,7 @@ Result<FitSamples> onPoints(const MultiTriangulation& mt, const Cut& cut, const 
   std::ranges::sort(byId);
   const auto indexOf = [&](std::uint32_t id) {
     const auto found = std::ranges::lower_bound(byId, std::pair(id, 0u));
-    return found != byId.end() && found->first == id ? found->second : kNone;
+    return found != byId.end() && found->first == id ? found->second : FitSamples::kNone;
   };
   const auto covers = [&](std::uint32_t id, Vec2 p) {
     const auto corners = mt.corners(TriangleId(id));
@@ -140,11 +139,11 @@ Result<FitSamples> onPoints(const MultiTriangulation& mt, const Cut& cut, const 
     return planOrientation(c[0], c[1], p) >= 0 && planOrientation(c[1], c[2], p) >= 0 &&
            planOrientation(c[2], c[0], p) >= 0;
   };
-  std::vector<std::uint32_t> over(mt.vertexCount(), kNone);  // per vertex: its triangle
+  std::vector<std::uint32_t> over(mt.vertexCount(), FitSamples::kNone);  // per vertex: its triangle
   for (std::uint32_t t = 0; t < cut.triangles.size(); ++t)
     for (const std::uint32_t corner : cut.triangles[t]) {
       std::uint32_t& at = over[cut.vertices[corner]];
-      if (at == kNone) at = t;
+      if (at == FitSamples::kNone) at = t;
     }
   std::atomic<bool> isLost = false;
   withThreads(context, [&] {
@@ -154,7 +153,7 @@ Result<FitSamples> onPoints(const MultiTriangulation& mt, const Cut& cut, const 
         if (nodes[start]) continue;
         const VertexId v = mt.apex(NodeId(start));
         const Vec2 p = mt.vertices().planPosition(v);
-        for (std::uint32_t n = start; over[v.index()] == kNone;) {
+        for (std::uint32_t n = start; over[v.index()] == FitSamples::kNone;) {
           const auto floor = mt.floor(NodeId(n));
           const auto found = std::ranges::find_if(floor, [&](std::uint32_t id) { return covers(id, p); });
           if (found == floor.end()) {
@@ -167,7 +166,7 @@ Result<FitSamples> onPoints(const MultiTriangulation& mt, const Cut& cut, const 
             continue;
           }
           over[v.index()] = indexOf(*found);
-          if (over[v.index()] != kNone) continue;
+          if (over[v.index()] != FitSamples::kNone) continue;
           isLost = true;
           break;
         }
@@ -175,9 +174,9 @@ Result<FitSamples> onPoints(const MultiTriangulation& mt, const Cut& cut, const 
     });
   });
   if (context.cancelled()) return interrupted();
-  if (isLost || std::ranges::find(over, kNone) != over.end()) return uncovered();
-  FitSamples shared{std::vector<std::uint32_t>(cut.triangles.size(), kNone),
-                    std::vector<std::uint32_t>(mt.vertexCount(), kNone)};
+  if (isLost || std::ranges::find(over, FitSamples::kNone) != over.end()) return uncovered();
+  FitSamples shared{std::vector<std::uint32_t>(cut.triangles.size(), FitSamples::kNone),
+                    std::vector<std::uint32_t>(mt.vertexCount(), FitSamples::kNone)};
   for (std::uint32_t v = mt.vertexCount(); v-- > 0;) {
     shared.next[v] = shared.first[over[v]];
     shared.first[over[v]] = v;

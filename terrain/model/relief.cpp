@@ -7,7 +7,7 @@
 namespace arete {
 namespace {
 
-struct Range {
+struct HeightRange {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
 
   void add(double height) {
@@ -20,13 +20,13 @@ struct Range {
 }  // namespace
 
 double reliefOf(std::span<const double> heights) {
-  Range range;
+  HeightRange range;
   for (const double height : heights) range.add(height);
   return range.size();
 }
 
 double reliefOf(const TerrainModel& model) {
-  Range range;
+  HeightRange range;
   for (std::uint32_t v = 0; v < model.mt.vertexCount(); ++v) range.add(model.mt.position(VertexId(v)).z);
   for (const IsolatedSample& sample : model.isolated) range.add(sample.height);
   return range.size();

@@ -22,10 +22,10 @@ namespace {
 
 using Stretch = TriangleSpan;
 
-class Descent {
+class ProfileDescent {
  public:
-  Descent(const TriangleLocator& locator, const SightLeg& leg, OutwardScale::Code allowed, bool mayFill,
-          std::vector<Stretch>& stretches)
+  ProfileDescent(const TriangleLocator& locator, const SightLeg& leg, OutwardScale::Code allowed,
+                 bool mayFill, std::vector<Stretch>& stretches)
       : crossing_(locator, leg),
         arrays_(locator.mt().arrays()),
         allowed_(allowed),
@@ -204,7 +204,7 @@ Profile Profiles::along(const SightTrack& track, double maxError) const {
     } else if (grid_ && allowed == 0) {
       walk(*grid_, leg, shortest, stretches);
     } else {
-      Descent(heights_.locator(), leg, allowed, model.options.rimTolerance > 0, stretches).run();
+      ProfileDescent(heights_.locator(), leg, allowed, model.options.rimTolerance > 0, stretches).run();
       joinParts(leg, model.isRaster && allowed == 0, shortest, stretches);
     }
     isOpen = append(profile, leg, track.points[i].distance, stretches, shortest, isOpen);

@@ -21,7 +21,7 @@ namespace arete {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 
 /// A field whose ranges are narrower by a part: distances by that part of them, directions of a circle.
 ViewshedField shrunk(ViewshedField field, double by) {
@@ -154,12 +154,12 @@ ViewshedWedgeSweep::Verdict ViewshedWedgeSweep::fieldVerdict(const ImageLine& li
   const ViewshedField& field = task_.options.field;
   const Vec2 ground = image_.ground(wedge_.sector, line, i);
   const double metres = std::hypot(ground.x, ground.y);
-  const double azimuth = kDegrees * std::atan2(ground.x, ground.y);
+  const double azimuth = kDegreesPerRadian * std::atan2(ground.x, ground.y);
   if (!isInField(shrunk(field, -part), metres, azimuth)) return Verdict::hidden;
   if (!isInField(shrunk(field, part), metres, azimuth)) return Verdict::undecided;
   if (field.lowest == -90 && field.highest == 90) return Verdict::visible;
   const double away = image_.isMapped() ? line.away[i] : line.x;
-  const double elevation = kDegrees * std::atan(target * away * image_.unit() / metres);
+  const double elevation = kDegreesPerRadian * std::atan(target * away * image_.unit() / metres);
   if (elevation < field.lowest - degrees || elevation > field.highest + degrees) return Verdict::hidden;
   return elevation < field.lowest + degrees || elevation > field.highest - degrees ? Verdict::undecided
                                                                                    : Verdict::visible;

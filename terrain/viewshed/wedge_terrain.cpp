@@ -15,7 +15,7 @@
 namespace arete {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 /// Wedges overlap by this much, in u: samples at their ends are compared with edges on both sides.
 constexpr double kPad = 1e-6;
 /// Terrain nearer to the observer than this, in steps, is left out (whyNotSweep() tells where it may matter).
@@ -297,7 +297,7 @@ void WedgeTerrain::addPartialCell(int x, int y) {
     }
   }
   if (corners == 4 || !wantsGaps_) return;
-  double first = kInfinite, last = -kInfinite;
+  double first = kUnbounded, last = -kUnbounded;
   const auto reach = [&](double u) {
     first = std::min(first, u);
     last = std::max(last, u);

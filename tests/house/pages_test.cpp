@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = ARETE_SOURCE_FOLDER;
-const fs::path kBibliography = kRoot / "docs" / "bibliography.md";
+const fs::path kPagesRoot = ARETE_SOURCE_FOLDER;
+const fs::path kBibliography = kPagesRoot / "docs" / "bibliography.md";
 
 std::string contentOf(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -50,10 +50,10 @@ std::vector<std::string> entriesOf(const std::string& bibliography) {
 
 /// The sources, tests and pages, but for the bibliography and this test.
 std::vector<fs::path> citingFiles() {
-  std::vector<fs::path> files = {kRoot / "README.md", kRoot / "ARCHITECTURE.md"};
+  std::vector<fs::path> files = {kPagesRoot / "README.md", kPagesRoot / "ARCHITECTURE.md"};
   for (const char* folder : {"engine", "surface", "terrain", "io", "gis", "python", "viewer", "cli",
                              "datasets", "bench", "tests", "docs"})
-    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+    for (const auto& entry : fs::recursive_directory_iterator(kPagesRoot / folder)) {
       const fs::path& file = entry.path();
       const bool isText = file.extension() == ".h" || file.extension() == ".cpp" || file.extension() == ".md";
       if (isText && file != kBibliography && file.filename() != "pages_test.cpp") files.push_back(file);
@@ -67,7 +67,7 @@ TEST(Bibliography, HasEveryCitedPaper) {
   for (const fs::path& file : citingFiles())
     for (const std::string& key : keysIn(contentOf(file)))
       EXPECT_TRUE(std::ranges::count(entries, key) == 1)
-          << fs::relative(file, kRoot).string() << " cites [" << key << "]";
+          << fs::relative(file, kPagesRoot).string() << " cites [" << key << "]";
 }
 
 TEST(Bibliography, HasNoPaperThatIsNotCited) {
@@ -100,8 +100,8 @@ const std::vector<std::string> kFolders = {"engine", "surface", "terrain",  "io"
 std::set<std::string> fileNames() {
   std::set<std::string> names;
   for (const std::string& folder : kFolders)
-    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
-      names.insert(fs::relative(entry.path(), kRoot).string());
+    for (const auto& entry : fs::recursive_directory_iterator(kPagesRoot / folder)) {
+      names.insert(fs::relative(entry.path(), kPagesRoot).string());
       names.insert(entry.path().filename().string());
     }
   return names;
@@ -120,9 +120,9 @@ std::set<std::string> filesNamedIn(const std::string& comment) {
 TEST(Comments, NameFilesThatExist) {
   const std::set<std::string> names = fileNames();
   for (const std::string& folder : kFolders)
-    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+    for (const auto& entry : fs::recursive_directory_iterator(kPagesRoot / folder)) {
       if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
-      if (entry.path().parent_path() == kRoot / "tests" / "house") continue;  // they name planted files
+      if (entry.path().parent_path() == kPagesRoot / "tests" / "house") continue;  // they name planted files
       std::ifstream stream(entry.path());
       int number = 0;
       for (std::string line; std::getline(stream, line);) {
@@ -131,7 +131,7 @@ TEST(Comments, NameFilesThatExist) {
         if (comment == std::string::npos || line.starts_with("#include")) continue;
         for (const std::string& file : filesNamedIn(line.substr(comment)))
           EXPECT_TRUE(names.contains(file))
-              << fs::relative(entry.path(), kRoot).string() << ":" << number << ": there is no " << file;
+              << fs::relative(entry.path(), kPagesRoot).string() << ":" << number << ": there is no " << file;
       }
     }
 }
@@ -143,9 +143,9 @@ TEST(Comments, AreReadForTheFilesThatTheyName) {
 
 // ARCHITECTURE.md has one line for each room, with the sentence that its CMakeLists.txt begins with.
 TEST(Architecture, ListsEveryRoomWithItsSentence) {
-  const std::string page = contentOf(kRoot / "ARCHITECTURE.md");
+  const std::string page = contentOf(kPagesRoot / "ARCHITECTURE.md");
   for (const auto& [room, declared] : readRooms(ARETE_ROOMS)) {
-    std::ifstream stream(kRoot / room / "CMakeLists.txt");
+    std::ifstream stream(kPagesRoot / room / "CMakeLists.txt");
     std::string line;
     std::getline(stream, line);
     const std::string start = "# " + room + ": ";
@@ -156,7 +156,7 @@ TEST(Architecture, ListsEveryRoomWithItsSentence) {
 }
 
 TEST(Architecture, ListsNoRoomThatDoesNotExist) {
-  const std::string page = contentOf(kRoot / "ARCHITECTURE.md");
+  const std::string page = contentOf(kPagesRoot / "ARCHITECTURE.md");
   const Rooms rooms = readRooms(ARETE_ROOMS);
   static const std::regex pattern("\n\\| ([a-z0-9]+(?:/[a-z0-9]+)+) \\|");
   for (std::sregex_iterator match(page.begin(), page.end(), pattern), end; match != end; ++match)
@@ -165,8 +165,8 @@ TEST(Architecture, ListsNoRoomThatDoesNotExist) {
 
 // A decision says what was decided, whether it holds, and no more than that.
 TEST(Decisions, AreShortAndHaveAStatusAndALineInTheList) {
-  const std::string list = contentOf(kRoot / "docs" / "decisions" / "README.md");
-  for (const auto& entry : fs::directory_iterator(kRoot / "docs" / "decisions")) {
+  const std::string list = contentOf(kPagesRoot / "docs" / "decisions" / "README.md");
+  for (const auto& entry : fs::directory_iterator(kPagesRoot / "docs" / "decisions")) {
     const std::string name = entry.path().filename().string();
     if (name == "README.md") continue;
     const std::string text = contentOf(entry.path());

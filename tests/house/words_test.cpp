@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = ARETE_SOURCE_FOLDER;
+const fs::path kSources = ARETE_SOURCE_FOLDER;
 
 /// Text of a file with the line that each character comes from.
 struct Prose {
@@ -107,7 +107,7 @@ class Lexer {
   int line_ = 1;
 };
 
-std::string contentOf(const fs::path& file) {
+std::string textOf(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -153,7 +153,7 @@ const std::regex& wordPattern() {
 std::vector<fs::path> sourcesOf(const std::vector<std::string>& layers) {
   std::vector<fs::path> files;
   for (const std::string& layer : layers)
-    for (const auto& entry : fs::recursive_directory_iterator(kRoot / layer))
+    for (const auto& entry : fs::recursive_directory_iterator(kSources / layer))
       if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")
         files.push_back(entry.path());
   std::ranges::sort(files);
@@ -161,15 +161,16 @@ std::vector<fs::path> sourcesOf(const std::vector<std::string>& layers) {
 }
 
 std::vector<fs::path> pages() {
-  std::vector<fs::path> files = {kRoot / "README.md", kRoot / "ARCHITECTURE.md", kRoot / "CONTRIBUTING.md"};
-  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "docs"))
+  std::vector<fs::path> files = {kSources / "README.md", kSources / "ARCHITECTURE.md",
+                                 kSources / "CONTRIBUTING.md"};
+  for (const auto& entry : fs::recursive_directory_iterator(kSources / "docs"))
     if (entry.path().extension() == ".md") files.push_back(entry.path());
   std::ranges::sort(files);
   return files;
 }
 
 std::string nameOf(const fs::path& file) {
-  return fs::relative(file, kRoot).string();
+  return fs::relative(file, kSources).string();
 }
 
 /// Whether a literal is part of a command line that the library composes: the one that a certificate tells
@@ -195,7 +196,7 @@ std::vector<std::string> optionsNamedIn(const Prose& strings) {
 
 TEST(Words, OfTheLibraryNameNoOptionOfTheCommandLine) {
   for (const fs::path& file : sourcesOf({"engine", "surface", "terrain", "io", "gis", "python", "viewer"})) {
-    for (const std::string& match : optionsNamedIn(Lexer(contentOf(file)).take(Kind::strings)))
+    for (const std::string& match : optionsNamedIn(Lexer(textOf(file)).take(Kind::strings)))
       ADD_FAILURE() << nameOf(file) << ":" << match;
   }
 }
@@ -204,14 +205,14 @@ TEST(Words, OfSourcesLendDataNoMind) {
   for (const fs::path& file :
        sourcesOf({"engine", "surface", "terrain", "io", "gis", "python", "viewer", "cli"})) {
     for (const Kind kind : {Kind::comments, Kind::strings})
-      for (const std::string& match : matchesIn(Lexer(contentOf(file)).take(kind), wordPattern()))
+      for (const std::string& match : matchesIn(Lexer(textOf(file)).take(kind), wordPattern()))
         ADD_FAILURE() << nameOf(file) << ":" << match;
   }
 }
 
 TEST(Words, OfPagesLendDataNoMind) {
   for (const fs::path& file : pages())
-    for (const std::string& match : matchesIn(wholeText(contentOf(file)), wordPattern()))
+    for (const std::string& match : matchesIn(wholeText(textOf(file)), wordPattern()))
       ADD_FAILURE() << nameOf(file) << ":" << match;
 }
 
@@ -240,7 +241,7 @@ bool isOfMany(std::string_view match) {
 TEST(Words, AgreeWithTheirNumbers) {
   for (const fs::path& file :
        sourcesOf({"engine", "surface", "terrain", "io", "gis", "python", "viewer", "cli"}))
-    for (const std::string& match : matchesIn(Lexer(contentOf(file)).take(Kind::strings), unagreedPattern()))
+    for (const std::string& match : matchesIn(Lexer(textOf(file)).take(Kind::strings), unagreedPattern()))
       if (!isOfMany(match)) ADD_FAILURE() << nameOf(file) << ":" << match;
 }
 

@@ -17,7 +17,7 @@
 namespace arete {
 namespace {
 
-constexpr Rgb kGrid = {229, 232, 236}, kGround = {196, 186, 168}, kGroundEdge = {96, 82, 60};
+constexpr Rgb kGridLine = {229, 232, 236}, kGround = {196, 186, 168}, kGroundEdge = {96, 82, 60};
 constexpr Rgb kClear = {0, 140, 90}, kBlocked = {205, 50, 30}, kZone = {60, 130, 210}, kGap = {238, 238, 240};
 constexpr int kLineSteps = 600;
 
@@ -116,7 +116,7 @@ void drawAxes(Canvas& canvas, const Frame& frame, const ProfileChartOptions& opt
   const Rect& plot = frame.plot;
   for (const double z : linearTicks(frame.low, frame.high, 6)) {
     const double y = std::round(frame.at(0, z).y) + 0.5;
-    canvas.line({plot.left, y}, {plot.right(), y}, {.color = kGrid, .width = 1});
+    canvas.line({plot.left, y}, {plot.right(), y}, {.color = kGridLine, .width = 1});
     canvas.text(numberText(z), {plot.left - 10, y},
                 {.size = 14, .color = kInk, .horizontal = Align::end, .vertical = Align::center});
   }

@@ -17,7 +17,7 @@ namespace arete {
 namespace {
 
 /// Part of the diagonal: what is nearer to the eye is not drawn.
-constexpr double kNearest = 1e-4;
+constexpr double kNearestPlane = 1e-4;
 
 }  // namespace
 
@@ -131,7 +131,7 @@ Status SurfaceView::draw(const Camera& camera, const SurfaceViewSettings& settin
   FrameView frame;
   frame.view = view;
   frame.pixels = s.pixels;
-  frame.drawnNear = kNearest * s.shape.box.diagonal();
+  frame.drawnNear = kNearestPlane * s.shape.box.diagonal();
   glBeginQuery(GL_ANY_SAMPLES_PASSED, s.anySample);
   s.painter.draw(s.surface, s.materials, {s.indices, s.errors, s.ranges}, frame, settings.look);
   glEndQuery(GL_ANY_SAMPLES_PASSED);

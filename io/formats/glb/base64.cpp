@@ -8,11 +8,11 @@ namespace arete {
 namespace {
 
 constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-constexpr std::uint8_t kNone = 0xFF;
+constexpr std::uint8_t kNoDigit = 0xFF;
 
 std::array<std::uint8_t, 256> valuesOfDigits() {
   std::array<std::uint8_t, 256> values;
-  values.fill(kNone);
+  values.fill(kNoDigit);
   for (std::size_t d = 0; d < kDigits.size(); ++d)
     values[static_cast<unsigned char>(kDigits[d])] = static_cast<std::uint8_t>(d);
   return values;
@@ -35,7 +35,7 @@ std::optional<std::string> fromBase64(std::string_view text) {
   std::uint32_t group = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const std::uint8_t value = values[static_cast<unsigned char>(text[i])];
-    if (value == kNone) return std::nullopt;
+    if (value == kNoDigit) return std::nullopt;
     group = (group << 6) | value;
     if (i % 4 != 0) bytes += static_cast<char>((group >> (6 - 2 * (i % 4))) & 0xFF);
   }

@@ -12,6 +12,7 @@
 
 #include "io/files/text_scan.h"
 #include "io/formats/glb/base64.h"
+#include "io/formats/glb/corrupt.h"
 #include "io/geo/gdal/confined.h"
 
 namespace arete {
@@ -19,10 +20,6 @@ namespace arete {
 namespace {
 
 constexpr std::string_view kBase64 = ";base64";
-
-tl::unexpected<Error> corrupt(std::string message) {
-  return failure(ErrorCode::corrupt, std::move(message));
-}
 
 /// True for a relative path that stays in its folder.
 bool staysBelow(const std::string& name) {

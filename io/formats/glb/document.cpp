@@ -15,6 +15,7 @@
 #include "io/files/text/utf8.h"
 #include "io/files/text_scan.h"
 #include "io/formats/glb/accessors.h"
+#include "io/formats/glb/corrupt.h"
 #include "io/formats/glb/extensions.h"
 
 namespace arete {
@@ -34,10 +35,6 @@ std::uint32_t numberAt(std::string_view file, std::size_t at) {
 nlohmann::json parsed(std::string_view text) {
   if (text::isUtf8(text)) return nlohmann::json::parse(text, nullptr, false);
   return nlohmann::json::parse(text::jsonAsUtf8(text), nullptr, false);
-}
-
-tl::unexpected<Error> corrupt(std::string message) {
-  return failure(ErrorCode::corrupt, std::move(message));
 }
 
 }  // namespace

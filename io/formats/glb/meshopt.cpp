@@ -9,15 +9,12 @@
 #include <meshoptimizer.h>
 
 #include "engine/base/caught_failure.h"
+#include "io/formats/glb/corrupt.h"
 
 namespace arete {
 namespace {
 
 constexpr std::uint64_t kAttributesPerByte = 64;
-
-tl::unexpected<Error> corrupt(std::string message) {
-  return failure(ErrorCode::corrupt, std::move(message));
-}
 
 Status checkFilter(std::string_view filter, std::uint64_t stride) {
   if (filter.empty() || filter == "NONE") return {};

@@ -29,7 +29,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kExtension = "KHR_texture_transform";
-constexpr std::uint32_t kNone = MeshAttributes::kNone;
 
 struct UvTransform {
   std::array<double, 2> offset{0, 0}, scale{1, 1};
@@ -66,7 +65,7 @@ std::optional<UvTransform> take(Material& material, TextureUse& use) {
   if (const auto turn = stated.find("rotation"); turn != stated.end() && turn->is_number())
     transform.rotation = *turn;
   if (const auto set = stated.find("texCoord");
-      set != stated.end() && set->is_number_unsigned() && set->get<std::uint64_t>() < kNone)
+      set != stated.end() && set->is_number_unsigned() && set->get<std::uint64_t>() < MeshAttributes::kNone)
     use.textureCoords = *set;
   json["extensions"].erase(kExtension);
   if (json["extensions"].empty()) json.erase("extensions");
@@ -120,7 +119,7 @@ std::string setName(std::uint32_t set) {
   return std::string(kTexcoordName) + (set == 0 ? "" : std::to_string(set));
 }
 
-/// @param classOf By element of the attributes; kNone: it stays.
+/// @param classOf By element of the attributes; MeshAttributes::kNone: it stays.
 void apply(std::vector<Attribute>& attributes, const std::vector<std::uint32_t>& classOf,
            const std::vector<Transforms>& classes) {
   for (Attribute& attribute : attributes) {
@@ -145,7 +144,8 @@ void apply(std::vector<Attribute>& attributes, const std::vector<std::uint32_t>&
     for (std::size_t i = 0; i < classOf.size(); ++i) {
       std::vector<double> uv = attribute.numbers(i);
       for (double& value : uv) value = attribute.isNormalized ? std::max(value / largest, -1.0) : value;
-      if (const UvTransform* const transform = classOf[i] == kNone ? nullptr : ofClass[classOf[i]]) {
+      if (const UvTransform* const transform =
+              classOf[i] == MeshAttributes::kNone ? nullptr : ofClass[classOf[i]]) {
         const double down = attribute.isFromTop ? uv[1] : 1 - uv[1];
         const auto moved = (*transform)(uv[0], down);
         uv = {moved[0], attribute.isFromTop ? moved[1] : 1 - moved[1]};
@@ -159,10 +159,10 @@ void apply(std::vector<Attribute>& attributes, const std::vector<std::uint32_t>&
 /// The class of each vertex; nothing if a vertex is of several.
 std::optional<std::vector<std::uint32_t>> classesOfVertices(const SurfaceMesh& mesh,
                                                             const std::vector<std::uint32_t>& classOf) {
-  std::vector<std::uint32_t> result(mesh.positions.size(), kNone);
+  std::vector<std::uint32_t> result(mesh.positions.size(), MeshAttributes::kNone);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const std::uint32_t v : mesh.triangles[t]) {
-      if (result[v] != kNone && result[v] != classOf[t]) return std::nullopt;
+      if (result[v] != MeshAttributes::kNone && result[v] != classOf[t]) return std::nullopt;
       result[v] = classOf[t];
     }
   return result;
@@ -170,11 +170,11 @@ std::optional<std::vector<std::uint32_t>> classesOfVertices(const SurfaceMesh& m
 
 /// Splits wedges so that each is of one class.
 std::vector<std::uint32_t> classesOfWedges(SurfaceMesh& mesh, const std::vector<std::uint32_t>& classOf) {
-  std::vector<std::uint32_t> result(mesh.wedgeCount, kNone);
+  std::vector<std::uint32_t> result(mesh.wedgeCount, MeshAttributes::kNone);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> copies;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::uint32_t& wedge : mesh.wedges[t]) {
-      if (result[wedge] == kNone) result[wedge] = classOf[t];
+      if (result[wedge] == MeshAttributes::kNone) result[wedge] = classOf[t];
       if (result[wedge] == classOf[t]) continue;
       const auto [copy, isNew] = copies.try_emplace({wedge, classOf[t]}, mesh.wedgeCount);
       if (isNew) {
@@ -218,7 +218,7 @@ std::vector<std::string> applyTextureTransforms(SurfaceMesh& mesh, bool alsoOfMt
   if (classes.size() == 1 || mesh.materialOf.empty()) return lost;
   std::vector<std::uint32_t> classOf;
   for (const std::uint32_t material : mesh.materialOf)
-    classOf.push_back(material == kNone ? 0 : classOfMaterial[material]);
+    classOf.push_back(material == MeshAttributes::kNone ? 0 : classOfMaterial[material]);
   const auto isOfWedges = [](const Attribute& a) { return a.meaning == AttributeMeaning::textureCoords; };
   if (!std::ranges::any_of(mesh.wedgeAttributes, isOfWedges))
     if (const auto ofVertices = classesOfVertices(mesh, classOf)) {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "io/formats/glb/corrupt.h"
 #include "io/formats/glb/document.h"
 #include "io/formats/glb/extensions.h"
 #include "io/formats/glb/meshopt.h"
@@ -19,10 +20,6 @@ namespace arete {
 namespace {
 
 constexpr std::uint64_t kReservableAtLeast = 64 << 20, kReservablePerByte = 64;
-
-tl::unexpected<Error> corrupt(std::string message) {
-  return failure(ErrorCode::corrupt, std::move(message));
-}
 
 /// A member that is a text; `fallback` if it is missing or none.
 std::string textOf(const nlohmann::json& object, const char* key, const char* fallback) {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kTrianglesPerCancelCheck = 1 << 12;
 constexpr const char* kLayer = "triangles";
-constexpr const char* kUnitKey = "VERTICAL_UNIT";
+constexpr const char* kVerticalUnitKey = "VERTICAL_UNIT";
 
 Result<OGRLayer*> createLayer(GDALDataset& dataset, const MeshWriteOptions& options,
                               const GdalErrors& errors) {
@@ -35,7 +35,8 @@ Result<OGRLayer*> createLayer(GDALDataset& dataset, const MeshWriteOptions& opti
   if ((*layer)->CreateField(&number) != OGRERR_NONE) return cannotBeWritten(errors);
   if (!options.triangleErrors.empty() && (*layer)->CreateField(&error) != OGRERR_NONE)
     return cannotBeWritten(errors);
-  if (!options.verticalUnit.empty()) (*layer)->SetMetadataItem(kUnitKey, options.verticalUnit.c_str());
+  if (!options.verticalUnit.empty())
+    (*layer)->SetMetadataItem(kVerticalUnitKey, options.verticalUnit.c_str());
   return layer;
 }
 

@@ -10,14 +10,14 @@
 namespace arete {
 namespace {
 
-constexpr std::size_t kMostNames = 8;
+constexpr std::size_t kMostNamesListed = 8;
 
 /// "name" or "name" and 3 more.
 std::string listOf(const std::vector<std::string>& names) {
   std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i)
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNamesListed); ++i)
     list += fmt::format("{}{}", i == 0 ? "" : ", ", text::quotedToken(names[i]));
-  if (names.size() > kMostNames) list += fmt::format(" and {} more", names.size() - kMostNames);
+  if (names.size() > kMostNamesListed) list += fmt::format(" and {} more", names.size() - kMostNamesListed);
   return list;
 }
 

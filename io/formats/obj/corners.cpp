@@ -19,7 +19,6 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = ObjCorners::kNone;
 constexpr std::size_t kFewestSlots = 64;
 
 std::uint64_t mixed(std::uint64_t h) {
@@ -58,13 +57,13 @@ struct Named {
       : what(name), first(firstOfEqual(numbers)), isNamed(first.size()) {}
 
   std::uint32_t operator()(std::uint32_t index) {
-    if (index == kNone) {
+    if (index == ObjCorners::kNone) {
       ++missing;
-      return kNone;
+      return ObjCorners::kNone;
     }
     if (index >= first.size()) {
       ++beyond;
-      return kNone;
+      return ObjCorners::kNone;
     }
     isNamed[index] = true;
     return first[index];
@@ -106,10 +105,10 @@ void ObjCorners::begin(SurfaceMesh& mesh) {
 }
 
 void ObjCorners::grow(std::size_t slots) {
-  slots_.assign(slots, kNone);
+  slots_.assign(slots, ObjCorners::kNone);
   for (std::size_t w = 0; w < corners_.size(); ++w) {
     std::size_t slot = hashOf(corners_[w]) & (slots - 1);
-    while (slots_[slot] != kNone) slot = (slot + 1) & (slots - 1);
+    while (slots_[slot] != ObjCorners::kNone) slot = (slot + 1) & (slots - 1);
     slots_[slot] = static_cast<std::uint32_t>(w);
   }
 }
@@ -117,7 +116,7 @@ void ObjCorners::grow(std::size_t slots) {
 std::uint32_t ObjCorners::wedgeOf(const Corner& corner) {
   if (2 * (corners_.size() + 1) > slots_.size()) grow(std::max(kFewestSlots, 2 * slots_.size()));
   std::size_t slot = hashOf(corner) & (slots_.size() - 1);
-  for (; slots_[slot] != kNone; slot = (slot + 1) & (slots_.size() - 1))
+  for (; slots_[slot] != ObjCorners::kNone; slot = (slot + 1) & (slots_.size() - 1))
     if (corners_[slots_[slot]] == corner) return slots_[slot];
   slots_[slot] = static_cast<std::uint32_t>(corners_.size());
   corners_.push_back(corner);
@@ -151,8 +150,9 @@ void ObjCorners::finish(MeshFile& file) {
     ofWedges.reserve(corners_.size() * static_cast<std::size_t>(components));
     for (const Corner& corner : corners_)
       for (int i = 0; i < components; ++i)
-        ofWedges.push_back(corner.*index == kNone ? 0
-                                                  : numbers[3 * std::size_t{corner.*index} + std::size_t(i)]);
+        ofWedges.push_back(corner.*index == ObjCorners::kNone
+                               ? 0
+                               : numbers[3 * std::size_t{corner.*index} + std::size_t(i)]);
     mesh.wedgeAttributes.push_back(
         attributeOfTextNumbers(std::string(name), meaning, static_cast<std::uint8_t>(components), ofWedges));
   };

@@ -24,7 +24,7 @@ constexpr std::size_t kMostLibraries = 256;
 constexpr std::size_t kMostWords = 16;
 constexpr std::size_t kMostWarnings = 8;
 /// A material takes many times the bytes of its line.
-constexpr std::size_t kMostMaterials = 1 << 20;
+constexpr std::size_t kMostMaterialsOfAll = 1 << 20;
 
 /// Adds a warning unless there are many of its kind.
 class Warnings {
@@ -125,7 +125,7 @@ std::uint32_t ObjMaterials::use(std::string_view name) {
   if (!text::isUtf8(name)) return use(text::asUtf8(name));
   const auto known = numbers_.find(name);
   if (known != numbers_.end()) return known->second;
-  if (names_.size() == kMostMaterials) {
+  if (names_.size() == kMostMaterialsOfAll) {
     ++tooMany_;
     return MeshAttributes::kNone;
   }
@@ -140,8 +140,8 @@ Status ObjMaterials::finish(MeshFile& file, const std::filesystem::path& folder,
   Warnings warnings(file.warnings);
   if (libraries_.size() > kMostLibraries) warnings.add("it names too many libraries of materials");
   if (tooMany_ > 0)
-    warnings.add(fmt::format("it names more than {} materials; a further one is left out {}", kMostMaterials,
-                             counted(tooMany_, "time", "times")));
+    warnings.add(fmt::format("it names more than {} materials; a further one is left out {}",
+                             kMostMaterialsOfAll, counted(tooMany_, "time", "times")));
   const FilesBeside files(folder);
   std::set<std::string> isRead;
   std::map<std::string, std::uint32_t> known;

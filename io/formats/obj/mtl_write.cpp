@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostNames = 8;
+constexpr std::size_t kMostNamesListed = 8;
 
 /// What is lost of several materials: "the alpha mode of materials (\"a\", \"b\")".
 class Losses {
@@ -30,9 +30,10 @@ class Losses {
     std::vector<std::string> texts;
     for (const auto& [what, names] : of_) {
       std::string list;
-      for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i)
+      for (std::size_t i = 0; i < std::min(names.size(), kMostNamesListed); ++i)
         list += (i == 0 ? "" : ", ") + text::quotedToken(names[i]);
-      if (names.size() > kMostNames) list += fmt::format(" and {} more", names.size() - kMostNames);
+      if (names.size() > kMostNamesListed)
+        list += fmt::format(" and {} more", names.size() - kMostNamesListed);
       texts.push_back(fmt::format("{} of materials ({})", what, list));
     }
     return texts;

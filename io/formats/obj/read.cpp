@@ -29,8 +29,6 @@ namespace arete {
 
 namespace {
 
-constexpr std::uint32_t kNone = MeshAttributes::kNone;
-
 /// What the faces of a file have in common until another line changes it: the object, group, material,
 /// smoothing group. Listed by face from the first face on that has one.
 template <class Value>
@@ -106,7 +104,7 @@ class ObjReader final : public MeshTextReader {
   }
 
   std::uint32_t groupNamed(std::string_view name) {
-    if (name.empty()) return kNone;
+    if (name.empty()) return MeshAttributes::kNone;
     auto& groups = mesh().mesh.groups;
     const auto known = groups_.find(name);
     if (known != groups_.end()) return known->second;
@@ -199,7 +197,7 @@ class ObjReader final : public MeshTextReader {
     for (; count < uvw.size() && toNextWord(); ++count)
       if (!readLooseNumber(uvw[count])) return corrupt(line, "has texture coordinates that are no numbers");
     if (count == 0) return corrupt(line, "has no texture coordinates");
-    if (corners_.texcoordCount() == kNone)
+    if (corners_.texcoordCount() == MeshAttributes::kNone)
       return unsupported("holds more texture coordinates than an index can name");
     corners_.addTexcoord({uvw.data(), count});
     at() = lineEnd();
@@ -210,16 +208,18 @@ class ObjReader final : public MeshTextReader {
     std::array<double, 3> xyz;
     for (double& value : xyz)
       if (!toNextWord() || !readLooseNumber(value)) return corrupt(line, "is a normal without three numbers");
-    if (corners_.normalCount() == kNone) return unsupported("holds more normals than an index can name");
+    if (corners_.normalCount() == MeshAttributes::kNone)
+      return unsupported("holds more normals than an index can name");
     corners_.addNormal(xyz);
     at() = lineEnd();
     return {};
   }
 
-  /// Reads "/b" or "/c" of a corner; where it names none, or none of those so far, `to` is kNone or beyond.
+  /// Reads "/b" or "/c" of a corner; where it names none, or none of those so far, `to` is
+  /// MeshAttributes::kNone or beyond.
   bool readSecondIndex(std::uint32_t known, std::uint32_t& to) {
     const char*& p = at();
-    to = kNone;
+    to = MeshAttributes::kNone;
     if (p == end() || *p != '/') return true;
     ++p;
     if (p == end() || text::isSpace(*p) || *p == '/') return true;
@@ -228,9 +228,10 @@ class ObjReader final : public MeshTextReader {
     if (error == std::errc::invalid_argument) return false;
     p = behind;
     if (error != std::errc{}) index = std::numeric_limits<std::int64_t>::max();
-    if (index < 0) index = index < -std::int64_t{known} ? kNone : index + known + 1;
+    if (index < 0) index = index < -std::int64_t{known} ? MeshAttributes::kNone : index + known + 1;
     // 0 is what some exporters write for none.
-    if (index > 0) to = static_cast<std::uint32_t>(std::min<std::int64_t>(index - 1, kNone - 1));
+    if (index > 0)
+      to = static_cast<std::uint32_t>(std::min<std::int64_t>(index - 1, MeshAttributes::kNone - 1));
     return true;
   }
 
@@ -258,14 +259,16 @@ class ObjReader final : public MeshTextReader {
         largestIndexLine_ = line;
       }
       corner.vertex = static_cast<std::uint32_t>(index - 1);
-      namesMore = namesMore || corner.texcoord != kNone || corner.normal != kNone;
+      namesMore =
+          namesMore || corner.texcoord != MeshAttributes::kNone || corner.normal != MeshAttributes::kNone;
       faceCorners_.push_back(corner);
     }
     if (faceCorners_.size() < 3 && shortFaces_++ == 0) firstShortFace_ = faces().size() + 1;
     addFace(namesMore);
     at() = lineEnd();
-    return corners_.wedgeCount() < kNone ? Status()
-                                         : unsupported("holds more corners than an index can name");
+    return corners_.wedgeCount() < MeshAttributes::kNone
+               ? Status()
+               : unsupported("holds more corners than an index can name");
   }
 
   void addFace(bool namesMore) {
@@ -336,8 +339,9 @@ class ObjReader final : public MeshTextReader {
   std::vector<std::uint32_t> vertices_, wedges_;
   std::map<std::string, std::uint32_t, std::less<>> groups_;
   std::vector<std::int32_t> smoothingOf_;
-  State<std::uint32_t> object_{mesh().mesh.objectOf, kNone}, group_{mesh().mesh.groupOf, kNone},
-      material_{mesh().mesh.materialOf, kNone};
+  State<std::uint32_t> object_{mesh().mesh.objectOf, MeshAttributes::kNone},
+      group_{mesh().mesh.groupOf, MeshAttributes::kNone},
+      material_{mesh().mesh.materialOf, MeshAttributes::kNone};
   State<std::int32_t> smoothing_{smoothingOf_, 0};
   std::uint64_t notFinite_ = 0, shortFaces_ = 0, firstShortFace_ = 0;
   std::int64_t largestIndex_ = 0;

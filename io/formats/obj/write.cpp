@@ -33,8 +33,6 @@ namespace arete {
 
 namespace {
 
-constexpr std::uint32_t kNone = MeshAttributes::kNone;
-
 using Line = fmt::memory_buffer;
 
 const Attribute* attributeNamed(const std::vector<Attribute>& attributes, std::string_view name, int fewest,
@@ -64,7 +62,7 @@ class Values {
     isFloat32_ = hasFloat32Digits(*attribute);
     const bool isNormal = keyword == "vn";
     std::unordered_map<std::string, std::uint32_t> known;
-    indices_.resize(attribute->elementCount(), kNone);
+    indices_.resize(attribute->elementCount(), MeshAttributes::kNone);
     bool isAnyZero = false;
     for (std::size_t i = 0; i < indices_.size(); ++i) {
       const std::string values = textOf(i, isNormal);
@@ -85,7 +83,7 @@ class Values {
   std::uint64_t indexOf(std::uint32_t vertex, std::uint32_t wedge) const {
     if (!attribute_) return 0;
     const std::uint32_t index = indices_[isOfWedges_ ? wedge : vertex];
-    return index == kNone ? 0 : std::uint64_t{index} + 1;
+    return index == MeshAttributes::kNone ? 0 : std::uint64_t{index} + 1;
   }
 
  private:
@@ -123,7 +121,7 @@ class Values {
 };
 
 std::uint32_t valueAt(const std::vector<std::uint32_t>& list, std::size_t t) {
-  return list.empty() ? kNone : list[t];
+  return list.empty() ? MeshAttributes::kNone : list[t];
 }
 
 /// The lines that say what the next faces belong to, but for their object.
@@ -142,7 +140,7 @@ class States {
   std::string emptyGroups() const {
     std::vector<bool> isUsed(groups_.size());
     for (const std::uint32_t group : mesh_.groupOf)
-      if (group != kNone) isUsed[group] = true;
+      if (group != MeshAttributes::kNone) isUsed[group] = true;
     std::string text;
     for (std::size_t g = 0; g < groups_.size(); ++g)
       if (!isUsed[g] && !groups_[g].empty()) text += fmt::format("g {}\n", groups_[g]);
@@ -152,9 +150,11 @@ class States {
   /// The lines before a triangle.
   void appendChanges(std::string& text, std::size_t t) {
     if (const std::uint32_t group = valueAt(mesh_.groupOf, t); group != group_)
-      text += (group_ = group) == kNone ? "g\n" : fmt::format("g {}\n", groups_[group]);
+      text += (group_ = group) == MeshAttributes::kNone ? "g\n" : fmt::format("g {}\n", groups_[group]);
     if (const std::uint32_t material = valueAt(mesh_.materialOf, t); material != material_)
-      text += (material_ = material) == kNone ? "usemtl\n" : fmt::format("usemtl {}\n", materials_[material]);
+      text += (material_ = material) == MeshAttributes::kNone
+                  ? "usemtl\n"
+                  : fmt::format("usemtl {}\n", materials_[material]);
     if (!smoothing_) return;
     if (const double group = smoothing_->numbers(t)[0]; group != smoothingGroup_)
       text += (smoothingGroup_ = group) == 0 ? "s off\n" : fmt::format("s {}\n", group);
@@ -165,7 +165,7 @@ class States {
   std::span<const std::string> materials_;
   std::vector<std::string> groups_;
   const Attribute* smoothing_ = nullptr;
-  std::uint32_t group_ = kNone, material_ = kNone;
+  std::uint32_t group_ = MeshAttributes::kNone, material_ = MeshAttributes::kNone;
   double smoothingGroup_ = 0;
 };
 
@@ -285,7 +285,7 @@ class ObjWriter {
 
   bool writeFaces(FileWriter& file, const Values& texcoords, const Values& normals, States& states) {
     for (const ObjectRun& run : runs_.runs) {
-      if (run.object != kNone)
+      if (run.object != MeshAttributes::kNone)
         file.write(objectLine(mesh_.objects[run.object]));
       else if (run.first > 0)
         file.write(objectLine({}));
@@ -312,7 +312,8 @@ class ObjWriter {
     face_.push_back('f');
     const auto to = std::back_inserter(face_);
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t v = shape_.triangles[t][k], w = mesh_.hasWedges() ? mesh_.wedges[t][k] : kNone;
+      const std::uint32_t v = shape_.triangles[t][k],
+                          w = mesh_.hasWedges() ? mesh_.wedges[t][k] : MeshAttributes::kNone;
       const std::uint64_t vertex = std::uint64_t{v} + 1, texcoord = texcoords.indexOf(v, w),
                           normal = normals.indexOf(v, w);
       if (texcoord == 0 && normal == 0)

@@ -21,7 +21,7 @@
 namespace arete {
 namespace {
 
-struct Extent {
+struct PlanExtent {
   double xMin = std::numeric_limits<double>::infinity(), yMin = xMin, xMax = -xMin, yMax = -xMin;
 
   void add(Vec2 p) {
@@ -32,8 +32,8 @@ struct Extent {
   }
 };
 
-Extent extentOf(const TerrainModel& model) {
-  Extent extent;
+PlanExtent planExtentOf(const TerrainModel& model) {
+  PlanExtent extent;
   const Box2 box = planBox(model);
   for (const double x : {box.xMin, box.xMax})
     for (const double y : {box.yMin, box.yMax}) extent.add(model.toSource({x, y}));
@@ -41,8 +41,8 @@ Extent extentOf(const TerrainModel& model) {
 }
 
 /// With the whole areas of the pixels, half a step around their centres.
-Extent extentOf(const RasterHeightfield& raster) {
-  Extent extent;
+PlanExtent planExtentOf(const RasterHeightfield& raster) {
+  PlanExtent extent;
   for (const double column : {-0.5, raster.columns - 0.5})
     for (const double row : {-0.5, raster.rows - 0.5}) extent.add(raster.georeference.toSource(column, row));
   return extent;
@@ -50,7 +50,7 @@ Extent extentOf(const RasterHeightfield& raster) {
 
 /// Tests bounding boxes only; that of a rotated raster is larger than the raster.
 bool mayOverlap(const TerrainModel& model, const RasterHeightfield& raster) {
-  const Extent dem = extentOf(model), own = extentOf(raster);
+  const PlanExtent dem = planExtentOf(model), own = planExtentOf(raster);
   if (!(own.yMin <= dem.yMax && dem.yMin <= own.yMax)) return false;
   // The two may lie a turn apart, and either may be the wider.
   const double middle = dem.xMin / 2 + dem.xMax / 2;

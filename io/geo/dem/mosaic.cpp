@@ -23,7 +23,7 @@
 namespace arete {
 namespace {
 
-constexpr double kMostPixelsOff = 0.01;
+constexpr double kMostTilePixelsOff = 0.01;
 constexpr std::uint64_t kSampleLimit = (std::uint64_t(1) << 32) - 2;
 
 /// A file on the lattice.
@@ -89,8 +89,8 @@ Status placePart(const Part& first, Part& part) {
   for (const double column : {0.0, lastColumn})
     for (const double row : {0.0, lastRow}) {
       const Vec2 at = onLattice(column, row);
-      if (!(std::abs(at.x - begin.x - column) <= kMostPixelsOff &&
-            std::abs(at.y - begin.y - row) <= kMostPixelsOff))
+      if (!(std::abs(at.x - begin.x - column) <= kMostTilePixelsOff &&
+            std::abs(at.y - begin.y - row) <= kMostTilePixelsOff))
         return differs(part,
                        fmt::format("has pixels of {}, and {} of {}{}: gdalwarp -tr resamples one of them",
                                    stepsOf(own), first.path, stepsOf(lattice),
@@ -98,7 +98,7 @@ Status placePart(const Part& first, Part& part) {
     }
   const double column = std::round(begin.x), row = std::round(begin.y);
   const double right = begin.x - column, down = begin.y - row;
-  if (std::abs(right) > kMostPixelsOff || std::abs(down) > kMostPixelsOff)
+  if (std::abs(right) > kMostTilePixelsOff || std::abs(down) > kMostTilePixelsOff)
     return differs(
         part, fmt::format("is shifted by {:.3g} and {:.3g} pixel against the lattice of {}: gdalwarp -tr "
                           "with -tap resamples both to one",
@@ -118,7 +118,7 @@ void joinTurns(std::vector<Part>& parts) {
   if (!g.isGeographic || t[2] != 0 || t[4] != 0 || parts.size() < 2) return;
   const double exact = 2 * std::numbers::pi / g.angularUnitRadians / std::abs(t[1]);
   const std::int64_t turn = std::llround(exact);
-  if (turn < 1 || std::abs(exact - double(turn)) > kMostPixelsOff) return;
+  if (turn < 1 || std::abs(exact - double(turn)) > kMostTilePixelsOff) return;
 
   std::vector<std::size_t> order(parts.size());
   std::vector<std::int64_t> begin(parts.size());

@@ -78,7 +78,7 @@ class PictureToPlan {
   LongitudeTurns turns_;
 };
 
-Box planBox(const TerrainModel& model) {
+Box drapedBox(const TerrainModel& model) {
   if (model.isRaster) return {-0.5, model.columns - 0.5, -0.5, model.rows - 0.5};
   Box box;
   for (std::uint32_t v = 0; v < model.mt.vertexCount(); ++v) {
@@ -251,7 +251,7 @@ Result<DrapePlacement> placeDrape(GDALDataset& picture, void* transformer, const
                                   std::uint64_t maxPixels) {
   const PictureToPlan way(transformer, model);
   const Vec2 size{double(picture.GetRasterXSize()), double(picture.GetRasterYSize())};
-  const Box terrain = planBox(model);
+  const Box terrain = drapedBox(model);
   const Extents extents = extentsOf(way, model, terrain, size);
   if (extents.covered.isEmpty())
     return failure(ErrorCode::invalidData, "no part of it is in the domain of the CRS of the DEM");

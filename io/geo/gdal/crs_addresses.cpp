@@ -14,13 +14,13 @@
 namespace arete {
 namespace {
 
-thread_local int refusing = 0, stated = 0;
+thread_local int refusing = 0, statedAddresses = 0;
 
 /// @return Null: GDAL goes on to what was there before.
 CPLHTTPResult* refuseCrs(const char*, CSLConstList options, GDALProgressFunc, void*, CPLHTTPFetchWriteFunc,
                          void*, void*) {
   const char* headers = CSLFetchNameValue(options, "HEADERS");
-  if (stated > 0 || headers == nullptr || std::strstr(headers, "application/x-ogcwkt") == nullptr)
+  if (statedAddresses > 0 || headers == nullptr || std::strstr(headers, "application/x-ogcwkt") == nullptr)
     return nullptr;
   auto* result = static_cast<CPLHTTPResult*>(CPLCalloc(1, sizeof(CPLHTTPResult)));
   result->nStatus = 1;
@@ -39,11 +39,11 @@ NoCrsAddresses::~NoCrsAddresses() {
 }
 
 StatedCrsAddress::StatedCrsAddress() {
-  ++stated;
+  ++statedAddresses;
 }
 
 StatedCrsAddress::~StatedCrsAddress() {
-  --stated;
+  --statedAddresses;
 }
 
 }  // namespace arete

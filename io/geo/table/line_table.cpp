@@ -16,7 +16,7 @@
 namespace arete {
 namespace {
 
-constexpr std::size_t kRowsPerReport = 4096;
+constexpr std::size_t kLinesPerReport = 4096;
 /// Results that tables of one layer always have; which others depends on the question.
 constexpr std::size_t kFieldsOfAll = 7;
 
@@ -47,7 +47,7 @@ Status fill(GDALDataset& dataset, const LineTable& table, const GdalErrors& erro
     if (!addField(layer, column.name, column.kind)) return cannotBeWritten(errors);
   if (dataset.StartTransaction() != OGRERR_NONE) return cannotBeWritten(errors);
   for (std::size_t row = 0; row < table.ends.size(); ++row) {
-    if (row % kRowsPerReport == 0) {
+    if (row % kLinesPerReport == 0) {
       if (context.cancelled()) return failure(ErrorCode::interrupted, "writing was stopped");
       context.report("writing", double(row) / double(table.ends.size()));
     }

@@ -19,7 +19,7 @@ bool isWholly(std::string_view text) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-PointAttributes::Kind kindOf(std::string_view text) {
+PointAttributes::Kind kindOfText(std::string_view text) {
   using Kind = PointAttributes::Kind;
   const std::string_view digits = text.substr(text.front() == '-' ? 1 : 0);
   if (digits.size() > 1 && digits[0] == '0' && digits[1] >= '0' && digits[1] <= '9') return Kind::text;
@@ -38,7 +38,7 @@ void PointAttributes::findKinds() {
       const std::string_view value = at(r, c);
       if (value.empty()) continue;
       any = true;
-      const Kind kind = kindOf(value);
+      const Kind kind = kindOfText(value);
       allIntegers = allIntegers && kind == Kind::integer;
       allNumbers = allNumbers && kind != Kind::text;
     }

@@ -279,11 +279,12 @@ class TextParser {
 
   Status addValues(std::string_view line, const std::array<double, 3>& values,
                    const std::array<bool, 3>& isMissing) {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
     const bool hasNoPlace = isMissing[0] || isMissing[1];
     if (hasNoPlace && kind_ == PointTextColumns::planRows) {
       ++rows_.withoutPlace;
-      rows_.add(isMissing[0] ? kNone : values[0], isMissing[1] ? kNone : values[1], kNone, lineNumber_);
+      rows_.add(isMissing[0] ? kNothing : values[0], isMissing[1] ? kNothing : values[1], kNothing,
+                lineNumber_);
       if (attributes_) addAttributes(line);
       return {};
     }
@@ -301,7 +302,7 @@ class TextParser {
       return {};
     }
     const bool hasZ = columns_.wkt != kNoColumn && !isMissing[2];
-    rows_.add(values[0], values[1], isPlan() && !hasZ ? kNone : values[2], lineNumber_);
+    rows_.add(values[0], values[1], isPlan() && !hasZ ? kNothing : values[2], lineNumber_);
     if (attributes_) addAttributes(line);
     return {};
   }

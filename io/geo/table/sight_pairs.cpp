@@ -33,7 +33,7 @@
 namespace arete {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotStated = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view kStandardInput = "/vsistdin";
 
 int columnNamed(int count, const std::function<std::string_view(std::size_t)>& nameOf,
@@ -112,7 +112,7 @@ class PairReader {
   /// Leaves the second position NaN if azimuth and range give it: see directions().
   Status add(OGRFeature& feature) {
     std::array<SightSite, 2> row;
-    for (SightSite& site : row) site.stated = {kNone, kNone};
+    for (SightSite& site : row) site.stated = {kNotStated, kNotStated};
     if (hasGeometry_) {
       ARETE_CHECK(readGeometry(feature, row));
     } else {
@@ -129,7 +129,7 @@ class PairReader {
       if (!height) return failure(ErrorCode::invalidData, height.error().message, where(feature));
       row[end].height = *height;
     }
-    std::array<double, 2> direction = {kNone, kNone};
+    std::array<double, 2> direction = {kNotStated, kNotStated};
     if (hasDirection()) {
       ARETE_CHECK(readNumber(feature, azimuth_, direction[0]));
       ARETE_CHECK(readNumber(feature, range_, direction[1]));
@@ -209,7 +209,7 @@ void setPositions(SightPairs& pairs, const PairReader& reader, const CrsTransfor
     toDem.apply(positions);
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const bool isStated = std::isfinite(pairs.rows[i][end].stated.x + pairs.rows[i][end].stated.y);
-      pairs.rows[i][end].xy = isStated ? positions[i] : Vec2{kNone, kNone};
+      pairs.rows[i][end].xy = isStated ? positions[i] : Vec2{kNotStated, kNotStated};
     }
   }
   if (!reader.hasDirection()) return;
@@ -226,8 +226,8 @@ void setPositions(SightPairs& pairs, const PairReader& reader, const CrsTransfor
   }
 }
 
-Result<SightPairs> readFrom(const std::string& path, const Georeference& dem,
-                            const PointTableOptions& options, const RunContext& context) {
+Result<SightPairs> readPairsFrom(const std::string& path, const Georeference& dem,
+                                 const PointTableOptions& options, const RunContext& context) {
   registerGdal();
   GdalErrors errors;
   SightPairs pairs;
@@ -263,7 +263,7 @@ Result<SightPairs> readFrom(const std::string& path, const Georeference& dem,
 
 Result<SightPairs> readSightPairs(const std::string& path, const Georeference& dem,
                                   const PointTableOptions& options, const RunContext& context) try {
-  auto pairs = readFrom(path, dem, options, context);
+  auto pairs = readPairsFrom(path, dem, options, context);
   if (!pairs && pairs.error().culprit.empty()) pairs.error().culprit = path;
   return pairs;
 } catch (...) {
@@ -284,7 +284,7 @@ Result<SightPairs> readSightSites(const std::string& path, const Georeference& d
   const auto numberIn = [&](std::size_t row, std::span<const std::string_view> names) -> Result<double> {
     const int at = columnNamed(int(sites.attributes.columns.size()), nameOf, names);
     const std::string_view text = at < 0 ? std::string_view() : sites.attributes.at(row, std::size_t(at));
-    if (text.empty()) return kNone;
+    if (text.empty()) return kNotStated;
     const auto number = finiteNumber(text);
     if (!number)
       return failure(ErrorCode::invalidData, fmt::format("'{}' is not a number", text),
@@ -295,7 +295,7 @@ Result<SightPairs> readSightSites(const std::string& path, const Georeference& d
     std::array<SightSite, 2> row;
     row[0].stated = table.stated[i];
     row[0].xy = table.positions[i];
-    row[1].stated = row[1].xy = {kNone, kNone};
+    row[1].stated = row[1].xy = {kNotStated, kNotStated};
     if (column >= 0)
       if (const std::string_view text = sites.attributes.at(i, std::size_t(column)); !text.empty()) {
         const auto height = readHeightText(text);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMostBalls = 16;
 /// Enlarges the balls, because a triangle in the column is tested by a ball of its own.
-constexpr double kWider = 1.25;
+constexpr double kWiderBall = 1.25;
 
 struct HeightRange {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -42,7 +42,7 @@ RequiredError requiredInView(const ViewError& view, const TerrainModel& outline)
     const double across = std::hypot(high.x - low.x, high.y - low.y), up = heights.high - heights.low;
     if (!std::isfinite(across + up)) return 0.0;  // not known: require everything
     const double balls = std::clamp(std::ceil(up / std::max(across, 1e-300)), 1.0, kMostBalls);
-    const double radius = kWider * std::hypot(across, up / balls) / 2;
+    const double radius = kWiderBall * std::hypot(across, up / balls) / 2;
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < balls; ++i) {
       const double middle = heights.low + (i + 0.5) * up / balls;

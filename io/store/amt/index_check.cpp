@@ -38,7 +38,6 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = MultiTriangulation::kNone;
 constexpr std::uint32_t kBlock = 1 << 14;
 
 class MtIndexCheck {
@@ -125,13 +124,14 @@ class MtIndexCheck {
   }
 
   Status removers() const {
-    if (const auto bad = firstBad(
-            roots_, [&](std::uint32_t t) { return a_.remover[t] != kNone && a_.remover[t] >= nodes_; }))
+    if (const auto bad = firstBad(roots_, [&](std::uint32_t t) {
+          return a_.remover[t] != MultiTriangulation::kNone && a_.remover[t] >= nodes_;
+        }))
       return refuse(amt_tag::kRemover,
                     fmt::format("triangle {} is removed by node {} of {}", *bad, a_.remover[*bad], nodes_));
     const auto isBad = [&](std::uint32_t n, std::uint32_t s) {
       const std::uint32_t r = a_.remover[roots_ + s];
-      if (r == kNone) return false;
+      if (r == MultiTriangulation::kNone) return false;
       return r >= nodes_ || r < n || (r == n && s + 1 != a_.slotBegin[n + 1]);
     };
     if (const auto bad = firstBadNode(isBad)) {
@@ -171,7 +171,8 @@ class MtIndexCheck {
     const auto count = [&](std::uint64_t here) { removed.fetch_add(here, std::memory_order_relaxed); };
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, roots_, kBlock), [&](const auto& range) {
       std::uint64_t here = 0;
-      for (std::uint32_t t = range.begin(); t != range.end(); ++t) here += a_.remover[t] != kNone ? 1 : 0;
+      for (std::uint32_t t = range.begin(); t != range.end(); ++t)
+        here += a_.remover[t] != MultiTriangulation::kNone ? 1 : 0;
       count(here);
     });
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, nodes_, kBlock), [&](const auto& range) {
@@ -179,7 +180,7 @@ class MtIndexCheck {
       for (std::uint32_t n = range.begin(); n != range.end(); ++n)
         for (std::uint32_t s = a_.slotBegin[n]; s < a_.slotBegin[n + 1]; ++s) {
           const std::uint32_t r = a_.remover[roots_ + s];
-          here += r != kNone && r != n ? 1 : 0;
+          here += r != MultiTriangulation::kNone && r != n ? 1 : 0;
         }
       count(here);
     });

@@ -2,9 +2,9 @@
 //
 // A subset is copied in two passes over the words of the set. The first counts the slots of each word, from
 // which the first slot of each node follows. The second copies; vertices, removers and triangles get new
-// numbers by the rank of the node that they belong to. A remover outside the set becomes kNone. A vertex or a
-// triangle of a node outside the set is an error, because the parents of a node create its floor and the
-// vertices of its link are corners of the floor.
+// numbers by the rank of the node that they belong to. A remover outside the set becomes
+// MultiTriangulation::kNone. A vertex or a triangle of a node outside the set is an error, because the
+// parents of a node create its floor and the vertices of its link are corners of the floor.
 //
 // Every index is compared with the sizes of the arrays before it is used.
 #include "io/store/amt/mt_part.h"
@@ -25,11 +25,7 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = MultiTriangulation::kNone;
 constexpr std::size_t kGrain = std::size_t{1} << 14;
-constexpr std::uint32_t kNodesPerBlock = MultiTriangulation::kNodesPerBlock,
-                        kNodesPerPage = MultiTriangulation::kNodesPerPage,
-                        kSlotsPerHint = MultiTriangulation::kSlotsPerHint;
 
 /// The slots of a node.
 struct Slots {
@@ -45,14 +41,15 @@ Slots slotsOf(const MtArrays& a, std::uint32_t n) {
   return {begin, end - begin};
 }
 
-/// The node that owns a slot; kNone if the arrays are damaged.
+/// The node that owns a slot; MultiTriangulation::kNone if the arrays are damaged.
 std::uint32_t ownerOf(const MtArrays& a, std::uint32_t slot) {
-  if (slot >= a.link.size()) return kNone;
-  const std::uint32_t hint = a.creatorHint[slot / kSlotsPerHint];
+  if (slot >= a.link.size()) return MultiTriangulation::kNone;
+  const std::uint32_t hint = a.creatorHint[slot / MultiTriangulation::kSlotsPerHint];
   const std::uint64_t nodes = a.saturatedError.size();
-  for (std::uint64_t n = hint; n < std::min(nodes, std::uint64_t{hint} + kSlotsPerHint); ++n)
+  for (std::uint64_t n = hint; n < std::min(nodes, std::uint64_t{hint} + MultiTriangulation::kSlotsPerHint);
+       ++n)
     if (a.slotBegin[n] <= slot && slot < a.slotBegin[n + 1]) return static_cast<std::uint32_t>(n);
-  return kNone;
+  return MultiTriangulation::kNone;
 }
 
 struct PrefixArrays {
@@ -159,7 +156,8 @@ class SubsetCopy {
     to.floor.resize(slots_ - 2 * nodes);
     to.saturatedError.resize(nodes);
     to.sphere.resize(nodes);
-    to.creatorHint.resize((std::size_t{slots_} + kSlotsPerHint - 1) / kSlotsPerHint);
+    to.creatorHint.resize((std::size_t{slots_} + MultiTriangulation::kSlotsPerHint - 1) /
+                          MultiTriangulation::kSlotsPerHint);
     const std::size_t vertices = a_.rootVertices + nodes;
     if (a_.vertices.isLattice())
       to.samples.resize(vertices);
@@ -169,7 +167,8 @@ class SubsetCopy {
   }
 
   void copyRoot() {
-    for (std::uint32_t t = 0; t < roots_; ++t) copyTriangle(t, t, kNone, kNone);
+    for (std::uint32_t t = 0; t < roots_; ++t)
+      copyTriangle(t, t, MultiTriangulation::kNone, MultiTriangulation::kNone);
     copyVertices(0, 0, a_.rootVertices);
   }
 
@@ -196,16 +195,17 @@ class SubsetCopy {
     to.sphere[rank] = a_.sphere[n];
     copyVertices(a_.rootVertices + n, a_.rootVertices + rank, 1);
     const std::uint64_t end = std::uint64_t{begin} + slots.size;
-    for (std::uint64_t hint = (std::uint64_t{begin} + kSlotsPerHint - 1) / kSlotsPerHint;
-         hint * kSlotsPerHint < end; ++hint)
+    for (std::uint64_t hint = (std::uint64_t{begin} + MultiTriangulation::kSlotsPerHint - 1) /
+                              MultiTriangulation::kSlotsPerHint;
+         hint * MultiTriangulation::kSlotsPerHint < end; ++hint)
       to.creatorHint[hint] = rank;
   }
 
   /// A triangle of node `creator`, whose new number is `rank`.
   void copyTriangle(std::uint32_t from, std::uint32_t t, std::uint32_t creator, std::uint32_t rank) {
     const std::uint32_t r = a_.remover[from];
-    std::uint32_t remover = kNone;
-    if (r != kNone && r == creator)
+    std::uint32_t remover = MultiTriangulation::kNone;
+    if (r != MultiTriangulation::kNone && r == creator)
       remover = rank;
     else if (r < a_.saturatedError.size() && nodes_.contains(r))
       remover = nodes_.rankOf(r);
@@ -269,7 +269,7 @@ std::optional<MultiTriangulation> prefixOfMt(const MultiTriangulation& whole, st
   arrays->remover.resize(ids);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ids, kGrain), [&](const auto& range) {
     for (std::size_t t = range.begin(); t < range.end(); ++t)
-      arrays->remover[t] = a.remover[t] < nodes ? a.remover[t] : kNone;
+      arrays->remover[t] = a.remover[t] < nodes ? a.remover[t] : MultiTriangulation::kNone;
   });
   const auto copyBlocks = [&](std::uint64_t first, std::uint64_t count) {
     const auto from = static_cast<std::ptrdiff_t>(first), size = static_cast<std::ptrdiff_t>(count);
@@ -278,8 +278,8 @@ std::optional<MultiTriangulation> prefixOfMt(const MultiTriangulation& whole, st
     blocks.sphere.insert(blocks.sphere.end(), a.blockSphere.begin() + from,
                          a.blockSphere.begin() + from + size);
   };
-  copyBlocks(0, nodes / kNodesPerBlock);
-  copyBlocks(nodeBlockCount(whole.nodeCount()), nodes / kNodesPerPage);
+  copyBlocks(0, nodes / MultiTriangulation::kNodesPerBlock);
+  copyBlocks(nodeBlockCount(whole.nodeCount()), nodes / MultiTriangulation::kNodesPerPage);
   a.slotBegin = a.slotBegin.first(nodes + 1);
   a.link = a.link.first(slots);
   a.remover = arrays->remover;
@@ -291,7 +291,8 @@ std::optional<MultiTriangulation> prefixOfMt(const MultiTriangulation& whole, st
   a.sphere = a.sphere.first(nodes);
   a.blockError = arrays->blocks.error;
   a.blockSphere = arrays->blocks.sphere;
-  a.creatorHint = a.creatorHint.first((slots + kSlotsPerHint - 1) / kSlotsPerHint);
+  a.creatorHint = a.creatorHint.first((slots + MultiTriangulation::kSlotsPerHint - 1) /
+                                      MultiTriangulation::kSlotsPerHint);
   if (a.vertices.isLattice())
     a.vertices.samples = a.vertices.samples.first(vertices);
   else

@@ -16,7 +16,7 @@
 namespace arete {
 namespace {
 
-struct Stored {
+struct StoredSurface {
   std::uint32_t scaleBase = 0;
   std::optional<double> positionStep, positionError;
   std::optional<std::uint64_t> fileFaces, splitFaces;
@@ -37,7 +37,7 @@ std::uint64_t splitFacesOf(const SurfaceMetadata& m) {
 
 /// Visits the fields of the metadata, in the order of the file.
 template <class Visitor, class Metadata, class OtherValues>
-void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
+void visitSurfaceMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
   auto& model = m.model;
   top.field("writer", m.writer);
   top.field("source", model.source);
@@ -156,9 +156,9 @@ std::string toSurfaceJson(const SurfaceMetadata& metadata) {
   JsonTree object(nlohmann::ordered_json::object());
   json_fields::Writer writer(*object);
   const SurfaceModel& model = metadata.model;
-  const Stored stored{metadata.scale.base(), unlessZero(metadata.positionStep),
-                      unlessZero(model.positionError), model.fileFaces, model.mending.splitFaces};
-  visitMetadata(writer, metadata, stored);
+  const StoredSurface stored{metadata.scale.base(), unlessZero(metadata.positionStep),
+                             unlessZero(model.positionError), model.fileFaces, model.mending.splitFaces};
+  visitSurfaceMetadata(writer, metadata, stored);
   return (*object).dump(1) + "\n";
 }
 
@@ -168,8 +168,8 @@ Result<SurfaceMetadata> fromSurfaceJson(std::string_view text) {
   SurfaceMetadata m;
   std::string problem;
   json_fields::Reader reader(*object, problem);
-  Stored stored;
-  visitMetadata(reader, m, stored);
+  StoredSurface stored;
+  visitSurfaceMetadata(reader, m, stored);
   m.scale = OutwardScale::fromBase(stored.scaleBase);
   m.positionStep = stored.positionStep.value_or(0);
   m.model.positionError = stored.positionError.value_or(0);

@@ -16,7 +16,7 @@
 namespace arete {
 namespace {
 
-double spanOfErrors(const MultiTriangulation& mt) {
+double spanToRefine(const MultiTriangulation& mt) {
   return mt.nodeCount() ? mt.largestError() : 1;
 }
 
@@ -54,7 +54,7 @@ TEST(Budget, OfAUniformErrorResultsInTheCutOfTheWalkFromTheRoot) {
   for (const FamilyModel& s : familyModels()) {
     const MultiTriangulation& mt = s.model.mt;
     const std::uint32_t roots = mt.rootTriangleCount(), finest = mt.finestTriangleCount();
-    for (const double maxError : {0.0, 0.02 * spanOfErrors(mt)})
+    for (const double maxError : {0.0, 0.02 * spanToRefine(mt)})
       for (int i = 0; i <= 40; ++i) {
         const std::uint32_t budget = roots + (finest - roots) * static_cast<std::uint32_t>(i) / 40;
         Silent silent;

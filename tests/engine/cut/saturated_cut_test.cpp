@@ -18,7 +18,7 @@
 namespace arete {
 namespace {
 
-double spanOfErrors(const MultiTriangulation& mt) {
+double spanOfSaturated(const MultiTriangulation& mt) {
   return mt.nodeCount() ? mt.largestError() : 1;
 }
 
@@ -48,7 +48,7 @@ TEST(SaturatedCut, HasAConformingFrontWhereSpheresAreTooSmall) {
       if (random() % 2 == 0) ball.radius = 0;
     arrays.sphere = sphere;
     const MultiTriangulation mt(arrays, nullptr);
-    const double span = spanOfErrors(mt);
+    const double span = spanOfSaturated(mt);
     for (const double part : {0.0, 0.01, 0.1}) {
       const RegionError corner(Region::box({3, 3, 9, 8}), arrays.metric, part * span, 4 * part * span + 0.1);
       const auto cut = takeCut(mt, corner, {.method = CutMethod::saturated}),
@@ -100,7 +100,7 @@ TEST(SaturatedCut, UnderABudgetIsTheWorstNodesThatFit) {
     });
     const std::uint32_t roots = mt.rootTriangleCount(), finest = mt.finestTriangleCount();
     for (const double part : {0.0, 0.03, 0.2, 0.71, 1.0})
-      for (const double allowed : {0.0, 0.02 * spanOfErrors(mt)}) {
+      for (const double allowed : {0.0, 0.02 * spanOfSaturated(mt)}) {
         const auto budget = static_cast<std::uint32_t>(roots + part * (finest - roots));
         NodeSet expected(mt.nodeCount(), 0);
         std::uint32_t triangles = roots;
@@ -123,7 +123,7 @@ TEST(SaturatedCut, UnderABudgetIsTheWorstNodesThatFit) {
 TEST(SaturatedCut, ContainsTheMinimalOneAndMeetsTheSameBound) {
   for (const FamilyModel& s : familyModels())
     for (const double part : {0.0, 0.005, 0.05, 0.3, 1.0}) {
-      const double bound = part * spanOfErrors(s.model.mt);
+      const double bound = part * spanOfSaturated(s.model.mt);
       const auto minimal = takeCut(s.model.mt, UniformError(bound));
       const auto saturated = takeCut(s.model.mt, UniformError(bound), {.method = CutMethod::saturated});
       ASSERT_TRUE(minimal && saturated);
@@ -135,7 +135,7 @@ TEST(SaturatedCut, ContainsTheMinimalOneAndMeetsTheSameBound) {
 
 TEST(SaturatedCut, IsClosedForRegionsToo) {
   for (const FamilyModel& s : familyModels()) {
-    const double span = spanOfErrors(s.model.mt);
+    const double span = spanOfSaturated(s.model.mt);
     const RegionError criterion(Region::box({4, 6, 13, 15}), s.model.mt.arrays().metric, 0.005 * span,
                                 0.5 * span);
     auto nodes = takeNodes(s.model.mt, criterion, {.method = CutMethod::saturated});

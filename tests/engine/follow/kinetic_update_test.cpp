@@ -82,7 +82,7 @@ class Flight {
   ViewError::Options o_;
 };
 
-NodeSet fromScratch(const MultiTriangulation& mt, const Criterion& criterion) {
+NodeSet takenAnew(const MultiTriangulation& mt, const Criterion& criterion) {
   return takeNodes(mt, criterion, {.method = CutMethod::saturated})->nodes;
 }
 
@@ -109,7 +109,7 @@ TEST(KineticUpdate, EqualsTheCutFromScratchHoweverTheCameraMoves) {
           const ViewError criterion = flight.next();
           const auto update = cut.update(criterion);
           ASSERT_TRUE(update && update->isComplete);
-          ASSERT_EQ(cut.nodes(), fromScratch(mt, criterion)) << "frame " << frame;
+          ASSERT_EQ(cut.nodes(), takenAnew(mt, criterion)) << "frame " << frame;
         }
         ASSERT_TRUE(cut.validate());
       }
@@ -134,7 +134,7 @@ TEST(KineticUpdate, GoesOnWhereADeadlineStoppedIt) {
           ASSERT_TRUE(update->isComplete);
         }
         if (update->isComplete) {
-          ASSERT_EQ(cut.nodes(), fromScratch(mt, criterion)) << "frame " << frame;
+          ASSERT_EQ(cut.nodes(), takenAnew(mt, criterion)) << "frame " << frame;
         }
       }
     }
@@ -155,7 +155,7 @@ TEST(KineticUpdate, GoesOnWhereItWasInterrupted) {
     ASSERT_TRUE(update);
     if (cancel) continue;
     EXPECT_TRUE(update->isComplete);
-    EXPECT_EQ(cut.nodes(), fromScratch(mountains(), criterion));
+    EXPECT_EQ(cut.nodes(), takenAnew(mountains(), criterion));
   }
 }
 
@@ -170,7 +170,7 @@ TEST(KineticUpdate, KeepsABudgetThatComesAndGoes) {
     for (int frame = 0; frame < 80; ++frame) {
       const ViewError criterion = flight.next();
       IncrementalOptions options;
-      const NodeSet wanted = fromScratch(mt, criterion);
+      const NodeSet wanted = takenAnew(mt, criterion);
       needed = std::uint32_t(front(mt, wanted).ids.size());
       if (frame % 20 >= 5) options.maxTriangles = needed + 10;  // for a while there is enough
       if (frame % 20 >= 15) options.maxTriangles = roots + std::uint32_t(random() % (needed - roots + 1));
@@ -216,7 +216,7 @@ TEST(KineticUpdate, TakesUpACutThatOthersHaveChanged) {
       ASSERT_TRUE(cut.update(UniformError(1)));
     }
     ASSERT_TRUE(cut.update(criterion));
-    EXPECT_EQ(cut.nodes(), fromScratch(mt, criterion)) << "frame " << frame;
+    EXPECT_EQ(cut.nodes(), takenAnew(mt, criterion)) << "frame " << frame;
     EXPECT_TRUE(cut.validate());
   }
 }

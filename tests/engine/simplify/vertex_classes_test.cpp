@@ -21,12 +21,13 @@ namespace {
 using testing::gridHeights;
 using testing::gridTriangles;
 
-struct Grid {
+struct ClassGrid {
   std::uint32_t columns, rows;
   std::vector<Vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 
-  Grid(std::uint32_t columnCount, std::uint32_t rowCount, const std::function<double(double, double)>& height)
+  ClassGrid(std::uint32_t columnCount, std::uint32_t rowCount,
+            const std::function<double(double, double)>& height)
       : columns(columnCount), rows(rowCount) {
     const auto heights = gridHeights(columns, rows, height);
     triangles = gridTriangles(columns, rows, heights);
@@ -53,13 +54,13 @@ VertexClassCounts countClasses(const std::vector<VertexClass>& classes) {
 }
 
 TEST(VertexClasses, FlatGroundIsSimpleInsideABoundary) {
-  const Grid grid(6, 5, [](double, double) { return 3.0; });
+  const ClassGrid grid(6, 5, [](double, double) { return 3.0; });
   EXPECT_EQ(countClasses(grid.classify(1)), (VertexClassCounts{.simple = 12, .boundary = 18}));
 }
 
 TEST(VertexClasses, ARoofHasItsRidgeAsInteriorEdge) {
   // Both planes rise at 45 degrees towards column 3, so their normals differ by 90.
-  const Grid grid(7, 6, [](double c, double) { return 3 - std::abs(c - 3); });
+  const ClassGrid grid(7, 6, [](double c, double) { return 3 - std::abs(c - 3); });
   const auto classes = grid.classify(89);
   for (std::uint32_t r = 1; r < 5; ++r) EXPECT_EQ(classes[grid.at(3, r)], VertexClass::interiorEdge);
   EXPECT_EQ(classes[grid.at(3, 0)], VertexClass::boundary) << "a crease on the border is the border's";
@@ -133,7 +134,7 @@ TEST(VertexClasses, AnEndingCreaseIsACorner) {
 TEST(VertexClasses, ARimOfNodataIsBoundaryAndALoneSampleIsolated) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   // Column 5 is cut off by the void in column 4: its samples are in no triangle.
-  const Grid grid(6, 4, [&](double c, double) { return c == 4 ? none : 0.0; });
+  const ClassGrid grid(6, 4, [&](double c, double) { return c == 4 ? none : 0.0; });
   const auto classes = grid.classify(10);
   EXPECT_EQ(classes[grid.at(5, 2)], VertexClass::isolated);
   EXPECT_EQ(classes[grid.at(3, 2)], VertexClass::boundary);

@@ -34,7 +34,7 @@ Cut within(const SurfaceModel& model, double error) {
   return *cut;
 }
 
-Cut randomCut(const MultiTriangulation& mt, std::mt19937_64& random) {
+Cut anyCut(const MultiTriangulation& mt, std::mt19937_64& random) {
   NodeSet set(mt.nodeCount(), 0);
   const std::uint64_t some = random() % (mt.nodeCount() / 4 + 2);
   for (std::uint64_t i = 0; i < some && mt.nodeCount() > 0; ++i) set[random() % mt.nodeCount()] = 1;
@@ -319,7 +319,7 @@ TEST(Lines, OfRandomSurfacesStayWithinTheErrorOfEveryCut) {
     std::mt19937_64 random(seed);
     const SurfaceFront finest = finestSurfaceOf(model);
     const std::vector<parted::Sample> samples = parted::samplesOf(surface.mesh, random);
-    std::vector<Cut> all = {frontOfPrefix(model.mt, 0), randomCut(model.mt, random),
+    std::vector<Cut> all = {frontOfPrefix(model.mt, 0), anyCut(model.mt, random),
                             within(model, 1e-9 * model.diagonal), within(model, 0.01 * model.diagonal),
                             within(model, 0.05 * model.diagonal)};
     const auto most = static_cast<std::uint32_t>(model.mt.rootTriangleCount() + random() % 30);

@@ -16,9 +16,9 @@
 namespace arete {
 namespace {
 
-constexpr DecimateOperator kAll[] = {DecimateOperator::edge,       DecimateOperator::halfEdge,
-                                     DecimateOperator::vertexPair, DecimateOperator::face,
-                                     DecimateOperator::cluster,    DecimateOperator::lindstromTurk};
+constexpr DecimateOperator kEveryMethod[] = {DecimateOperator::edge,       DecimateOperator::halfEdge,
+                                             DecimateOperator::vertexPair, DecimateOperator::face,
+                                             DecimateOperator::cluster,    DecimateOperator::lindstromTurk};
 
 DecimatedMesh decimated(const TriangleMesh& mesh, DecimateOperator method, std::size_t triangles) {
   DecimateOptions options;
@@ -64,7 +64,7 @@ TEST(DecimateFar, TheSameMeshElsewhereGivesTheSameTriangles) {
         there.positions[v] = near.positions[v] + origin;
         near.positions[v] = there.positions[v] - origin;
       }
-      for (const DecimateOperator method : kAll) {
+      for (const DecimateOperator method : kEveryMethod) {
         SCOPED_TRACE("far " + std::to_string(far) + ", seed " + std::to_string(seed) + ", operator " +
                      std::to_string(int(method)));
         const DecimatedMesh a = decimated(near, method, 150), b = decimated(there, method, 150);

@@ -19,7 +19,7 @@
 namespace arete {
 namespace {
 
-std::uint64_t seeds() {
+std::uint64_t seedCount() {
   return test::isFull() ? 2000 : 60;
 }
 
@@ -87,7 +87,7 @@ void expectPromise(const Heightfield& field, HoleShape shape, bool isOrdinary, c
 }
 
 TEST(HostileHeights, KeepThePromiseOrAreRefusedByName) {
-  for (std::uint64_t seed = 1; seed <= seeds(); ++seed) {
+  for (std::uint64_t seed = 1; seed <= seedCount(); ++seed) {
     const HostileHeights made = hostileHeights(seed, 13, 11);
     expectPromise(made.field, seed % 3 == 0 ? HoleShape::dataDependent : HoleShape::delaunay, made.isOrdinary,
                   made.what);
@@ -95,7 +95,7 @@ TEST(HostileHeights, KeepThePromiseOrAreRefusedByName) {
 }
 
 TEST(HostileHeights, KeepThePromiseAsScatteredPoints) {
-  for (std::uint64_t seed = 1; seed <= seeds(); ++seed) {
+  for (std::uint64_t seed = 1; seed <= seedCount(); ++seed) {
     const HostileHeights made = hostileHeights(seed, 11, 9);
     expectPromise(hostilePoints(seed, 11, 9), seed % 3 == 0 ? HoleShape::dataDependent : HoleShape::delaunay,
                   made.isOrdinary, made.what);
@@ -103,7 +103,7 @@ TEST(HostileHeights, KeepThePromiseAsScatteredPoints) {
 }
 
 TEST(HostileHeights, StandAloneWhereTheyWerePlantedAndNowhereElse) {
-  for (std::uint64_t seed = 1; seed <= 20 * seeds(); ++seed) {
+  for (std::uint64_t seed = 1; seed <= 20 * seedCount(); ++seed) {
     const HostileHeights made = hostileHeights(seed, 17, 15);
     if (!made.isOrdinary) continue;
     EXPECT_EQ(loneHeights(made.field.heights).count, made.planted) << made.what;

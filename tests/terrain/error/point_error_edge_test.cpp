@@ -17,7 +17,7 @@
 namespace arete {
 namespace {
 
-using Exact = CGAL::Exact_rational;
+using ExactEdge = CGAL::Exact_rational;
 
 /// A finest triangulation, and the error of its points as a build has it.
 struct Ground {
@@ -33,26 +33,26 @@ struct Ground {
 };
 
 struct ExactBound {
-  Exact below = 0, above = 0;
+  ExactEdge below = 0, above = 0;
 };
 
 ExactBound exactAlong(const Ground& ground, const PointPlan& plan, VertexId a, VertexId b) {
   struct Place {
-    Exact x, y, z;
+    ExactEdge x, y, z;
   };
   const auto placeOf = [&](VertexId v) {
     const Vec3& p = ground.points[v];
     return Place{p.x, p.y, p.z};
   };
   const Place pa = placeOf(a), pb = placeOf(b);
-  const Exact dx = pb.x - pa.x, dy = pb.y - pa.y;
+  const ExactEdge dx = pb.x - pa.x, dy = pb.y - pa.y;
   ExactBound bound;
   const auto meet = [&](const Place& p) {
-    const Exact along = ((p.x - pa.x) * dx + (p.y - pa.y) * dy) / (dx * dx + dy * dy);
+    const ExactEdge along = ((p.x - pa.x) * dx + (p.y - pa.y) * dy) / (dx * dx + dy * dy);
     if (along < 0 || along > 1) return;
-    const Exact difference = pa.z + along * (pb.z - pa.z) - p.z;
+    const ExactEdge difference = pa.z + along * (pb.z - pa.z) - p.z;
     bound.above = std::max(bound.above, difference);
-    bound.below = std::max(bound.below, Exact(-difference));
+    bound.below = std::max(bound.below, ExactEdge(-difference));
   };
   for (const auto& t : ground.finest.triangles)
     for (std::size_t i = 0; i < 3; ++i) {
@@ -61,8 +61,8 @@ ExactBound exactAlong(const Ground& ground, const PointPlan& plan, VertexId a, V
       const Place pu = placeOf(u), pw = placeOf(w);
       if (side == 0) meet(pu);
       if (side * plan.orientation(a, b, w) >= 0) continue;
-      const auto sideOf = [&](const Place& p) { return Exact(dx * (p.y - pa.y) - dy * (p.x - pa.x)); };
-      const Exact part = sideOf(pu) / (sideOf(pu) - sideOf(pw));
+      const auto sideOf = [&](const Place& p) { return ExactEdge(dx * (p.y - pa.y) - dy * (p.x - pa.x)); };
+      const ExactEdge part = sideOf(pu) / (sideOf(pu) - sideOf(pw));
       meet({pu.x + part * (pw.x - pu.x), pu.y + part * (pw.y - pu.y), pu.z + part * (pw.z - pu.z)});
     }
   return bound;
@@ -82,8 +82,10 @@ void expectBoundsAlongEdges(const PointHeightfield& field, const std::string& na
       if (a == b || !ground.mesh.isInTriangle(a) || !ground.mesh.isInTriangle(b)) continue;
       const SignedBound bound = errors.alongEdge(a, b).bound;
       const ExactBound exact = exactAlong(ground, plan, a, b);
-      ASSERT_LE(exact.above, Exact(bound.above + slack)) << name << ": " << a.index() << " to " << b.index();
-      ASSERT_LE(exact.below, Exact(bound.below + slack)) << name << ": " << a.index() << " to " << b.index();
+      ASSERT_LE(exact.above, ExactEdge(bound.above + slack))
+          << name << ": " << a.index() << " to " << b.index();
+      ASSERT_LE(exact.below, ExactEdge(bound.below + slack))
+          << name << ": " << a.index() << " to " << b.index();
     }
 }
 

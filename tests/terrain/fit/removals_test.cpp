@@ -15,19 +15,19 @@ namespace {
 
 using namespace fit_test;
 
-constexpr double kAccepted = 1 + 1e-9;
+constexpr double kAcceptedError = 1 + 1e-9;
 
 TEST(RemoveWhatFits, KeepsTheBoundsAndRemovesATenthOfTheTriangles) {
   std::uint64_t before = 0, after = 0;
   for (const CutOfModel& c : cutsOfAllFamilies(8)) {
     SCOPED_TRACE(c.name);
     FitMesh mesh = meshOf(c, c.maxError);
-    mesh.setAccepted(kAccepted);
-    if (!(c.maxError > 0) || worstSeverity(mesh) > kAccepted) continue;
+    mesh.setAccepted(kAcceptedError);
+    if (!(c.maxError > 0) || worstSeverity(mesh) > kAcceptedError) continue;
     before += mesh.triangleCount();
     ASSERT_TRUE(removeWhatFits(mesh, 2, {}));
     after += mesh.triangleCount();
-    ASSERT_LE(worstSeverity(mesh), kAccepted + 1e-9);
+    ASSERT_LE(worstSeverity(mesh), kAcceptedError + 1e-9);
   }
   EXPECT_LT(after, before * 9 / 10) << "at least a tenth of all triangles can go";
 }
@@ -41,7 +41,7 @@ TEST(RemoveWhatFits, IsTheSameForAnyNumberOfThreads) {
       RunContext context;
       context.threads = threads;
       FitMesh mesh = meshOf(c, c.maxError);
-      mesh.setAccepted(kAccepted);
+      mesh.setAccepted(kAcceptedError);
       ASSERT_TRUE(removeWhatFits(mesh, 3, context));
       if (threads == 1)
         first = mesh.heights();
@@ -56,7 +56,7 @@ TEST(RemoveWhatFits, KeepsFixedVerticesAndStopsWhenCancelled) {
     SCOPED_TRACE(c.name);
     if (!(c.maxError > 0)) continue;
     FitMesh mesh = meshOf(c, c.maxError);
-    mesh.setAccepted(kAccepted);
+    mesh.setAccepted(kAcceptedError);
     const std::vector<double> heights = mesh.heights();
     for (std::uint32_t v = 0; v < mesh.vertexCount(); v += 3) mesh.fix(v);
     ASSERT_TRUE(removeWhatFits(mesh, 2, {}));

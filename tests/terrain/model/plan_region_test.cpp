@@ -14,7 +14,7 @@
 namespace arete {
 namespace {
 
-RasterHeightfield made(std::string_view name, std::uint32_t columns, std::uint32_t rows) {
+RasterHeightfield modelOf(std::string_view name, std::uint32_t columns, std::uint32_t rows) {
   for (const RasterFamily& family : rasterFamilies())
     if (family.name == name) return family.make(columns, rows, 3);
   return {};
@@ -28,7 +28,7 @@ std::vector<Vec2> gridBox(const RasterHeightfield& field, double c0, double r0, 
 TEST(PlanRegion, HoldsTheSamplesItWasDrawnAround) {
   for (const char* name : {"fractal", "rotated", "south up", "geographic"}) {
     SCOPED_TRACE(name);
-    const RasterHeightfield field = made(name, 20, 16);
+    const RasterHeightfield field = modelOf(name, 20, 16);
     const Region region = planRegion({.rings = {gridBox(field, 3.5, 2.5, 9.5, 7.5)}}, field);
     const auto inside = samplesInside(region, field);
     EXPECT_EQ(std::accumulate(inside.begin(), inside.end(), 0), 6 * 5);
@@ -38,7 +38,7 @@ TEST(PlanRegion, HoldsTheSamplesItWasDrawnAround) {
 }
 
 TEST(PlanRegion, ABoxOfTheMapStaysOneOnARotatedGrid) {
-  const RasterHeightfield field = made("rotated", 30, 30);
+  const RasterHeightfield field = modelOf("rotated", 30, 30);
   const Vec2 centre = field.georeference.toSource(15, 15);
   const Vec2 step = groundStep(field.georeference, 15, 15);
   const double half = 5 * step.x;
@@ -57,7 +57,7 @@ TEST(PlanRegion, ABoxOfTheMapStaysOneOnARotatedGrid) {
 }
 
 TEST(PlanRegion, KnowsWhetherItMeetsTheDomain) {
-  const RasterHeightfield field = made("rotated", 24, 24);
+  const RasterHeightfield field = modelOf("rotated", 24, 24);
   const auto model = build(field);
   ASSERT_TRUE(model) << model.error().describe();
   EXPECT_TRUE(meetsDomain(planRegion({.rings = {gridBox(field, 5.1, 5.1, 5.2, 5.2)}}, *model), model->mt));

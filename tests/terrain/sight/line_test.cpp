@@ -15,7 +15,7 @@
 namespace arete::test {
 namespace {
 
-using Real = long double;
+using LongReal = long double;
 
 struct Made {
   double curvature, length, h0, h1, unit;
@@ -26,7 +26,7 @@ struct Made {
     return SightLine(track, h0 / unit, h1 / unit, unit);
   }
   OracleLine truth() const {
-    return OracleLine(curvature, length, Real(h0 / unit) * unit, Real(h1 / unit) * unit);
+    return OracleLine(curvature, length, LongReal(h0 / unit) * unit, LongReal(h1 / unit) * unit);
   }
   std::string name() const {
     return "k " + std::to_string(curvature * 1e9) + "e-9, length " + std::to_string(length) + ", heights " +
@@ -62,7 +62,7 @@ TEST(SightLine, IsWithinATenthOfAMicrometreOfTheChord) {
     const OracleLine truth = made.truth();
     for (int j = 0; j <= 60; ++j) {
       const double s = j == 60 ? made.length : made.length * random.unit();
-      const double off = std::fabs(double(line.height(s) * Real(made.unit) - truth.height(s)));
+      const double off = std::fabs(double(line.height(s) * LongReal(made.unit) - truth.height(s)));
       ASSERT_LE(off, 1e-7) << made.name() << " at " << s;
       worst = std::max(worst, off);
     }
@@ -86,7 +86,7 @@ TEST(SightLine, IsAsExactOnSmallerWorlds) {
       const OracleLine truth = made.truth();
       for (int j = 0; j <= 60; ++j) {
         const double s = made.length * random.unit();
-        ASSERT_NEAR(double(line.height(s) * Real(made.unit) - truth.height(s)), 0, 1e-7)
+        ASSERT_NEAR(double(line.height(s) * LongReal(made.unit) - truth.height(s)), 0, 1e-7)
             << "radius " << radius << ", " << made.name() << " at " << s;
       }
     }
@@ -106,22 +106,22 @@ TEST(SightLine, HasTheSlopeOfTheChordAndCurvesNoMoreThanItsSag) {
     }
     for (int j = 0; j < 30; ++j) {
       const double s = made.length * random.unit();
-      const Real slope = truth.at(s).slope;
+      const LongReal slope = truth.at(s).slope;
       ASSERT_NEAR(line.slope(s) * made.unit, double(slope), 1e-9 * (1 + std::fabs(double(slope))))
           << made.name();
       // The slope's slope, by a difference that rounding leaves alone.
-      const Real d = made.length / 1000;
+      const LongReal d = made.length / 1000;
       if (s < d || s > made.length - d) continue;
-      const Real bend = (truth.at(s + d).slope - truth.at(s - d).slope) / (2 * d);
+      const LongReal bend = (truth.at(s + d).slope - truth.at(s - d).slope) / (2 * d);
       ASSERT_LE(double(bend), line.sag() * made.unit * (1 + 1e-6) + 1e-15) << made.name();
     }
   }
 }
 
 /// The formula of docs/topics/visibility.md.
-Real documented(Real k, Real length, Real h0, Real h1, Real s) {
-  const auto sn = [k](Real x) { return std::sin(k * x) / k; };
-  const Real rest = length - s;
+LongReal documented(LongReal k, LongReal length, LongReal h0, LongReal h1, LongReal s) {
+  const auto sn = [k](LongReal x) { return std::sin(k * x) / k; };
+  const LongReal rest = length - s;
   return (h0 * (sn(length) - sn(s)) + h1 * (sn(length) - sn(rest)) + k * h0 * h1 * sn(length) -
           4 * k * sn(length / 2) * sn(s / 2) * sn(rest / 2)) /
          ((1 + k * h0) * sn(s) + (1 + k * h1) * sn(rest));
@@ -138,7 +138,8 @@ TEST(SightLine, IsTheDocumentedFormulaHoweverHighItsEndsAre) {
     if (random.below(4) == 0) made.h1 = std::pow(10.0, random.between(4, 7.602));
     if (random.below(2) == 0) std::swap(made.h0, made.h1);
     const SightLine line = made.line();
-    const Real h0 = Real(made.h0 / made.unit) * made.unit, h1 = Real(made.h1 / made.unit) * made.unit;
+    const LongReal h0 = LongReal(made.h0 / made.unit) * made.unit,
+                   h1 = LongReal(made.h1 / made.unit) * made.unit;
     const auto within = [](double height) { return 1e-7 + 1e-14 * std::fabs(height); };
     ASSERT_NEAR(line.height(0) * made.unit, made.h0, within(made.h0)) << made.name();
     ASSERT_NEAR(line.height(made.length) * made.unit, made.h1, within(made.h1)) << made.name();
@@ -214,20 +215,20 @@ TEST(SightLine, HasItsLeastClearanceWhereADenseSearchHasIt) {
     const double z0 = line.height(s0) - rise * (mid - s0) + random.between(-10, 10);
     const double z1 = z0 + rise * (s1 - s0);
     const SightLine::Least found = line.least(s0, z0, s1, z1);
-    const auto over = [&](Real s) {
-      const Real f = s1 > s0 ? (s - s0) / (Real(s1) - s0) : 0;
-      return truth.height(s) / made.unit - (z0 + f * (Real(z1) - z0));
+    const auto over = [&](LongReal s) {
+      const LongReal f = s1 > s0 ? (s - s0) / (LongReal(s1) - s0) : 0;
+      return truth.height(s) / made.unit - (z0 + f * (LongReal(z1) - z0));
     };
-    Real least = std::min(over(s0), over(s1));
-    Real low = s0,
-         high = s1;  // a ternary search finds the least of a convex function; the ends that of others
+    LongReal least = std::min(over(s0), over(s1));
+    LongReal low = s0,
+             high = s1;  // a ternary search finds the least of a convex function; the ends that of others
     for (int j = 0; j < 80 && s1 > s0; ++j) {
-      const Real a = low + (high - low) / 3, b = high - (high - low) / 3;
-      const Real fa = over(a), fb = over(b);
+      const LongReal a = low + (high - low) / 3, b = high - (high - low) / 3;
+      const LongReal fa = over(a), fb = over(b);
       least = std::min({least, fa, fb});
       (fa < fb ? high : low) = fa < fb ? b : a;
     }
-    for (int j = 0; j <= 100; ++j) least = std::min(least, over(s0 + (Real(s1) - s0) * j / 100));
+    for (int j = 0; j <= 100; ++j) least = std::min(least, over(s0 + (LongReal(s1) - s0) * j / 100));
     ASSERT_NEAR(found.clearance, double(least), 2e-7 / made.unit) << made.name() << " " << s0 << " " << s1;
     ASSERT_GE(found.distance, s0);
     ASSERT_LE(found.distance, s1);
@@ -248,7 +249,7 @@ TEST(SightLine, RanksWhatIsSeenByTheTangentOfItsElevation) {
     const Made made = make(random);
     if (made.length < 10) continue;
     const double tangent = sightTangent(made.curvature, made.h0, made.length, made.h1);
-    const Real truth = OracleLine(made.curvature, made.length, made.h0, made.h1).tangentAtFirst();
+    const LongReal truth = OracleLine(made.curvature, made.length, made.h0, made.h1).tangentAtFirst();
     ASSERT_NEAR(tangent, double(truth), 1e-12 * (1 + std::fabs(tangent))) << made.name();
     ASSERT_GT(sightTangent(made.curvature, made.h0, made.length, made.h1 + 0.01), tangent) << made.name();
     ASSERT_NEAR(sightHeight(made.curvature, made.h0, made.length, tangent), made.h1,

@@ -16,7 +16,7 @@
 namespace arete {
 namespace {
 
-constexpr int kColumns = 41, kMiddle = 20;
+constexpr int kFieldColumns = 41, kMiddle = 20;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Place {
@@ -24,11 +24,11 @@ struct Place {
 };
 
 VertexId vertexAt(const Place& place) {
-  return VertexId(std::uint32_t(place.y * kColumns + place.x));
+  return VertexId(std::uint32_t(place.y * kFieldColumns + place.x));
 }
 
 /// A polygon that is star-shaped about the middle of a raster, convex or not, with random heights.
-struct SomeHole {
+struct RoughHole {
   std::vector<double> heights;
   std::vector<Place> places;  // of the corners
   Star star;
@@ -39,9 +39,9 @@ std::int64_t turn(const Place& a, const Place& b, const Place& c) {
   return std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(b.y - a.y) * (c.x - a.x);
 }
 
-SomeHole someHole(std::mt19937_64& random, int reach, int wanted) {
-  SomeHole hole;
-  hole.heights.resize(std::size_t(kColumns) * kColumns);
+RoughHole someHole(std::mt19937_64& random, int reach, int wanted) {
+  RoughHole hole;
+  hole.heights.resize(std::size_t(kFieldColumns) * kFieldColumns);
   const unsigned range = random() % 3 == 0 ? 3 : 1000;  // few heights make many ties
   for (double& z : hole.heights) z = double(random() % range);
   const Place middle{kMiddle, kMiddle};
@@ -65,14 +65,14 @@ SomeHole someHole(std::mt19937_64& random, int reach, int wanted) {
 }
 
 /// Every sample of the raster against one triangle.
-double errorOf(const SomeHole& hole, int i, int j, int m) {
+double errorOf(const RoughHole& hole, int i, int j, int m) {
   const Place &a = hole.places[std::size_t(i)], &b = hole.places[std::size_t(j)],
               &c = hole.places[std::size_t(m)];
-  const auto height = [&](const Place& p) { return hole.heights[std::size_t(p.y * kColumns + p.x)]; };
+  const auto height = [&](const Place& p) { return hole.heights[std::size_t(p.y * kFieldColumns + p.x)]; };
   const double area = double(turn(a, b, c));
   double worst = 0;
-  for (int y = 0; y < kColumns; ++y)
-    for (int x = 0; x < kColumns; ++x) {
+  for (int y = 0; y < kFieldColumns; ++y)
+    for (int x = 0; x < kFieldColumns; ++x) {
       const Place p{x, y};
       const auto atC = turn(a, b, p), atA = turn(b, c, p), atB = turn(c, a, p);
       if (atA < 0 || atB < 0 || atC < 0) continue;
@@ -82,19 +82,19 @@ double errorOf(const SomeHole& hole, int i, int j, int m) {
   return worst;
 }
 
-double squaredDistance(const SomeHole& hole, int i, int j) {
+double squaredDistance(const RoughHole& hole, int i, int j) {
   const Place &p = hole.places[std::size_t(i)], &q = hole.places[std::size_t(j)];
   return double((p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y));
 }
 
-double aspectOf(const SomeHole& hole, int i, int j, int m) {
+double aspectOf(const RoughHole& hole, int i, int j, int m) {
   return double(turn(hole.places[std::size_t(i)], hole.places[std::size_t(j)], hole.places[std::size_t(m)])) /
          std::max({squaredDistance(hole, i, j), squaredDistance(hole, j, m), squaredDistance(hole, m, i)});
 }
 
 /// The least largest error of all triangulations, one after the other: the edge j - i takes each corner
 /// between. No bound, nothing kept.
-double leastOfAll(const SomeHole& hole, int i, int j, double minimumAspect) {
+double leastOfAll(const RoughHole& hole, int i, int j, double minimumAspect) {
   if (j - i < 2) return 0;
   double least = kInfinity;
   for (int m = i + 1; m < j; ++m) {
@@ -110,9 +110,9 @@ TEST(DataDependentHole, CostsTheLeastOfAllTriangulations) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937_64 random(seed);
     const int corners = 3 + int(random() % 6);
-    const SomeHole some = someHole(random, 3 + int(random() % 6), corners);
+    const RoughHole some = someHole(random, 3 + int(random() % 6), corners);
     const double minimumAspect = random() % 2 ? 0.02 : 0.2;
-    const LatticePlan plan(kColumns, 1, 1);
+    const LatticePlan plan(kFieldColumns, 1, 1);
     const RasterError errors(plan, some.heights, false);
     const RasterError::Hole hole(errors, some.star, some.apex);
     const double least = leastOfAll(some, 0, corners - 1, minimumAspect);
@@ -152,8 +152,8 @@ TEST(DataDependentHole, FindsNothingBeyondALimitButABoundFromBelow) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937_64 random(seed);
     const int corners = 3 + int(random() % 6);
-    const SomeHole some = someHole(random, 3 + int(random() % 6), corners);
-    const LatticePlan plan(kColumns, 1, 1);
+    const RoughHole some = someHole(random, 3 + int(random() % 6), corners);
+    const LatticePlan plan(kFieldColumns, 1, 1);
     const RasterError errors(plan, some.heights, false);
     const RasterError::Hole hole(errors, some.star, some.apex);
     const double least = leastOfAll(some, 0, corners - 1, 0.02);
@@ -175,7 +175,7 @@ TEST(DataDependentHole, FindsNothingBeyondALimitButABoundFromBelow) {
 }
 
 /// The least sum of squared diagonals, j - i among them, of all triangulations within the limit.
-double shortestOfAll(const SomeHole& hole, int i, int j, double minimumAspect, double limit) {
+double shortestOfAll(const RoughHole& hole, int i, int j, double minimumAspect, double limit) {
   if (j - i < 2) return 0;
   double least = kInfinity;
   for (int m = i + 1; m < j; ++m) {
@@ -192,8 +192,8 @@ TEST(DataDependentHole, TakesTheShortestDiagonalsThatKeepTheLimit) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937_64 random(seed);
     const int corners = 3 + int(random() % 7);
-    const SomeHole some = someHole(random, 3 + int(random() % 6), corners);
-    const LatticePlan plan(kColumns, 1, 1);
+    const RoughHole some = someHole(random, 3 + int(random() % 6), corners);
+    const LatticePlan plan(kFieldColumns, 1, 1);
     const RasterError errors(plan, some.heights, false);
     const RasterError::Hole hole(errors, some.star, some.apex);
     const double least = leastOfAll(some, 0, corners - 1, 0.02);

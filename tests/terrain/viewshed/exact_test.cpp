@@ -13,14 +13,14 @@
 namespace arete::test {
 namespace {
 
-struct Place {
+struct ScannedPlace {
   RasterHeightfield field;
   TerrainModel model;
   std::shared_ptr<const SightGrid> grid;
   std::unique_ptr<SightEarth> earth;
   std::unique_ptr<SightEngine> scan;
 
-  explicit Place(RasterHeightfield made) : field(std::move(made)), model() {
+  explicit ScannedPlace(RasterHeightfield made) : field(std::move(made)), model() {
     model.columns = field.columns;
     model.rows = field.rows;
     model.georeference = field.georeference;
@@ -33,7 +33,7 @@ struct Place {
 TEST(ViewshedExact, ATargetAtTheLeastHeightIsSeenAndALowerOneIsNot) {
   constexpr std::uint64_t kSeed = 131;
   Random random(kSeed);
-  const Place place(rasterFamilies()[3].make(40, 30, 2));
+  const ScannedPlace place(rasterFamilies()[3].make(40, 30, 2));
   int above = 0;
   for (int i = 0; i < 400; ++i) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", cell " << i);
@@ -63,7 +63,7 @@ TEST(ViewshedExact, ATargetAtTheLeastHeightIsSeenAndALowerOneIsNot) {
 }
 
 TEST(ViewshedExact, IsOutsideForNodataAndBeyondTheField) {
-  const Place place(rasterFamilies()[3].make(20, 20, 2));
+  const ScannedPlace place(rasterFamilies()[3].make(20, 20, 2));
   const ViewshedObserver observer{{5, 5}, 1000};
   ViewshedOptions options;
   options.field.greatestMetres = 3;

@@ -13,14 +13,15 @@
 namespace arete::test {
 namespace {
 
-struct Place {
+struct MakerPlace {
   RasterHeightfield field;
   TerrainModel model;
   std::shared_ptr<const SightGrid> grid;
   std::unique_ptr<SightEarth> earth;
   Result<ViewshedMaker> maker;
 
-  explicit Place(RasterHeightfield made) : field(std::move(made)), model(), maker(tl::unexpected(Error{})) {
+  explicit MakerPlace(RasterHeightfield made)
+      : field(std::move(made)), model(), maker(tl::unexpected(Error{})) {
     model.columns = field.columns;
     model.rows = field.rows;
     model.georeference = field.georeference;
@@ -34,7 +35,7 @@ TEST(ViewshedOfMany, CombinesWhatEachObserverSeesInItsOwnField) {
   constexpr std::uint64_t kSeed = 121;
   Random random(kSeed);
   for (const std::size_t family : {3u, 6u, 9u}) {
-    const Place place(rasterFamilies()[family % rasterFamilies().size()].make(31, 27, 3));
+    const MakerPlace place(rasterFamilies()[family % rasterFamilies().size()].make(31, 27, 3));
     ASSERT_TRUE(place.maker);
     std::vector<ViewshedSite> sites;
     for (int i = 0; i < 4; ++i) {
@@ -75,7 +76,7 @@ TEST(ViewshedOfMany, CombinesWhatEachObserverSeesInItsOwnField) {
 }
 
 TEST(ViewshedOfMany, RefusesNoObserversAndTooMany) {
-  const Place place(rasterFamilies()[3].make(9, 9, 1));
+  const MakerPlace place(rasterFamilies()[3].make(9, 9, 1));
   ASSERT_TRUE(place.maker);
   const auto none = viewshedOfMany(*place.maker, place.model, *place.earth, {}, {}, false);
   ASSERT_FALSE(none);
@@ -87,7 +88,7 @@ TEST(ViewshedOfMany, RefusesNoObserversAndTooMany) {
 }
 
 TEST(ViewshedOfMany, HasNoServersUnlessRequested) {
-  const Place place(rasterFamilies()[3].make(12, 9, 1));
+  const MakerPlace place(rasterFamilies()[3].make(12, 9, 1));
   ASSERT_TRUE(place.maker);
   const std::vector<ViewshedSite> sites{{{{4, 4}, 1000}, {}}};
   const auto all = viewshedOfMany(*place.maker, place.model, *place.earth, sites, {}, false);

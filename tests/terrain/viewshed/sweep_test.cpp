@@ -11,13 +11,13 @@
 namespace arete::test {
 namespace {
 
-struct Place {
+struct SweptPlace {
   TerrainModel model;
   std::shared_ptr<const SightGrid> grid;
   std::unique_ptr<SightEarth> earth;
   std::unique_ptr<SightEngine> scan;
 
-  Place(std::uint32_t columns, std::uint32_t rows, std::uint64_t seed) : model() {
+  SweptPlace(std::uint32_t columns, std::uint32_t rows, std::uint64_t seed) : model() {
     model.columns = columns;
     model.rows = rows;
     Random random(seed);
@@ -42,7 +42,7 @@ struct Place {
 };
 
 TEST(ViewshedSweep, SaysWhereItIsNotPossible) {
-  const Place place(20, 15, 1);
+  const SweptPlace place(20, 15, 1);
   const double ground = place.grid->at({5, 5});
   EXPECT_TRUE(place.isPossible({{5, 5}, ground + 2}));
   EXPECT_TRUE(place.isPossible({{5, 5}, ground}));
@@ -57,7 +57,7 @@ TEST(ViewshedSweep, SaysWhereItIsNotPossible) {
 TEST(ViewshedSweep, FillsEveryCellAsRaysDoFromEverywhere) {
   for (const auto& size : {std::pair{2u, 2u}, {2u, 30u}, {41u, 3u}, {37u, 29u}}) {
     const auto columns = size.first, rows = size.second;
-    const Place place(columns, rows, columns * 100 + rows);
+    const SweptPlace place(columns, rows, columns * 100 + rows);
     const double x = columns - 1, y = rows - 1;
     for (const Vec2 plan : {Vec2{0, 0},
                             {x, 0},
@@ -91,7 +91,7 @@ TEST(ViewshedSweep, FillsEveryCellAsRaysDoFromEverywhere) {
 }
 
 TEST(ViewshedRays, OfPlacesStayOutsideWhereThereIsNoTerrain) {
-  const Place place(12, 12, 3);
+  const SweptPlace place(12, 12, 3);
   const ViewshedObserver observer{{5, 5}, 500};
   place.withTask(observer, {}, [&](const ViewshedTask& task) {
     const std::vector<Vec2> places{{2.5, 3.25}, {-4, 3}, {std::nan(""), 1}, {11, 11}};

@@ -10,7 +10,7 @@
 namespace arete {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoSample = std::numeric_limits<double>::quiet_NaN();
 
 /// A view whose pixel (0, 0) has its centre on the sample (0, 0).
 MapView viewOf(int width, int height, double samplesPerPixel) {
@@ -61,7 +61,7 @@ TEST(Resample, CountsEverySampleWhereSamplesAreDenser) {
 }
 
 TEST(Resample, LeavesSamplesWithoutDataOut) {
-  const auto left = [](std::uint32_t c, std::uint32_t) { return c < 20 ? 5.0 : kNone; };
+  const auto left = [](std::uint32_t c, std::uint32_t) { return c < 20 ? 5.0 : kNoSample; };
   for (const double samplesPerPixel : {0.5, 1.0, 4.0}) {
     const int width = int(40 / samplesPerPixel);
     const ViewField field = resample(40, 40, left, viewOf(width, 3, samplesPerPixel));

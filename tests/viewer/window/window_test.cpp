@@ -14,7 +14,7 @@
 namespace arete {
 namespace {
 
-const TerrainModel& northUp() {
+const TerrainModel& northernView() {
   return test::cameraModels()[0].model;
 }
 
@@ -52,7 +52,7 @@ TEST(Window, ShowsTheTerrainAndThePanelAndAnswersWhatIsAsked) {
     // On, until the viewshed is there.
     return frame < 10 || (s.viewshed.isRunning() && frame < 2000);
   };
-  const Status shown = runWindow(northUp(), options);
+  const Status shown = runWindow(northernView(), options);
   ASSERT_TRUE(shown) << shown.error().describe();
   EXPECT_GT(triangles, 2u);
   EXPECT_GT(std::filesystem::file_size(options.lastPicture), 10000u) << "an empty picture is smaller";
@@ -78,7 +78,7 @@ TEST(Window, RendersAFlightIntoAFolderOfFrames) {
     }
     return s.wantsFrames && frame < 200;
   };
-  const Status shown = runWindow(northUp(), options);
+  const Status shown = runWindow(northernView(), options);
   ASSERT_TRUE(shown) << shown.error().describe();
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path / "frames"))
@@ -122,7 +122,7 @@ TEST(Window, GoesBackFromWhereACurvedEarthCannotBeSeen) {
 
 TEST(Window, AnOpenGlBelow45IsASentenceThatNamesIt) {
   ARETE_UNDER_XVFB("MESA_GL_VERSION_OVERRIDE=3.3");
-  const Status shown = runWindow(northUp(), {.title = "test", .frames = 1});
+  const Status shown = runWindow(northernView(), {.title = "test", .frames = 1});
   ASSERT_FALSE(shown);
   EXPECT_EQ(shown.error().code, ErrorCode::unsupported);
   EXPECT_NE(shown.error().message.find("OpenGL 4.5 is needed"), std::string::npos) << shown.error().message;
@@ -132,7 +132,7 @@ TEST(Window, AnOpenGlBelow45IsASentenceThatNamesIt) {
 TEST(Window, NoDisplayIsASentence) {
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
-  const Status shown = runWindow(northUp(), {.title = "test", .frames = 1});
+  const Status shown = runWindow(northernView(), {.title = "test", .frames = 1});
   ASSERT_FALSE(shown);
   EXPECT_EQ(shown.error().code, ErrorCode::unsupported);
   EXPECT_NE(shown.error().describe().find("display"), std::string::npos) << shown.error().describe();
@@ -144,7 +144,7 @@ TEST(Window, WhatGoesWrongBeforeTheFirstFrameClosesItWithItsReason) {
   options.onReady = [](TerrainView&) -> Status {
     return failure(ErrorCode::invalidData, "does not overlap", "drape");
   };
-  const Status shown = runWindow(northUp(), options);
+  const Status shown = runWindow(northernView(), options);
   ASSERT_FALSE(shown);
   EXPECT_EQ(shown.error().describe(), "drape: does not overlap");
 }

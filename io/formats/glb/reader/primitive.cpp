@@ -24,7 +24,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char *kPosition = "POSITION", *kDraco = "KHR_draco_mesh_compression";
+constexpr const char *kPositions = "POSITION", *kDraco = "KHR_draco_mesh_compression";
 
 tl::unexpected<Error> corrupt(std::string message) {
   return failure(ErrorCode::corrupt, std::move(message));
@@ -32,7 +32,7 @@ tl::unexpected<Error> corrupt(std::string message) {
 
 /// Whether an attribute may have that many components.
 bool fits(const std::string& name, std::uint8_t components) {
-  if (name == kPosition || name == "NORMAL") return components == 3;
+  if (name == kPositions || name == "NORMAL") return components == 3;
   if (name == "TANGENT") return components == 4;
   if (name.starts_with("TEXCOORD_")) return components == 2;
   if (name.starts_with("COLOR_")) return components == 3 || components == 4;
@@ -74,7 +74,7 @@ Result<std::optional<GltfPrimitives::Draco>> GltfPrimitives::dracoOf(const Json&
   const auto decode = [&]() -> Result<std::optional<Draco>> {
     ARETE_TRY(const auto number, GltfDocument::wholeNumber(*extension, "bufferView"));
     const auto ids = extension->find("attributes");
-    if (ids == extension->end() || !ids->is_object() || !ids->contains(kPosition))
+    if (ids == extension->end() || !ids->is_object() || !ids->contains(kPositions))
       return corrupt("has Draco data without positions");
     auto known = draco_.find(number);
     if (known == draco_.end()) {
@@ -95,7 +95,7 @@ Result<std::optional<GltfPrimitives::Draco>> GltfPrimitives::dracoOf(const Json&
   Result<std::optional<Draco>> draco = decode();
   if (draco || draco.error().code == ErrorCode::interrupted || draco.error().code == ErrorCode::outOfMemory)
     return draco;
-  const auto position = GltfDocument::wholeNumber(primitive["attributes"], kPosition);
+  const auto position = GltfDocument::wholeNumber(primitive["attributes"], kPositions);
   if (!position) return draco;
   const auto accessor = document_.element("accessors", *position);
   if (!accessor || !(*accessor)->contains("bufferView")) return draco;
@@ -141,13 +141,13 @@ Result<GltfAttribute> GltfPrimitives::attributeOf(const std::string& name, const
 
 Status GltfPrimitives::readAttributes(const Json& attributes, const std::optional<Draco>& draco,
                                       GltfPrimitive& to) {
-  ARETE_TRY(GltfAttribute positions, attributeOf(kPosition, attributes, draco));
-  if (!fits(kPosition, positions.elements.components))
+  ARETE_TRY(GltfAttribute positions, attributeOf(kPositions, attributes, draco));
+  if (!fits(kPositions, positions.elements.components))
     return corrupt(fmt::format("accessor {} is not of the type VEC3 that is needed", positions.source));
   if (positions.elements.count == 0) return corrupt("has no positions");
   to.attributes.push_back(std::move(positions));
   for (const auto& [name, value] : attributes.items()) {
-    if (name == kPosition) continue;
+    if (name == kPositions) continue;
     if (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) {
       leftOut_.jointsWithoutSkin = true;
       continue;
@@ -231,7 +231,7 @@ Result<std::optional<GltfPrimitive>> GltfPrimitives::read(const Json& primitive,
     ++leftOut_.pointsAndLines;
     return std::nullopt;
   }
-  if (!attributes.contains(kPosition)) {
+  if (!attributes.contains(kPositions)) {
     ++leftOut_.withoutPositions;
     return std::nullopt;
   }

@@ -16,17 +16,15 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = MeshAttributes::kNone;
-
 /// An object for each that has triangles.
 std::vector<ObjectPlan> distributed(const SurfaceMesh& mesh) {
   // By object, none being the first: its primitives by material.
   std::vector<ObjectPlan> plans(mesh.objects.size() + 1);
   std::vector<std::map<std::uint32_t, std::size_t>> primitiveOf(plans.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const std::uint32_t object = mesh.objectOf.empty() ? kNone : mesh.objectOf[t];
-    const std::uint32_t material = mesh.materialOf.empty() ? kNone : mesh.materialOf[t];
-    const std::size_t at = object == kNone ? 0 : std::size_t{object} + 1;
+    const std::uint32_t object = mesh.objectOf.empty() ? MeshAttributes::kNone : mesh.objectOf[t];
+    const std::uint32_t material = mesh.materialOf.empty() ? MeshAttributes::kNone : mesh.materialOf[t];
+    const std::size_t at = object == MeshAttributes::kNone ? 0 : std::size_t{object} + 1;
     auto& primitives = plans[at].primitives;
     const auto [found, isNew] = primitiveOf[at].try_emplace(material, primitives.size());
     if (isNew) primitives.push_back({.material = material, .triangles = {}});
@@ -39,7 +37,8 @@ std::vector<ObjectPlan> distributed(const SurfaceMesh& mesh) {
 /// Lists the vertices of each object.
 /// @return By vertex, in how many objects it is.
 std::vector<std::uint32_t> listVertices(const SurfaceMesh& mesh, std::vector<ObjectPlan>& objects) {
-  std::vector<std::uint32_t> uses(mesh.positions.size()), lastObject(mesh.positions.size(), kNone);
+  std::vector<std::uint32_t> uses(mesh.positions.size()),
+      lastObject(mesh.positions.size(), MeshAttributes::kNone);
   for (std::uint32_t i = 0; i < objects.size(); ++i) {
     for (const PrimitivePlan& primitive : objects[i].primitives)
       for (const std::uint32_t t : primitive.triangles)

@@ -31,8 +31,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint32_t kNone = MeshAttributes::kNone;
-constexpr std::size_t kRecordsPerCancelCheck = 1 << 14;
+constexpr std::size_t kCornersPerCancelCheck = 1 << 14;
 constexpr std::size_t kMostShort = 0xFFFF;  // vertices whose indices are 16 bits and below the largest
 
 std::size_t padded(std::size_t bytes) {
@@ -158,7 +157,7 @@ class DocumentWriter {
           {"attributes", attributes},
           {"indices", plan_.add(3 * primitive.triangles.size(), bytes, bytes, GltfCode::kIndexData,
                                 isShort ? GltfCode::kUnsignedShort : GltfCode::kUnsignedInt, "SCALAR")}};
-      if (primitive.material != kNone) json["material"] = primitive.material;
+      if (primitive.material != MeshAttributes::kNone) json["material"] = primitive.material;
       primitives.push_back(std::move(json));
       plan_.align();
     }
@@ -199,7 +198,7 @@ class BufferWriter {
   template <class Put>
   bool forEach(std::size_t count, const Put& put) {
     for (std::size_t i = 0; i < count; ++i) {
-      if (i % kRecordsPerCancelCheck == 0 && !sink_.goesOn()) return false;
+      if (i % kCornersPerCancelCheck == 0 && !sink_.goesOn()) return false;
       put(i);
     }
     return true;

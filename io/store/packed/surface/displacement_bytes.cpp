@@ -17,10 +17,10 @@ namespace arete::packed {
 namespace {
 
 constexpr unsigned kLengths = 9, kReachesBefore = 4;
-enum Table : unsigned {
+enum DisplacementTable : unsigned {
   kDirectionTable = 0,                       // by the bits of the link's mean length along the axis
   kReachTable = kDirectionTable + kLengths,  // by the reach before
-  kTables = kReachTable + kReachesBefore
+  kDisplacementTables = kReachTable + kReachesBefore
 };
 
 unsigned classOf(std::uint8_t reach) {
@@ -65,7 +65,7 @@ void codeReaches(const MultiTriangulation& mt, SurfaceDisplacement& d, Io& io) {
 std::vector<std::byte> packDisplacement(const MultiTriangulation& mt,
                                         const SurfaceDisplacement& displacement) {
   SurfaceDisplacement copy = displacement;
-  SymbolWriter io(kTables);
+  SymbolWriter io(kDisplacementTables);
   codeDirections(mt, copy, io);
   codeReaches(mt, copy, io);
   return io.take();
@@ -76,7 +76,7 @@ Result<SurfaceDisplacement> unpackDisplacement(std::span<const std::byte> bytes,
   const auto damaged = [] {
     return failure(ErrorCode::corrupt, "the packed displacement is cut short or damaged");
   };
-  std::optional<SymbolReader> io = SymbolReader::of(bytes, kTables);
+  std::optional<SymbolReader> io = SymbolReader::of(bytes, kDisplacementTables);
   if (!io) return damaged();
   SurfaceDisplacement displacement;
   displacement.directions.resize(mt.vertexCount());

@@ -15,7 +15,7 @@ namespace {
 
 using namespace test;
 
-constexpr std::uint32_t kNone = MeshAttributes::kNone;
+constexpr std::uint32_t kNoObject = MeshAttributes::kNone;
 const std::string kFour = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 class ObjAttributes : public MeshFileTest {
@@ -183,9 +183,9 @@ TEST_F(ObjAttributes, ObjectsAreOneForEachLineAndGroupsOneForEachName) {
                                 "empty\no\nf 1 2 4\ng x y\nf 1 3 4\ng\nf 1 3 4\n")
                                .mesh;
   EXPECT_EQ(mesh.objects, (std::vector<std::string>{"a \\ b", "a \\ b", "empty", ""}));
-  EXPECT_EQ(mesh.objectOf, (std::vector<std::uint32_t>{kNone, 0, 0, 1, 3, 3, 3}));
+  EXPECT_EQ(mesh.objectOf, (std::vector<std::uint32_t>{kNoObject, 0, 0, 1, 3, 3, 3}));
   EXPECT_EQ(mesh.groups, (std::vector<std::string>{"x y", "z"}));
-  EXPECT_EQ(mesh.groupOf, (std::vector<std::uint32_t>{kNone, kNone, 0, 0, 1, 0, kNone}));
+  EXPECT_EQ(mesh.groupOf, (std::vector<std::uint32_t>{kNoObject, kNoObject, 0, 0, 1, 0, kNoObject}));
 }
 
 TEST_F(ObjAttributes, SmoothingGroupsAreLabelsOfTriangles) {

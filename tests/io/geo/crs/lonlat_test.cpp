@@ -13,7 +13,7 @@
 namespace arete {
 namespace {
 
-Georeference georeferenceOf(const std::string& crs) {
+Georeference inCrs(const std::string& crs) {
   Georeference georeference;
   const auto parsed = crsFromText(crs);
   EXPECT_TRUE(parsed) << crs;
@@ -24,7 +24,7 @@ Georeference georeferenceOf(const std::string& crs) {
 }
 
 CrsLonLat lonLatOf(const std::string& crs) {
-  auto made = CrsLonLat::of(georeferenceOf(crs));
+  auto made = CrsLonLat::of(inCrs(crs));
   EXPECT_TRUE(made) << crs << ": " << made.error().describe();
   return std::move(*made);
 }

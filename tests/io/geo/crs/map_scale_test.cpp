@@ -14,10 +14,10 @@
 namespace arete {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180, kA = 6378137;
+constexpr double kRadiansPerDegree = std::numbers::pi / 180, kA = 6378137;
 
 double mercatorY(double latitude) {
-  return kA * std::asinh(std::tan(latitude * kRadians));
+  return kA * std::asinh(std::tan(latitude * kRadiansPerDegree));
 }
 
 TEST(MapScale, OfWebMercatorIsThatOfTheEllipsoidUnderASphere) {
@@ -26,7 +26,7 @@ TEST(MapScale, OfWebMercatorIsThatOfTheEllipsoidUnderASphere) {
   for (const double latitude : {0.0, 30.0, -60.0, 80.0}) {
     const auto scale = mapScaleAt(g, {1e6, mercatorY(latitude)});
     ASSERT_TRUE(scale);
-    const double s = std::sin(latitude * kRadians), c = std::cos(latitude * kRadians),
+    const double s = std::sin(latitude * kRadiansPerDegree), c = std::cos(latitude * kRadiansPerDegree),
                  w = std::sqrt(1 - e2 * s * s);
     EXPECT_NEAR((*scale)[0], w / c, 1e-6 / c) << latitude;
     EXPECT_NEAR((*scale)[1], w * w * w / (1 - e2) / c, 1e-6 / c) << latitude;
@@ -38,8 +38,8 @@ TEST(MapScale, IsStatedWhereTheMapIsFarFromTrue) {
   stateMapScale(g, {1e6, mercatorY(60)});
   ASSERT_TRUE(g.mapScale);
   const Vec2 step = groundStep(g, 0, 0);
-  EXPECT_NEAR(step.x, 20 * std::cos(60 * kRadians), 0.03);
-  EXPECT_NEAR(step.y, 20 * std::cos(60 * kRadians), 0.03);
+  EXPECT_NEAR(step.x, 20 * std::cos(60 * kRadiansPerDegree), 0.03);
+  EXPECT_NEAR(step.y, 20 * std::cos(60 * kRadiansPerDegree), 0.03);
   const auto frame = LocalFrame::create(localFrameSpec(g, {1e6, mercatorY(60), 100}));
   ASSERT_TRUE(frame);
   const Vec3 local = frame->toLocal({1e6 + 1000, mercatorY(60) - 1000, 150});
@@ -54,7 +54,7 @@ TEST(MapScale, IsStatedWhereTheMapIsFarFromTrue) {
   stateMapScale(utm, {300000, 4e6});
   EXPECT_FALSE(utm.mapScale);
   Georeference flat = test::georeferenceOf("EPSG:4087");
-  stateMapScale(flat, {0, 60 * kRadians * kA});
+  stateMapScale(flat, {0, 60 * kRadiansPerDegree * kA});
   ASSERT_TRUE(flat.mapScale);
   EXPECT_NEAR((*flat.mapScale)[0], 2, 0.01) << "only parallels are stretched";
   EXPECT_NEAR((*flat.mapScale)[1], 1, 0.01);

@@ -12,7 +12,7 @@
 namespace arete {
 namespace {
 
-Georeference georeferenceOf(const std::string& crs) {
+Georeference georeferenceIn(const std::string& crs) {
   Georeference georeference;
   const auto parsed = crsFromText(crs);
   EXPECT_TRUE(parsed) << crs;
@@ -23,7 +23,7 @@ Georeference georeferenceOf(const std::string& crs) {
 }
 
 TEST(CrsTransform, BringsLongitudeAndLatitudeIntoTheDemsCrs) {
-  const auto utm = CrsTransform::fromLonLat(georeferenceOf("EPSG:32611"));
+  const auto utm = CrsTransform::fromLonLat(georeferenceIn("EPSG:32611"));
   ASSERT_TRUE(utm) << utm.error().describe();
   const auto p = (*utm)({-117, 34});  // the central meridian of zone 11
   ASSERT_TRUE(p);
@@ -33,14 +33,14 @@ TEST(CrsTransform, BringsLongitudeAndLatitudeIntoTheDemsCrs) {
 }
 
 TEST(CrsTransform, LeavesLongitudeAndLatitudeOfTheSameCrsToTheBit) {
-  const auto same = CrsTransform::fromLonLat(georeferenceOf("EPSG:4326"));
+  const auto same = CrsTransform::fromLonLat(georeferenceIn("EPSG:4326"));
   ASSERT_TRUE(same);
   EXPECT_EQ((*same)({8.123456789, 46.5}).value(), (Vec2{8.123456789, 46.5}));
 }
 
 TEST(CrsTransform, TakesTheLongitudesOfAnotherBodyForItsOwn) {
   const std::string moon = "+proj=eqc +R=1737400 +units=m +no_defs";
-  const auto transform = CrsTransform::fromLonLat(georeferenceOf(moon));
+  const auto transform = CrsTransform::fromLonLat(georeferenceIn(moon));
   ASSERT_TRUE(transform) << transform.error().describe();
   const auto p = (*transform)({90, 0});
   ASSERT_TRUE(p);
@@ -107,7 +107,7 @@ TEST(CrsTransform, RefusesWhatIsNotACrsAndAnotherBody) {
 
 TEST(CrsTransform, ShiftsLongitudesByTurnsBehindTheTransformation) {
   PointHeightfield field;
-  field.georeference = georeferenceOf("EPSG:4326");
+  field.georeference = georeferenceIn("EPSG:4326");
   field.positions = {{170, 0}, {190, 10}};
   field.heights = {0, 0};
   CrsTransform transform;

@@ -24,7 +24,7 @@ using test::joined;
 using test::RasterSpec;
 using test::TemporaryFolder;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoSample = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNodata = -9999;
 
 struct Box {
@@ -62,7 +62,7 @@ Whole randomWhole(std::mt19937& random, int columns, int rows) {
   whole.columns = columns;
   whole.rows = rows;
   for (int i = 0; i < columns * rows; ++i)
-    whole.heights.push_back(random() % 11 == 0 ? kNan : double(random() % 1000) / 8);
+    whole.heights.push_back(random() % 11 == 0 ? kNoSample : double(random() % 1000) / 8);
   return whole;
 }
 
@@ -78,7 +78,7 @@ void expectSame(const RasterHeightfield& read, const Whole& whole, const std::ve
       const bool isCovered = std::any_of(boxes.begin(), boxes.end(), [&](const Box& b) {
         return column >= b.column && column < b.column + b.columns && row >= b.row && row < b.row + b.rows;
       });
-      const double wanted = isCovered ? whole.at(column, row) : kNan,
+      const double wanted = isCovered ? whole.at(column, row) : kNoSample,
                    got = read.at(unsigned(column), unsigned(row));
       ASSERT_TRUE(got == wanted || (std::isnan(got) && std::isnan(wanted)))
           << column << ", " << row << ": " << got << " is not " << wanted;

@@ -23,7 +23,7 @@ using test::RasterSpec;
 using test::TemporaryFolder;
 using test::writeRaster;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 RasterSpec withPoints(const std::vector<std::array<double, 4>>& points) {
   RasterSpec spec;
@@ -130,7 +130,7 @@ TEST(HiddenSamples, AreNodataForEveryTypeOfSampleAndOpacity) {
         options.band = 1;
         const auto read = readRaster(writeRaster(folder.file("alpha.tif"), spec), options);
         ASSERT_TRUE(read) << read.error().describe();
-        const std::vector<double> wanted = {7, kNan, hasNodata ? kNan : 3, 4, 5, kNan};
+        const std::vector<double> wanted = {7, kNoNumber, hasNodata ? kNoNumber : 3, 4, 5, kNoNumber};
         for (std::size_t i = 0; i < wanted.size(); ++i)
           EXPECT_TRUE(read->heightfield.heights[i] == wanted[i] ||
                       (std::isnan(wanted[i]) && std::isnan(read->heightfield.heights[i])))
@@ -249,7 +249,7 @@ TEST(AbsentBlocks, OfAVirtualRasterAreWhatNoSourceCovers) {
   for (unsigned y = 0; y < 5; ++y)
     for (unsigned x = 0; x < 8; ++x) {
       const bool isCovered = (x < 3 && y < 2) || (x >= 4 && x < 7 && y >= 2 && y < 4);
-      const double wanted = !isCovered ? kNan : y < 2 ? 1 + x + 3 * y : 1 + (x - 4) + 3 * (y - 2);
+      const double wanted = !isCovered ? kNoNumber : y < 2 ? 1 + x + 3 * y : 1 + (x - 4) + 3 * (y - 2);
       EXPECT_TRUE(isCovered ? read->heightfield.at(x, y) == wanted : std::isnan(read->heightfield.at(x, y)))
           << x << ", " << y << ": " << read->heightfield.at(x, y);
     }

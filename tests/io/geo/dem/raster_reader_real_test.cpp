@@ -14,7 +14,7 @@ namespace {
 using ::testing::internal::CaptureStderr;
 using ::testing::internal::GetCapturedStderr;
 
-RasterHeightfield readOrFail(const std::string& path, const RasterReadOptions& options = {}) {
+RasterHeightfield readRealOrFail(const std::string& path, const RasterReadOptions& options = {}) {
   auto read = readRaster(path, options);
   if (!read) {
     ADD_FAILURE() << read.error().describe();
@@ -45,7 +45,7 @@ TEST_P(RealDems, HaveTheSizeRangeAndHolesOnRecord) {
   RasterReadOptions options;
   options.band = fact.band;
   CaptureStderr();
-  const RasterHeightfield read = readOrFail(path, options);
+  const RasterHeightfield read = readRealOrFail(path, options);
   EXPECT_EQ(GetCapturedStderr(), "");
   EXPECT_EQ(read.columns, fact.columns);
   EXPECT_EQ(read.rows, fact.rows);
@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(RasterReaderOnRealData, KnowsTheMoonForASphere) {
   const std::string path = test::realData("dem/moon_lola_ldem4.cub");
   if (path.empty()) GTEST_SKIP() << "the real data is not here; ARETE_DATA names its folder";
-  const RasterHeightfield read = readOrFail(path);
+  const RasterHeightfield read = readRealOrFail(path);
   EXPECT_EQ(read.georeference.semiMajorAxisMetres, 1737400);
   EXPECT_EQ(read.georeference.inverseFlattening, 0);
   EXPECT_FALSE(read.georeference.isGeographic);
@@ -122,7 +122,7 @@ TEST(RasterReaderOnRealData, KnowsTheMoonForASphere) {
 TEST(RasterReaderOnRealData, PlacesAnHgtByTheNameInsideItsZip) {
   const std::string path = test::realData("dem/srtm1_N48W125_juan_de_fuca.hgt.zip");
   if (path.empty()) GTEST_SKIP() << "the real data is not here; ARETE_DATA names its folder";
-  const Georeference g = readOrFail(path).georeference;
+  const Georeference g = readRealOrFail(path).georeference;
   EXPECT_TRUE(g.isGeographic);
   const Vec2 first = g.toSource(0, 0), last = g.toSource(3600, 3600);
   EXPECT_NEAR(first.x, -125, 1e-9);

@@ -25,8 +25,8 @@ using ::testing::internal::GetCapturedStderr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-RasterHeightfield readOrFail(const std::string& path, const RasterReadOptions& options = {},
-                             std::vector<std::string>* warnings = nullptr) {
+RasterHeightfield readRasterOrFail(const std::string& path, const RasterReadOptions& options = {},
+                                   std::vector<std::string>* warnings = nullptr) {
   auto read = readRaster(path, options);
   if (!read) {
     ADD_FAILURE() << read.error().describe();
@@ -36,7 +36,7 @@ RasterHeightfield readOrFail(const std::string& path, const RasterReadOptions& o
   return std::move(read->heightfield);
 }
 
-Error errorOf(const std::string& path, const RasterReadOptions& options = {}) {
+Error rasterErrorOf(const std::string& path, const RasterReadOptions& options = {}) {
   auto read = readRaster(path, options);
   if (read) ADD_FAILURE() << path << " was read";
   return read ? Error{} : read.error();
@@ -66,7 +66,7 @@ TEST(RasterReader, ReadsEveryRealSampleType) {
     spec.type = type;
     const std::string path = writeRaster(folder.file(std::string(GDALGetDataTypeName(type)) + ".tif"), spec);
     SCOPED_TRACE(path);
-    const RasterHeightfield read = readOrFail(path);
+    const RasterHeightfield read = readRasterOrFail(path);
     EXPECT_EQ(read.columns, 3u);
     EXPECT_EQ(read.rows, 2u);
     expectHeights(read, {1, 2, 3, 4, 5, 6});
@@ -80,13 +80,13 @@ TEST(RasterReader, KeepsTheFullRangeOfWideTypes) {
   RasterSpec spec;
   spec.type = GDT_UInt32;
   spec.values = {0, 4294967295.0, 1, 2, 3, 4};
-  expectHeights(readOrFail(writeRaster(folder.file("u32.tif"), spec)), spec.values);
+  expectHeights(readRasterOrFail(writeRaster(folder.file("u32.tif"), spec)), spec.values);
   spec.type = GDT_Int32;
   spec.values = {-2147483648.0, 2147483647, 1, 2, 3, 4};
-  expectHeights(readOrFail(writeRaster(folder.file("i32.tif"), spec)), spec.values);
+  expectHeights(readRasterOrFail(writeRaster(folder.file("i32.tif"), spec)), spec.values);
   spec.type = GDT_Float64;
   spec.values = {0.1, 1e-300, -12345.678901234567, 2, 3, 4};
-  expectHeights(readOrFail(writeRaster(folder.file("f64.tif"), spec)), spec.values);
+  expectHeights(readRasterOrFail(writeRaster(folder.file("f64.tif"), spec)), spec.values);
 }
 
 TEST(RasterReader, ReadsSignedBytes) {
@@ -96,14 +96,14 @@ TEST(RasterReader, ReadsSignedBytes) {
   spec.values = {0, 127, 128, 255, 5, 6};
   spec.options = {"PIXELTYPE=SIGNEDBYTE"};
   const std::string path = writeRaster(folder.file("i8.tif"), spec);
-  expectHeights(readOrFail(path), {0, 127, -128, -1, 5, 6});
+  expectHeights(readRasterOrFail(path), {0, 127, -128, -1, 5, 6});
 }
 
 TEST(RasterReader, RefusesComplexSamples) {
   TemporaryFolder folder;
   RasterSpec spec;
   spec.type = GDT_CFloat32;
-  const Error error = errorOf(writeRaster(folder.file("complex.tif"), spec));
+  const Error error = rasterErrorOf(writeRaster(folder.file("complex.tif"), spec));
   EXPECT_EQ(error.code, ErrorCode::unsupported);
   EXPECT_TRUE(contains(error.message, "complex")) << error.describe();
 }
@@ -113,7 +113,7 @@ TEST(RasterReader, RefusesA64BitHeightADoubleCannotHold) {
   RasterSpec spec;
   spec.type = GDT_Int64;
   spec.values = {1, 2, 3, 4, 36028797018963968.0, 6};
-  const Error error = errorOf(writeRaster(folder.file("i64.tif"), spec));
+  const Error error = rasterErrorOf(writeRaster(folder.file("i64.tif"), spec));
   EXPECT_EQ(error.code, ErrorCode::invalidData);
   EXPECT_TRUE(contains(error.message, "column 1, row 1")) << error.describe();
 }
@@ -125,15 +125,15 @@ TEST(RasterReader, TakesTheDeclaredNodataOfEveryTypeOut) {
     spec.type = type;
     spec.adjust = [](GDALDataset& d) { d.GetRasterBand(1)->SetNoDataValue(4); };
     SCOPED_TRACE(GDALGetDataTypeName(type));
-    expectHeights(readOrFail(writeRaster(folder.file("nodata.tif"), spec)), {1, 2, 3, kNan, 5, 6});
+    expectHeights(readRasterOrFail(writeRaster(folder.file("nodata.tif"), spec)), {1, 2, 3, kNan, 5, 6});
   }
   RasterSpec wide;
   wide.type = GDT_Int64;
   wide.adjust = [](GDALDataset& d) { d.GetRasterBand(1)->SetNoDataValueAsInt64(4); };
-  expectHeights(readOrFail(writeRaster(folder.file("wide.tif"), wide)), {1, 2, 3, kNan, 5, 6});
+  expectHeights(readRasterOrFail(writeRaster(folder.file("wide.tif"), wide)), {1, 2, 3, kNan, 5, 6});
   wide.type = GDT_UInt64;
   wide.adjust = [](GDALDataset& d) { d.GetRasterBand(1)->SetNoDataValueAsUInt64(4); };
-  expectHeights(readOrFail(writeRaster(folder.file("uwide.tif"), wide)), {1, 2, 3, kNan, 5, 6});
+  expectHeights(readRasterOrFail(writeRaster(folder.file("uwide.tif"), wide)), {1, 2, 3, kNan, 5, 6});
 }
 
 TEST(RasterReader, ComparesNodataOfFloatsAsFloats) {
@@ -143,7 +143,7 @@ TEST(RasterReader, ComparesNodataOfFloatsAsFloats) {
   spec.values = {1.1, 2, -3.4028234663852886e38, 4, 5, 6};
   spec.adjust = [](GDALDataset& d) { d.GetRasterBand(1)->SetNoDataValue(1.1); };
   std::vector<std::string> warnings;
-  const RasterHeightfield read = readOrFail(writeRaster(folder.file("f.tif"), spec), {}, &warnings);
+  const RasterHeightfield read = readRasterOrFail(writeRaster(folder.file("f.tif"), spec), {}, &warnings);
   EXPECT_TRUE(std::isnan(read.heights[0]));
   EXPECT_TRUE(contains(joined(warnings), "undeclared NODATA")) << joined(warnings);
 
@@ -151,7 +151,7 @@ TEST(RasterReader, ComparesNodataOfFloatsAsFloats) {
   RasterReadOptions options;
   options.nodata = -3.40282e38;
   warnings.clear();
-  const RasterHeightfield stated = readOrFail(folder.file("f.tif"), options, &warnings);
+  const RasterHeightfield stated = readRasterOrFail(folder.file("f.tif"), options, &warnings);
   EXPECT_TRUE(std::isnan(stated.heights[2]));
   EXPECT_EQ(stated.heights[0], double(1.1f)) << "the stated value replaces the declared one";
   EXPECT_TRUE(warnings.empty()) << joined(warnings);
@@ -165,7 +165,7 @@ TEST(RasterReader, TakesNanAndInfinityForNodata) {
   spec.values = {kNan, 2, inf, -inf, 5, 6};
   spec.adjust = [](GDALDataset& d) { d.GetRasterBand(1)->SetNoDataValue(std::nan("")); };
   std::vector<std::string> warnings;
-  expectHeights(readOrFail(writeRaster(folder.file("inf.tif"), spec), {}, &warnings),
+  expectHeights(readRasterOrFail(writeRaster(folder.file("inf.tif"), spec), {}, &warnings),
                 {kNan, 2, kNan, kNan, 5, 6});
   EXPECT_TRUE(contains(joined(warnings), "2 infinite heights")) << joined(warnings);
 }
@@ -181,13 +181,13 @@ TEST(RasterReader, TakesNothingElseOutWhereNodataIsInfinite) {
       const double last = type == GDT_Int16 ? 6 : kNan;
       spec.adjust = [&](GDALDataset& d) { d.GetRasterBand(1)->SetNoDataValue(nodata); };
       std::vector<std::string> warnings;
-      expectHeights(readOrFail(writeRaster(folder.file("declared.tif"), spec), {}, &warnings),
+      expectHeights(readRasterOrFail(writeRaster(folder.file("declared.tif"), spec), {}, &warnings),
                     {1, 2, 3, 4, 5, last});
       EXPECT_TRUE(warnings.empty()) << joined(warnings);
       spec.adjust = {};
       RasterReadOptions stated;
       stated.nodata = nodata;
-      expectHeights(readOrFail(writeRaster(folder.file("stated.tif"), spec), stated, &warnings),
+      expectHeights(readRasterOrFail(writeRaster(folder.file("stated.tif"), spec), stated, &warnings),
                     {1, 2, 3, 4, 5, last});
       EXPECT_TRUE(warnings.empty()) << joined(warnings);
     }
@@ -207,7 +207,7 @@ TEST(RasterReader, AppliesAMaskOfTheDataset) {
               CE_None);
     GDALClose(GDALDataset::ToHandle(dataset));
   }
-  expectHeights(readOrFail(path), {1, kNan, 3, 4, 5, kNan});
+  expectHeights(readRasterOrFail(path), {1, kNan, 3, 4, 5, kNan});
 }
 
 TEST(RasterReader, AppliesAnAlphaBand) {
@@ -217,7 +217,7 @@ TEST(RasterReader, AppliesAnAlphaBand) {
   spec.bands = 2;
   spec.values = {1, 0, 3, 4, 5, 6};
   spec.adjust = [](GDALDataset& d) { d.GetRasterBand(2)->SetColorInterpretation(GCI_AlphaBand); };
-  expectHeights(readOrFail(writeRaster(folder.file("alpha.tif"), spec)), {1, kNan, 3, 4, 5, 6});
+  expectHeights(readRasterOrFail(writeRaster(folder.file("alpha.tif"), spec)), {1, kNan, 3, 4, 5, 6});
 }
 
 TEST(RasterReader, AppliesScaleAndOffsetAfterNodata) {
@@ -228,7 +228,7 @@ TEST(RasterReader, AppliesScaleAndOffsetAfterNodata) {
     d.GetRasterBand(1)->SetOffset(100);
     d.GetRasterBand(1)->SetNoDataValue(2);
   };
-  const RasterHeightfield read = readOrFail(writeRaster(folder.file("scaled.tif"), spec));
+  const RasterHeightfield read = readRasterOrFail(writeRaster(folder.file("scaled.tif"), spec));
   expectHeights(read, {100.5, kNan, 101.5, 102, 102.5, 103});
   EXPECT_EQ(read.rawScale, 0.5);
   EXPECT_EQ(read.rawOffset, 100);
@@ -241,7 +241,7 @@ TEST(RasterReader, KeepsRotatedAndSouthUpAndOblongGrids) {
                                                  std::array<double, 6>{500000, 30, 0, 4000000, 0, -90}}) {
     RasterSpec spec;
     spec.geoTransform = transform;
-    const RasterHeightfield read = readOrFail(writeRaster(folder.file("grid.tif"), spec));
+    const RasterHeightfield read = readRasterOrFail(writeRaster(folder.file("grid.tif"), spec));
     EXPECT_TRUE(read.georeference.hasGeoTransform);
     EXPECT_EQ(read.georeference.geoTransform, transform);
     expectHeights(read, {1, 2, 3, 4, 5, 6});
@@ -260,7 +260,8 @@ TEST(RasterReader, PlacesThePictureOfATerrainWithItsFirstRowInTheNorth) {
   for (const char* crs : {"", "EPSG:4326"}) {
     spec.crs = crs;
     warnings.clear();
-    const RasterHeightfield read = readOrFail(writeRaster(folder.file("bare.tif"), spec), {}, &warnings);
+    const RasterHeightfield read =
+        readRasterOrFail(writeRaster(folder.file("bare.tif"), spec), {}, &warnings);
     EXPECT_FALSE(read.georeference.hasGeoTransform);
     EXPECT_EQ(read.georeference.geoTransform, (std::array<double, 6>{0, 1, 0, 2, 0, -1}));
     EXPECT_LT(read.georeference.determinant(), 0) << "mirrored";
@@ -275,14 +276,14 @@ TEST(RasterReader, RefusesAGeotransformWithoutInverse) {
       "flat.vrt",
       "<VRTDataset rasterXSize=\"2\" rasterYSize=\"2\"><GeoTransform>0, 1, 1, 0, 1, 1</GeoTransform>"
       "<VRTRasterBand dataType=\"Float32\" band=\"1\"/></VRTDataset>");
-  EXPECT_EQ(errorOf(path).code, ErrorCode::invalidData);
+  EXPECT_EQ(rasterErrorOf(path).code, ErrorCode::invalidData);
 }
 
 TEST(RasterReader, DescribesProjectedGeographicAndLocalFrames) {
   TemporaryFolder folder;
   RasterSpec spec;
   spec.crs = "EPSG:2263";  // New York, US survey feet
-  Georeference g = readOrFail(writeRaster(folder.file("feet.tif"), spec)).georeference;
+  Georeference g = readRasterOrFail(writeRaster(folder.file("feet.tif"), spec)).georeference;
   EXPECT_FALSE(g.isGeographic);
   EXPECT_NEAR(g.linearUnitMetres, 1200.0 / 3937.0, 1e-12);
   EXPECT_NEAR(g.inverseFlattening, 298.257222101, 1e-9);
@@ -290,18 +291,18 @@ TEST(RasterReader, DescribesProjectedGeographicAndLocalFrames) {
   EXPECT_EQ(g.crsWkt.substr(0, 7), "PROJCRS");
 
   spec.crs = "EPSG:4807";  // NTF (Paris), grads
-  g = readOrFail(writeRaster(folder.file("grad.tif"), spec)).georeference;
+  g = readRasterOrFail(writeRaster(folder.file("grad.tif"), spec)).georeference;
   EXPECT_TRUE(g.isGeographic);
   EXPECT_NEAR(g.angularUnitRadians, std::acos(-1.0) / 200, 1e-15);
   EXPECT_NEAR(g.semiMajorAxisMetres, 6378249.2, 0.01);
 
   spec.crs = "LOCAL_CS[\"quarry\",UNIT[\"foot\",0.3048]]";
-  g = readOrFail(writeRaster(folder.file("local.img"),
-                             [&] {
-                               RasterSpec hfa = spec;
-                               hfa.driver = "HFA";
-                               return hfa;
-                             }()))
+  g = readRasterOrFail(writeRaster(folder.file("local.img"),
+                                   [&] {
+                                     RasterSpec hfa = spec;
+                                     hfa.driver = "HFA";
+                                     return hfa;
+                                   }()))
           .georeference;
   EXPECT_FALSE(g.isGeographic);
 }
@@ -310,7 +311,7 @@ TEST(RasterReader, TakesHeightUnitAndDatumFromACompoundCrs) {
   TemporaryFolder folder;
   RasterSpec spec;
   spec.crs = "EPSG:2263+6360";  // NAVD88 height (ftUS)
-  Georeference g = readOrFail(writeRaster(folder.file("ftus.tif"), spec)).georeference;
+  Georeference g = readRasterOrFail(writeRaster(folder.file("ftus.tif"), spec)).georeference;
   EXPECT_NEAR(g.verticalUnitMetres, 1200.0 / 3937.0, 1e-12) << g.verticalUnit;
   EXPECT_TRUE(contains(g.verticalDatum, "NAVD88")) << g.verticalDatum;
   EXPECT_NEAR(g.linearUnitMetres, 1200.0 / 3937.0, 1e-12);
@@ -319,7 +320,7 @@ TEST(RasterReader, TakesHeightUnitAndDatumFromACompoundCrs) {
   RasterReadOptions options;
   options.crs = "EPSG:2263+5703";  // NAVD88 height in metres over feet in the plan
   std::vector<std::string> warnings;
-  g = readOrFail(writeRaster(folder.file("m.tif"), spec), options, &warnings).georeference;
+  g = readRasterOrFail(writeRaster(folder.file("m.tif"), spec), options, &warnings).georeference;
   EXPECT_EQ(g.verticalUnitMetres, 1);
   EXPECT_NEAR(g.linearUnitMetres, 1200.0 / 3937.0, 1e-12);
   EXPECT_TRUE(contains(joined(warnings), "replaced")) << joined(warnings);
@@ -331,15 +332,15 @@ TEST(RasterReader, PrefersTheUnitOfTheBand) {
   for (const auto& [name, metres] : std::map<std::string, double>{
            {"ft", 0.3048}, {"US survey foot", 1200.0 / 3937.0}, {"metre", 1}, {"M", 1}, {"cm", 0.01}}) {
     spec.adjust = [&name = name](GDALDataset& d) { d.GetRasterBand(1)->SetUnitType(name.c_str()); };
-    const Georeference g = readOrFail(writeRaster(folder.file("unit.tif"), spec)).georeference;
+    const Georeference g = readRasterOrFail(writeRaster(folder.file("unit.tif"), spec)).georeference;
     EXPECT_EQ(g.verticalUnit, name);
     EXPECT_NEAR(g.verticalUnitMetres, metres, 1e-15);
   }
   spec.adjust = [](GDALDataset& d) { d.GetRasterBand(1)->SetUnitType("smoots"); };
   std::vector<std::string> warnings;
-  EXPECT_EQ(
-      readOrFail(writeRaster(folder.file("unit.tif"), spec), {}, &warnings).georeference.verticalUnitMetres,
-      1);
+  EXPECT_EQ(readRasterOrFail(writeRaster(folder.file("unit.tif"), spec), {}, &warnings)
+                .georeference.verticalUnitMetres,
+            1);
   EXPECT_TRUE(contains(joined(warnings), "smoots"));
 }
 
@@ -351,10 +352,10 @@ TEST(RasterReader, UsesTheStatedCrsWhereTheFileHasNone) {
   RasterReadOptions options;
   options.crs = "EPSG:4326";
   std::vector<std::string> warnings;
-  EXPECT_TRUE(readOrFail(path, options, &warnings).georeference.isGeographic);
+  EXPECT_TRUE(readRasterOrFail(path, options, &warnings).georeference.isGeographic);
   EXPECT_TRUE(warnings.empty()) << joined(warnings);
   options.crs = "EPSG:notacode";
-  const Error error = errorOf(path, options);
+  const Error error = rasterErrorOf(path, options);
   EXPECT_EQ(error.code, ErrorCode::usage);
   EXPECT_EQ(error.culprit, "EPSG:notacode");
 }
@@ -365,14 +366,14 @@ TEST(RasterReader, NamesTheBandsThereAre) {
   spec.bands = 3;
   const std::string path = writeRaster(folder.file("bands.tif"), spec);
   for (const int band : {0, -1, 4}) {
-    const Error error = errorOf(path, withBand(band));
+    const Error error = rasterErrorOf(path, withBand(band));
     EXPECT_EQ(error.code, ErrorCode::usage);
     EXPECT_TRUE(contains(error.message, "3 bands")) << error.describe();
   }
   std::vector<std::string> warnings;
-  readOrFail(path, {}, &warnings);
+  readRasterOrFail(path, {}, &warnings);
   EXPECT_TRUE(contains(joined(warnings), "3 bands")) << joined(warnings);
-  readOrFail(path, withBand(3), &warnings);
+  readRasterOrFail(path, withBand(3), &warnings);
 }
 
 TEST(RasterReader, RefusesAColourImageUnlessABandIsNamed) {
@@ -381,10 +382,10 @@ TEST(RasterReader, RefusesAColourImageUnlessABandIsNamed) {
   spec.bands = 3;
   spec.type = GDT_Byte;
   const std::string path = writeRaster(folder.file("image.tif"), spec);
-  const Error error = errorOf(path);
+  const Error error = rasterErrorOf(path);
   EXPECT_EQ(error.code, ErrorCode::unsupported);
   EXPECT_TRUE(contains(error.message, "`band`")) << error.describe();
-  expectHeights(readOrFail(path, withBand(2)), {1, 2, 3, 4, 5, 6});
+  expectHeights(readRasterOrFail(path, withBand(2)), {1, 2, 3, 4, 5, 6});
 }
 
 TEST(RasterReader, ListsSubdatasets) {
@@ -403,10 +404,10 @@ TEST(RasterReader, ListsSubdatasets) {
     GDALClose(GDALDataset::ToHandle(written));
     GDALClose(GDALDataset::ToHandle(source));
   }
-  const Error error = errorOf(path);
+  const Error error = rasterErrorOf(path);
   EXPECT_EQ(error.code, ErrorCode::unsupported);
   EXPECT_TRUE(contains(error.message, "north") && contains(error.message, "south")) << error.describe();
-  EXPECT_EQ(readOrFail("GPKG:" + path + ":south").columns, 3u);
+  EXPECT_EQ(readRasterOrFail("GPKG:" + path + ":south").columns, 3u);
 }
 
 TEST(RasterReader, FindsTheOneRasterInAZip) {
@@ -421,10 +422,11 @@ TEST(RasterReader, FindsTheOneRasterInAZip) {
     VSIFCloseL(out);
   };
   add("one.zip", "folder/dem.tif");
-  const RasterHeightfield read = readOrFail(folder.file("one.zip"));
+  const RasterHeightfield read = readRasterOrFail(folder.file("one.zip"));
   expectHeights(read, {1, 2, 3, 4, 5, 6});
   EXPECT_EQ(read.source, folder.file("one.zip"));
-  expectHeights(readOrFail("/vsizip/" + folder.file("one.zip") + "/folder/dem.tif"), {1, 2, 3, 4, 5, 6});
+  expectHeights(readRasterOrFail("/vsizip/" + folder.file("one.zip") + "/folder/dem.tif"),
+                {1, 2, 3, 4, 5, 6});
 
   add("two.zip", "a.tif");
   {
@@ -436,20 +438,20 @@ TEST(RasterReader, FindsTheOneRasterInAZip) {
     add("two.zip", "b.tif");
     VSIFCloseL(archive);
   }
-  const Error error = errorOf(folder.file("two.zip"));
+  const Error error = rasterErrorOf(folder.file("two.zip"));
   EXPECT_EQ(error.code, ErrorCode::unsupported);
   EXPECT_TRUE(contains(error.message, "a.tif, b.tif")) << error.describe();
-  EXPECT_EQ(errorOf(folder.write("not.zip", "this is no archive")).code, ErrorCode::corrupt);
-  EXPECT_EQ(errorOf(folder.file("absent.zip")).code, ErrorCode::notFound);
+  EXPECT_EQ(rasterErrorOf(folder.write("not.zip", "this is no archive")).code, ErrorCode::corrupt);
+  EXPECT_EQ(rasterErrorOf(folder.file("absent.zip")).code, ErrorCode::notFound);
 }
 
 TEST(RasterReader, SaysWhyAFileCannotBeRead) {
   TemporaryFolder folder;
-  EXPECT_EQ(errorOf(folder.file("absent.tif")).code, ErrorCode::notFound);
-  EXPECT_EQ(errorOf(folder.write("empty.tif", "")).describe(), folder.file("empty.tif") + ": is empty");
-  EXPECT_TRUE(contains(errorOf(folder.file("")).message, "folder"));
-  EXPECT_EQ(errorOf(folder.write("prose.tif", "no raster at all")).code, ErrorCode::unsupported);
-  EXPECT_EQ(errorOf(folder.write("damaged.tif", std::string("II*\0\xff\xff\xff\x7f", 8))).code,
+  EXPECT_EQ(rasterErrorOf(folder.file("absent.tif")).code, ErrorCode::notFound);
+  EXPECT_EQ(rasterErrorOf(folder.write("empty.tif", "")).describe(), folder.file("empty.tif") + ": is empty");
+  EXPECT_TRUE(contains(rasterErrorOf(folder.file("")).message, "folder"));
+  EXPECT_EQ(rasterErrorOf(folder.write("prose.tif", "no raster at all")).code, ErrorCode::unsupported);
+  EXPECT_EQ(rasterErrorOf(folder.write("damaged.tif", std::string("II*\0\xff\xff\xff\x7f", 8))).code,
             ErrorCode::corrupt);
 }
 
@@ -462,7 +464,7 @@ TEST(RasterReader, SaysThatAFileIsCutShortAndPrintsNothing) {
   const std::string path = writeRaster(folder.file("cut.tif"), spec);
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
   CaptureStderr();
-  const Error error = errorOf(path);
+  const Error error = rasterErrorOf(path);
   EXPECT_EQ(GetCapturedStderr(), "");
   EXPECT_TRUE(error.code == ErrorCode::unreadable || error.code == ErrorCode::corrupt) << error.describe();
   EXPECT_EQ(error.culprit, path);
@@ -474,7 +476,7 @@ TEST(RasterReader, RefusesMoreSamplesThanCanBeNumbered) {
       folder.write("huge.vrt",
                    "<VRTDataset rasterXSize=\"70000\" rasterYSize=\"70000\"><VRTRasterBand dataType=\"Byte\" "
                    "band=\"1\"/></VRTDataset>");
-  const Error error = errorOf(path);
+  const Error error = rasterErrorOf(path);
   EXPECT_EQ(error.code, ErrorCode::unsupported);
   EXPECT_TRUE(contains(error.message, "70000 columns")) << error.describe();
 }
@@ -507,7 +509,7 @@ TEST(RasterReader, ReadsAnAsciiGridAndAVirtualRaster) {
   const std::string grid = folder.write(
       "grid.asc",
       "ncols 3\nnrows 2\nxllcorner 10\nyllcorner 20\ncellsize 5\nNODATA_value -9999\n1.5 2 3\n4 -9999 6\n");
-  const RasterHeightfield read = readOrFail(grid);
+  const RasterHeightfield read = readRasterOrFail(grid);
   expectHeights(read, {1.5, 2, 3, 4, kNan, 6});
   EXPECT_EQ(read.georeference.geoTransform, (std::array<double, 6>{10, 5, 0, 30, 0, -5}));
 
@@ -517,7 +519,7 @@ TEST(RasterReader, ReadsAnAsciiGridAndAVirtualRaster) {
       "<NoDataValue>-9999</NoDataValue><SimpleSource><SourceFilename "
       "relativeToVRT=\"1\">grid.asc</SourceFilename>"
       "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>");
-  expectHeights(readOrFail(vrt), {1.5, 2, 3, 4, kNan, 6});
+  expectHeights(readRasterOrFail(vrt), {1.5, 2, 3, 4, kNan, 6});
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ using test::TemporaryFolder;
 using ::testing::internal::CaptureStderr;
 using ::testing::internal::GetCapturedStderr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kVoid = std::numeric_limits<double>::quiet_NaN();
 
 Georeference someFrame() {
   Georeference g;
@@ -37,7 +37,7 @@ std::vector<double> someValues(std::size_t count) {
   std::mt19937 random(7);
   std::vector<double> values(count);
   for (double& value : values) value = 3000 + std::ldexp(double(random() % 100000), -6);
-  values[count / 2] = kNan;
+  values[count / 2] = kVoid;
   return values;
 }
 
@@ -107,7 +107,7 @@ TEST(RasterWriter, TilesTheFileAndDeclaresNan) {
 
 TEST(RasterWriter, WritesBareNumbersAndRotatedFrames) {
   TemporaryFolder folder;
-  const std::vector<double> values = {1, 2, 3, 4, kNan, 6};
+  const std::vector<double> values = {1, 2, 3, 4, kVoid, 6};
   ASSERT_TRUE(writeGeoTiff(folder.file("bare.tif"), 3, 2, values, Georeference{}));
   auto read = readRaster(folder.file("bare.tif"));
   ASSERT_TRUE(read);

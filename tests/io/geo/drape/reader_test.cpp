@@ -24,8 +24,8 @@ using test::writePicture;
 
 using Pixel = DrapeReader::Pixel;
 
-constexpr const char* kUtm = "EPSG:32611";
-const Transform kDem = {500000, 30, 0, 4000000, 0, -30};
+constexpr const char* kUtmCode = "EPSG:32611";
+const Transform kGround = {500000, 30, 0, 4000000, 0, -30};
 
 struct Whole {
   std::uint32_t columns = 0, rows = 0;
@@ -74,7 +74,7 @@ double checker(int c, int r, int b) {
 
 TEST(DrapeReader, InTheTerrainsCrsThePixelsAreThoseOfTheFile) {
   const TemporaryFolder folder;
-  const TerrainModel model = terrainAt(folder, kUtm, kDem);
+  const TerrainModel model = terrainAt(folder, kUtmCode, kGround);
   // Finer, coarser, beside each other, on their heads.
   const Transform places[] = {{500000, 10, 0, 4000000, 0, -10},
                               {500203.3, 7.3, 0, 3999811.7, 0, -4.1},
@@ -84,7 +84,7 @@ TEST(DrapeReader, InTheTerrainsCrsThePixelsAreThoseOfTheFile) {
     SCOPED_TRACE(t[0]);
     const std::string path =
         writePicture(folder.file("picture.tif"),
-                     {.columns = 90, .rows = 70, .transform = t, .crs = kUtm, .value = anyByte});
+                     {.columns = 90, .rows = 70, .transform = t, .crs = kUtmCode, .value = anyByte});
     Result<DrapeReader> reader = DrapeReader::open(path, model);
     ASSERT_TRUE(reader) << reader.error().describe();
     EXPECT_TRUE(reader->warnings().empty());
@@ -163,23 +163,27 @@ TEST(DrapeReader, APictureInAnotherCrsOrTurnedLiesWhereItsMapSays) {
   };
   // 500000, 4000000 of UTM 11 is 117 W, 36.1447 N.
   const Case cases[] = {
-      {"longitude and latitude on UTM", kUtm, kDem, "EPSG:4326", {-117.002, 0.00008, 0, 36.147, 0, -0.00006}},
-      {"its half only", kUtm, kDem, "EPSG:4326", {-116.994, 0.00008, 0, 36.141, 0, -0.00006}},
+      {"longitude and latitude on UTM",
+       kUtmCode,
+       kGround,
+       "EPSG:4326",
+       {-117.002, 0.00008, 0, 36.147, 0, -0.00006}},
+      {"its half only", kUtmCode, kGround, "EPSG:4326", {-116.994, 0.00008, 0, 36.141, 0, -0.00006}},
       {"UTM on longitude and latitude",
        "EPSG:4326",
        {-117.002, 0.0003, 0, 36.147, 0, -0.0003},
-       kUtm,
+       kUtmCode,
        {499900, 7, 0, 4000300, 0, -7}},
-      {"a neighbouring zone", kUtm, kDem, "EPSG:32612", {-39600, 6, 0, 4016900, 0, -6}},
+      {"a neighbouring zone", kUtmCode, kGround, "EPSG:32612", {-39600, 6, 0, 4016900, 0, -6}},
       {"a turned picture",
-       kUtm,
-       kDem,
-       kUtm,
+       kUtmCode,
+       kGround,
+       kUtmCode,
        {500300, 6 * std::cos(a), 6 * std::sin(a), 3999700, 6 * std::sin(a), -6 * std::cos(a)}},
       {"a turned terrain",
-       kUtm,
+       kUtmCode,
        {500000, 30 * std::cos(a), 30 * std::sin(a), 4000000, 30 * std::sin(a), -30 * std::cos(a)},
-       kUtm,
+       kUtmCode,
        {500100, 7, 0, 4000100, 0, -7}},
   };
   for (const Case& c : cases) {
@@ -195,7 +199,7 @@ TEST(DrapeReader, APictureInAnotherCrsOrTurnedLiesWhereItsMapSays) {
 
 TEST(DrapeReader, WhatIsNoDataOrMaskedIsTransparent) {
   const TemporaryFolder folder;
-  const TerrainModel model = terrainAt(folder, kUtm, kDem);
+  const TerrainModel model = terrainAt(folder, kUtmCode, kGround);
   const Transform t = {500000, 10, 0, 4000000, 0, -10};
   struct Case {
     const char* name;
@@ -259,7 +263,7 @@ TEST(DrapeReader, WhatIsNoDataOrMaskedIsTransparent) {
     const std::string path = writePicture(folder.file("picture.tif"), {.columns = 123,
                                                                        .rows = 99,
                                                                        .transform = t,
-                                                                       .crs = kUtm,
+                                                                       .crs = kUtmCode,
                                                                        .bands = c.bands,
                                                                        .value = c.value,
                                                                        .adjust = c.adjust});
@@ -276,14 +280,18 @@ TEST(DrapeReader, WhatIsNoDataOrMaskedIsTransparent) {
 
 TEST(DrapeReader, OtherNumbersAreStretchedBetweenTheirPercentiles) {
   const TemporaryFolder folder;
-  const TerrainModel model = terrainAt(folder, kUtm, kDem);
+  const TerrainModel model = terrainAt(folder, kUtmCode, kGround);
   const Transform t = {500000, 10, 0, 4000000, 0, -10};
   // 100 columns of rising values and a few wild ones.
   const auto value = [](int c, int r, int) { return r == 0 ? 60000.0 : 1000 + 10.0 * (c % 100); };
   for (const GDALDataType type : {GDT_UInt16, GDT_Float32}) {
-    const std::string path = writePicture(
-        folder.file("picture.tif"),
-        {.columns = 100, .rows = 99, .transform = t, .crs = kUtm, .bands = 1, .type = type, .value = value});
+    const std::string path = writePicture(folder.file("picture.tif"), {.columns = 100,
+                                                                       .rows = 99,
+                                                                       .transform = t,
+                                                                       .crs = kUtmCode,
+                                                                       .bands = 1,
+                                                                       .type = type,
+                                                                       .value = value});
     Result<DrapeReader> reader = DrapeReader::open(path, model);
     ASSERT_TRUE(reader) << reader.error().describe();
     const Whole all = readAll(*reader);
@@ -299,14 +307,14 @@ TEST(DrapeReader, OtherNumbersAreStretchedBetweenTheirPercentiles) {
 
 TEST(DrapeReader, ALargerPictureIsReadCoarserAndSaysSo) {
   const TemporaryFolder folder;
-  const TerrainModel model = terrainAt(folder, kUtm, kDem);
+  const TerrainModel model = terrainAt(folder, kUtmCode, kGround);
   const Transform t = {500000, 2, 0, 4000000, 0, -2};
   const auto smooth = [](int c, int r, int b) {
     return b == 0 ? c * 255.0 / 614 : b == 1 ? r * 255.0 / 494 : 255 - c * 255.0 / 614;
   };
   const std::string path =
       writePicture(folder.file("picture.tif"),
-                   {.columns = 615, .rows = 495, .transform = t, .crs = kUtm, .value = smooth});
+                   {.columns = 615, .rows = 495, .transform = t, .crs = kUtmCode, .value = smooth});
   for (const bool hasOverviews : {false, true}) {
     SCOPED_TRACE(hasOverviews);
     if (hasOverviews) {
@@ -346,7 +354,7 @@ TEST(DrapeReader, ALargerPictureIsReadCoarserAndSaysSo) {
 
 TEST(DrapeReader, WhatCannotBeLaidOverTheTerrainIsToldWhy) {
   const TemporaryFolder folder;
-  const TerrainModel model = terrainAt(folder, kUtm, kDem);
+  const TerrainModel model = terrainAt(folder, kUtmCode, kGround);
   const auto picture = [&](const char* name, const char* crs, const Transform& t,
                            GDALDataType type = GDT_Byte) {
     return writePicture(
@@ -364,9 +372,9 @@ TEST(DrapeReader, WhatCannotBeLaidOverTheTerrainIsToldWhy) {
   const Case cases[] = {
       {folder.file("none.tif"), {}, ErrorCode::notFound, {"no such file"}},
       {folder.write("text.tif", "this is no picture"), {}, ErrorCode::unsupported, {"not a raster"}},
-      {picture("bare.tif", kUtm, {}), {}, ErrorCode::invalidData, {"no georeference"}},
-      {picture("nocrs.tif", "", kDem), {}, ErrorCode::invalidData, {"no CRS"}},
-      {picture("away.tif", kUtm, {600000, 30, 0, 4000000, 0, -30}),
+      {picture("bare.tif", kUtmCode, {}), {}, ErrorCode::invalidData, {"no georeference"}},
+      {picture("nocrs.tif", "", kGround), {}, ErrorCode::invalidData, {"no CRS"}},
+      {picture("away.tif", kUtmCode, {600000, 30, 0, 4000000, 0, -30}),
        {},
        ErrorCode::invalidData,
        {"does not overlap", "600000", "500000"}},
@@ -374,9 +382,9 @@ TEST(DrapeReader, WhatCannotBeLaidOverTheTerrainIsToldWhy) {
        {},
        ErrorCode::invalidData,
        {"overlap"}},
-      {picture("bands.tif", kUtm, kDem), {1, 2, 7}, ErrorCode::usage, {"no band 7"}},
-      {picture("two.tif", kUtm, kDem), {1, 2}, ErrorCode::usage, {"three"}},
-      {picture("complex.tif", kUtm, kDem, GDT_CFloat32), {}, ErrorCode::unsupported, {"complex"}},
+      {picture("bands.tif", kUtmCode, kGround), {1, 2, 7}, ErrorCode::usage, {"no band 7"}},
+      {picture("two.tif", kUtmCode, kGround), {1, 2}, ErrorCode::usage, {"three"}},
+      {picture("complex.tif", kUtmCode, kGround, GDT_CFloat32), {}, ErrorCode::unsupported, {"complex"}},
   };
   for (const Case& c : cases) {
     const Result<DrapeReader> reader = DrapeReader::open(c.path, model, {.bands = c.bands});
@@ -388,7 +396,7 @@ TEST(DrapeReader, WhatCannotBeLaidOverTheTerrainIsToldWhy) {
   }
   const std::atomic<bool> stop = true;
   const auto stopped =
-      DrapeReader::open(picture("ok.tif", kUtm, kDem), model, {}, {.progress = {}, .cancel = &stop});
+      DrapeReader::open(picture("ok.tif", kUtmCode, kGround), model, {}, {.progress = {}, .cancel = &stop});
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::interrupted);
 }

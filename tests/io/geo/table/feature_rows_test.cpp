@@ -16,7 +16,7 @@ namespace {
 using test::TemporaryFolder;
 using test::writeVector;
 
-Georeference utm() {
+Georeference utmOfRows() {
   Georeference georeference;
   EXPECT_TRUE(describeCrs(*crsFromText("EPSG:32611"), georeference));
   return georeference;
@@ -100,19 +100,19 @@ TEST(TransformOf, FollowsTheCrsOfTheFileAndTheDem) {
   const auto geographic = crsFromText("OGC:CRS84");
   std::vector<std::string> warnings;
   // The file has a CRS.
-  EXPECT_FALSE(transformOf(&*geographic, utm(), false, false, warnings)->isIdentity());
+  EXPECT_FALSE(transformOf(&*geographic, utmOfRows(), false, false, warnings)->isIdentity());
   EXPECT_TRUE(warnings.empty());
-  EXPECT_FALSE(transformOf(&*geographic, utm(), true, false, warnings)->isIdentity());
+  EXPECT_FALSE(transformOf(&*geographic, utmOfRows(), true, false, warnings)->isIdentity());
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("`lonLat`"), std::string::npos) << warnings[0];
   EXPECT_EQ(transformOf(&*geographic, {}, false, false, warnings).error().code, ErrorCode::invalidData);
   // It has none.
   warnings.clear();
-  EXPECT_TRUE(transformOf(nullptr, utm(), false, true, warnings)->isIdentity());
+  EXPECT_TRUE(transformOf(nullptr, utmOfRows(), false, true, warnings)->isIdentity());
   EXPECT_TRUE(warnings.empty()) << "a table never has one";
-  EXPECT_TRUE(transformOf(nullptr, utm(), false, false, warnings)->isIdentity());
+  EXPECT_TRUE(transformOf(nullptr, utmOfRows(), false, false, warnings)->isIdentity());
   EXPECT_EQ(warnings.size(), 1u);
-  EXPECT_FALSE(transformOf(nullptr, utm(), true, true, warnings)->isIdentity());
+  EXPECT_FALSE(transformOf(nullptr, utmOfRows(), true, true, warnings)->isIdentity());
   EXPECT_EQ(transformOf(nullptr, {}, true, true, warnings).error().code, ErrorCode::usage);
 }
 

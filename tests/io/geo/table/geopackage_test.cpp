@@ -15,7 +15,7 @@ namespace {
 
 using test::TemporaryFolder;
 
-std::string contentOf(const std::string& path) {
+std::string bytesOf(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -145,13 +145,13 @@ TEST(GeoPackage, RefusesWhatItWouldDestroyAndLeavesItAsItWas) {
   const std::string path = folder.file("project.gpkg");
   ASSERT_TRUE(writeOne(path));
   Sqlite(path).run("ALTER TABLE a RENAME COLUMN t TO other");
-  const std::string before = contentOf(path);
+  const std::string before = bytesOf(path);
   EXPECT_EQ(writeOne(path).error().code, ErrorCode::invalidData) << "a layer of that name is somebody else's";
-  EXPECT_TRUE(contentOf(path) == before);
+  EXPECT_TRUE(bytesOf(path) == before);
   for (const char* content : {"not a database", "SQLite format 3"}) {
     const std::string other = folder.write("other.gpkg", content);
     EXPECT_EQ(writeOne(other).error().code, ErrorCode::invalidData) << content;
-    EXPECT_EQ(contentOf(other), content);
+    EXPECT_EQ(bytesOf(other), content);
     EXPECT_TRUE(writeOne(other, ExistingFile::isReplaced)) << content;
   }
   EXPECT_TRUE(writeOne(folder.write("empty.gpkg", ""))) << "as mktemp makes it";
@@ -163,7 +163,7 @@ TEST(GeoPackage, IsWholeAfterAnInterruption) {
   const std::string path = folder.file("project.gpkg");
   ASSERT_TRUE(writeOne(path));
   Sqlite(path).run(kOthers);
-  const std::string before = contentOf(path);
+  const std::string before = bytesOf(path);
   std::atomic<bool> stop = true;
   RunContext context;
   context.cancel = &stop;
@@ -173,7 +173,7 @@ TEST(GeoPackage, IsWholeAfterAnInterruption) {
     return failure(ErrorCode::interrupted, "stopped");
   };
   EXPECT_EQ(writeGeoPackage(path, kKeeps, kOurs, fails, {}).error().code, ErrorCode::interrupted);
-  EXPECT_TRUE(contentOf(path) == before);
+  EXPECT_TRUE(bytesOf(path) == before);
   EXPECT_EQ(folder.count(), 1u);
 }
 
@@ -221,8 +221,8 @@ TEST(GeoPackage, IsTheSameBytesOnAnyDay) {
   std::string first;
   for (const char* name : {"a.gpkg", "b.gpkg"}) {
     ASSERT_TRUE(writeOne(folder.file(name)));
-    if (first.empty()) first = contentOf(folder.file(name));
-    EXPECT_TRUE(contentOf(folder.file(name)) == first);
+    if (first.empty()) first = bytesOf(folder.file(name));
+    EXPECT_TRUE(bytesOf(folder.file(name)) == first);
   }
   EXPECT_NE(first.find("1970-01-01T00:00:00"), std::string::npos);
   EXPECT_EQ(folder.count(), 2u) << "no journal stays";

@@ -15,13 +15,13 @@
 namespace arete {
 namespace {
 
-Georeference utm() {
+Georeference utmOfLines() {
   Georeference georeference;
   EXPECT_TRUE(describeCrs(*crsFromText("EPSG:32632"), georeference));
   return georeference;
 }
 
-std::string contentOf(const std::string& path) {
+std::string linesOf(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -34,13 +34,13 @@ TEST(LineTable, ComesBackAsPairs) {
   for (const char* value : {"mine, \"too\"", "7", "", "8"}) inputs.add(value);
   for (const char* value : {"visible", "1.5", "", ""}) results.add(value);
   const std::vector<std::array<Vec2, 2>> ends = {{Vec2{1, 2}, Vec2{3, 4}}, {Vec2{NAN, NAN}, Vec2{3, 4}}};
-  const LineTable table{"sight", utm().crsWkt, ends, &inputs, &results};
+  const LineTable table{"sight", utmOfLines().crsWkt, ends, &inputs, &results};
   std::string csv;
   forCsvLines(table, [&](std::string_view line) { csv += line; });
   EXPECT_EQ(csv, "verdict_in,n,verdict,clearance\n\"mine, \"\"too\"\"\",7,visible,1.5\n,8,,\n");
   const std::string path = folder_.file("lines.gpkg");
   ASSERT_TRUE(writeLineTable(path, table));
-  const auto pairs = readSightPairs(path, utm());
+  const auto pairs = readSightPairs(path, utmOfLines());
   ASSERT_TRUE(pairs) << pairs.error().describe();
   ASSERT_EQ(pairs->rows.size(), 2u);
   EXPECT_EQ(pairs->rows[0][1].xy, (Vec2{3, 4}));
@@ -61,11 +61,11 @@ TEST(LineTable, IsTheSameBytesEveryTimeAndLeavesNothingWhenStopped) {
   for (const char* name : {"a.csv", "a.gpkg"}) {
     const std::string path = folder.file(name);
     ASSERT_TRUE(writeLineTable(path, table)) << name;
-    const std::string first = contentOf(path);
+    const std::string first = linesOf(path);
     ASSERT_TRUE(writeLineTable(path, table)) << name;
-    EXPECT_TRUE(contentOf(path) == first) << name;
+    EXPECT_TRUE(linesOf(path) == first) << name;
   }
-  EXPECT_EQ(contentOf(folder.file("a.csv")), "name,n\na,7\n");
+  EXPECT_EQ(linesOf(folder.file("a.csv")), "name,n\na,7\n");
   const std::atomic<bool> stop = true;
   RunContext context;
   context.cancel = &stop;

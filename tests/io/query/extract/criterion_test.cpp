@@ -16,7 +16,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// On a grid of metres, so that places, boxes and distances are the same in the plan and on the ground.
-TerrainModel someModel() {
+TerrainModel hillyModel() {
   RasterHeightfield field = test::hills(60, 50, [](double z) { return std::round(z); });
   field.georeference.geoTransform = {0, 1, 0, 0, 0, 1};
   return test::built(build(field));
@@ -46,7 +46,7 @@ TEST(ExtractCriterion, PromisesItsToleranceOnlyWhereNothingElseDecides) {
 }
 
 TEST(ExtractCriterion, IsTheEnginesWithWhatAFormatRoundsTakenOff) {
-  const TerrainModel model = someModel();
+  const TerrainModel model = hillyModel();
   const auto uniform = engineCriterion(within(5), std::nullopt, 0.5, model);
   ASSERT_TRUE(uniform);
   const auto* const error = dynamic_cast<const UniformError*>(uniform->get());
@@ -56,7 +56,7 @@ TEST(ExtractCriterion, IsTheEnginesWithWhatAFormatRoundsTakenOff) {
 }
 
 TEST(ExtractCriterion, OfACameraIsAViewWhateverElseIsStated) {
-  const TerrainModel model = someModel();
+  const TerrainModel model = hillyModel();
   ExtractCriterion c;
   c.camera = Camera();
   c.camera->xy = {10, 10};
@@ -70,7 +70,7 @@ TEST(ExtractCriterion, OfACameraIsAViewWhateverElseIsStated) {
 }
 
 TEST(ExtractCriterion, RequiresAnErrorOfBoxesWhereAToleranceDecides) {
-  const TerrainModel model = someModel();
+  const TerrainModel model = hillyModel();
   const auto everywhere = requiredBy(std::vector{within(5), within(2)}, std::nullopt, model);
   ASSERT_TRUE(everywhere && *everywhere);
   EXPECT_EQ((*everywhere)({0, 0, 1, 1}), 2);
@@ -93,7 +93,7 @@ TEST(ExtractCriterion, RequiresAnErrorOfBoxesWhereAToleranceDecides) {
 }
 
 TEST(ExtractCriterion, RequiresEverythingWhereMoreThanAToleranceDecides) {
-  const TerrainModel model = someModel();
+  const TerrainModel model = hillyModel();
   ExtractCriterion budget, camera = within(1), fit = within(1);
   budget.maxTriangles = 10;
   camera.camera.emplace();
@@ -106,7 +106,7 @@ TEST(ExtractCriterion, RequiresEverythingWhereMoreThanAToleranceDecides) {
 }
 
 TEST(ExtractCriterion, HasTheEnginesOptions) {
-  const TerrainModel model = someModel();
+  const TerrainModel model = hillyModel();
   ExtractCriterion c = within(1);
   EXPECT_EQ(engineOptions(c, model)->order, nullptr);
   EXPECT_FALSE(engineOptions(c, model)->deadline);
@@ -123,7 +123,7 @@ TEST(ExtractCriterion, HasTheEnginesOptions) {
 }
 
 TEST(ExtractCriterion, NeedsACameraForTwoQueuesAndNamesTheField) {
-  const TerrainModel model = someModel();
+  const TerrainModel model = hillyModel();
   ExtractCriterion c = within(1);
   c.order = ExtractOrder::twoQueues;
   const auto refused = engineOptions(c, model);

@@ -45,7 +45,7 @@ std::vector<TerrainModel> modelsOfAllKinds(std::uint64_t seed) {
   return models;
 }
 
-ExtractRequest within(double maxError) {
+ExtractRequest withinError(double maxError) {
   ExtractRequest request;
   request.criterion.maxError = maxError;
   request.output = "tin.ply";
@@ -269,7 +269,7 @@ TEST(ReadForExtract, ReturnsTheCutThatItTookAndTheExtractorTakesNoOther) {
 TEST(ReadForExtract, TakesNoCutWhereTheRequestDeterminesThePart) {
   const TemporaryFolder folder;
   const Filed filed(built(build(familyNamed("fractal").make(100, 90, 3))), folder.file("model.amt"), false);
-  EXPECT_FALSE(filed.part(within(filed.whole.mt.largestError() / 4))->cut);
+  EXPECT_FALSE(filed.part(withinError(filed.whole.mt.largestError() / 4))->cut);
   EXPECT_FALSE(readForExtract(*filed.file, std::vector{ofAtMost(200), ofAtMost(300)}, filed.whole)->cut);
 }
 
@@ -289,7 +289,7 @@ TEST(ReadForExtract, IsEnoughForAFormatThatRounds) {
     for (const std::string name : {"tin.stl", "tin.glb"})
       for (const double maxError : {largest / 4, largest / 16, 0.1, 0.02, 0.005}) {
         SCOPED_TRACE(fmt::format("{}, {}, {}", isPacked ? "packed" : "plain", name, maxError));
-        ExtractRequest request = within(maxError);
+        ExtractRequest request = withinError(maxError);
         request.output = folder.file(name);
         const TerrainModel part = filed.part(request)->model;
         EXPECT_LT(part.mt.nodeCount(), filed.whole.mt.nodeCount());
@@ -322,7 +322,7 @@ TEST(ReadForExtract, ReadsEverythingWhereATinIsMeasuredOrFitted) {
     return filed.part(request)->model.mt.nodeCount() == filed.whole.mt.nodeCount();
   };
   using Change = void (*)(ExtractRequest&);
-  for (const ExtractRequest& request : {within(error), ofAtMost(200)}) {
+  for (const ExtractRequest& request : {withinError(error), ofAtMost(200)}) {
     EXPECT_FALSE(readsAll(request));
     for (const Change change :
          std::initializer_list<Change>{[](ExtractRequest& r) { r.output = "tin.tif"; },

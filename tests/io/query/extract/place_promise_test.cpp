@@ -31,7 +31,7 @@
 namespace arete {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 class Numbers {
  public:
@@ -101,7 +101,7 @@ struct NamedRegion {
 };
 
 struct Extents {
-  double low[2] = {kInfinity, kInfinity}, high[2] = {-kInfinity, -kInfinity};
+  double low[2] = {kUnbounded, kUnbounded}, high[2] = {-kUnbounded, -kUnbounded};
   explicit Extents(const std::vector<Sample>& samples) {
     for (const Sample& s : samples) {
       low[0] = std::min(low[0], s.x), low[1] = std::min(low[1], s.y);
@@ -207,9 +207,9 @@ class TerrainPlaces : public ::testing::Test {
     finest_ += double(whole_.mt.finestTriangleCount());
     for (const Sample& s : samples_) {
       const double allowed = allowedAt(s);
-      if (!(allowed < kInfinity)) continue;
+      if (!(allowed < kUnbounded)) continue;
       ++held_;
-      double least = kInfinity;
+      double least = kUnbounded;
       for (const auto& triangle : cut.triangles) {
         std::array<Vec3, 3> p;
         for (std::size_t i = 0; i < 3; ++i) p[i] = mt.position(VertexId(cut.vertices[triangle[i]]));
@@ -334,7 +334,7 @@ TEST_F(TerrainPlaces, AroundAFocusAreWithinTheErrorThatGrowsWithTheirDistance) {
           .inPlan = inPlan,
           .nearError = relief() * numbers.octaves(1e-5, 1e-2),
           .growth = relief() / Extents(samples_).size() * numbers.octaves(0.01, 1),
-          .farError = numbers.below(2) == 0 ? relief() * 0.2 : kInfinity};
+          .farError = numbers.below(2) == 0 ? relief() * 0.2 : kUnbounded};
       expectKept(DistanceError(options), inPlan ? "focus in the plan" : "focus", [&](const Sample& s) {
         const double dx = (s.x - at.x) * metric.scale.x, dy = (s.y - at.y) * metric.scale.y,
                      dz = inPlan ? 0 : (s.z - z) * metric.scale.z;

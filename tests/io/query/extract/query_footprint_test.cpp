@@ -38,13 +38,13 @@ using test::TemporaryFolder;
 
 constexpr double kNothing = std::numeric_limits<double>::infinity();
 
-const RasterFamily& familyNamed(std::string_view name) {
+const RasterFamily& fieldNamed(std::string_view name) {
   return *std::ranges::find(rasterFamilies(), name, &RasterFamily::name);
 }
 
 /// A file, its whole model, and its outline.
-struct Filed {
-  Filed(const TerrainModel& model, const std::string& path, bool isPacked = true) {
+struct FiledTerrain {
+  FiledTerrain(const TerrainModel& model, const std::string& path, bool isPacked = true) {
     const Status written = writeAmt(path, model, {}, {.isPacked = isPacked});
     if (!written) throw std::runtime_error(written.error().describe());
     file = *openAmt(path);
@@ -83,13 +83,13 @@ std::vector<TerrainModel> modelsOfAllKinds() {
   std::vector<TerrainModel> models;
   for (const char* name : {"fractal", "nodata holes", "integer", "rotated"})
     models.push_back(built(
-        build(test::isBrief() ? familyNamed(name).make(150, 140, 3) : familyNamed(name).make(300, 280, 3))));
+        build(test::isBrief() ? fieldNamed(name).make(150, 140, 3) : fieldNamed(name).make(300, 280, 3))));
   if (test::isBrief()) return models;
   BuildOptions rims;
   rims.rimTolerance = 2;
-  models.push_back(built(build(familyNamed("nodata holes").make(280, 290, 4), rims)));
+  models.push_back(built(build(fieldNamed("nodata holes").make(280, 290, 4), rims)));
   models.push_back(
-      built(build(familyNamed("fractal").make(290, 270, 5), {.shape = HoleShape::dataDependent})));
+      built(build(fieldNamed("fractal").make(290, 270, 5), {.shape = HoleShape::dataDependent})));
   for (const PointFamily& family : pointFamilies()) models.push_back(built(build(family.make(900, 6))));
   return models;
 }
@@ -102,7 +102,7 @@ void forAllKinds(const Visit& visit) {
   for (const TerrainModel& model : modelsOfAllKinds()) {
     ++seed;
     for (const bool isPacked : {true, false}) {
-      const Filed filed(model, folder.file("model.amt"), isPacked);
+      const FiledTerrain filed(model, folder.file("model.amt"), isPacked);
       Random random(seed);
       SCOPED_TRACE(fmt::format("seed {}, {}", seed, isPacked ? "packed" : "plain"));
       visit(filed, random);
@@ -112,7 +112,7 @@ void forAllKinds(const Visit& visit) {
 
 TEST(QueryFootprint, AreWantedByEveryBoxThatHoldsOneAndByNoneFarFromAll) {
   const TemporaryFolder folder;
-  const Filed filed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
+  const FiledTerrain filed(built(build(fieldNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Random random(seed);
     QueryFootprint wanted(filed.outline);
@@ -156,7 +156,7 @@ TEST(QueryFootprint, AreWantedByEveryBoxThatHoldsOneAndByNoneFarFromAll) {
 
 TEST(QueryFootprint, ReachASampleBesideThemOnARaster) {
   const TemporaryFolder folder;
-  const Filed filed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
+  const FiledTerrain filed(built(build(fieldNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
   QueryFootprint wanted(filed.outline);
   wanted.addLine({10, 10}, {20, 10});
   const RequiredError within = wanted.within(0);
@@ -167,14 +167,14 @@ TEST(QueryFootprint, ReachASampleBesideThemOnARaster) {
 
 TEST(QueryFootprint, TakeLinesFarBeyondTheTerrain) {
   const TemporaryFolder folder;
-  const Filed filed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
+  const FiledTerrain filed(built(build(fieldNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
   QueryFootprint wanted(filed.outline);
   wanted.addLine({-1e12, 20}, {1e12, 20});
   EXPECT_EQ(wanted.within(1)({10, 19, 12, 21}), 1);
 }
 
 TEST(QueryFootprint, HaveTheHeightsOfTheWholeWhenOnlyTheyAreRead) {
-  forAllKinds([](const Filed& filed, Random& random) {
+  forAllKinds([](const FiledTerrain& filed, Random& random) {
     for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{40}}) {
       std::vector<Vec2> places;
       QueryFootprint wanted(filed.outline);
@@ -201,7 +201,7 @@ TEST(QueryFootprint, HaveTheHeightsOfTheWholeWhenOnlyTheyAreRead) {
 }
 
 TEST(QueryFootprint, HaveTheLinesOfSightOfTheWholeWhenOnlyTheyAreRead) {
-  forAllKinds([](const Filed& filed, Random& random) {
+  forAllKinds([](const FiledTerrain& filed, Random& random) {
     const auto earth = makePlaneEarth(filed.outline);
     for (int i = 0; i < 12; ++i) {
       const Vec2 from = filed.placeIn(random), to = filed.placeIn(random);
@@ -243,7 +243,8 @@ void expectSameViewshed(const Viewshed& x, const Viewshed& y) {
 }
 
 /// From places in the terrain, as far as a camera sees.
-void expectViewshedsOfTheWhole(const Filed& filed, const SightEarth& earth, double metres, Random& random) {
+void expectViewshedsOfTheWhole(const FiledTerrain& filed, const SightEarth& earth, double metres,
+                               Random& random) {
   const auto ofWhole = ViewshedMaker::make(filed.whole, earth);
   ASSERT_TRUE(ofWhole);
   for (const ViewshedValue value :
@@ -266,7 +267,7 @@ void expectViewshedsOfTheWhole(const Filed& filed, const SightEarth& earth, doub
 }
 
 TEST(QueryFootprint, HaveTheViewshedsOfTheWholeWhenOnlyTheirDiscIsRead) {
-  forAllKinds([](const Filed& filed, Random& random) {
+  forAllKinds([](const FiledTerrain& filed, Random& random) {
     if (!filed.whole.isRaster) return;
     const auto earth = makePlaneEarth(filed.outline);
     const double across = *earth->distance(filed.low, filed.high);
@@ -276,7 +277,7 @@ TEST(QueryFootprint, HaveTheViewshedsOfTheWholeWhenOnlyTheirDiscIsRead) {
 
 TEST(QueryFootprint, HaveTheViewshedsOfTheWholeOnAnEllipsoidWhereAParallelIsShort) {
   const TemporaryFolder folder;
-  RasterHeightfield field = familyNamed("fractal").make(240, 200, 5);
+  RasterHeightfield field = fieldNamed("fractal").make(240, 200, 5);
   for (const double latitude : {0.5, 72.0}) {
     field.georeference = {};
     field.georeference.geoTransform = {7, 1.0 / 1200, 0, latitude, 0, -1.0 / 1200};
@@ -284,7 +285,7 @@ TEST(QueryFootprint, HaveTheViewshedsOfTheWholeOnAnEllipsoidWhereAParallelIsShor
     const auto crs = crsFromText("EPSG:4326");
     ASSERT_TRUE(crs && describeCrs(*crs, field.georeference));
     for (const bool isPacked : {true, false}) {
-      const Filed filed(built(build(field)), folder.file("model.amt"), isPacked);
+      const FiledTerrain filed(built(build(field)), folder.file("model.amt"), isPacked);
       const auto earth = makeEllipsoidEarth(filed.outline, 1.0 / 7);
       ASSERT_TRUE(earth) << earth.error().describe();
       Random random(static_cast<std::uint64_t>(latitude));
@@ -295,7 +296,7 @@ TEST(QueryFootprint, HaveTheViewshedsOfTheWholeOnAnEllipsoidWhereAParallelIsShor
 
 TEST(QueryFootprint, WantADiscAndLittleBesideIt) {
   const TemporaryFolder folder;
-  const Filed filed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
+  const FiledTerrain filed(built(build(fieldNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
   const auto earth = makePlaneEarth(filed.outline);
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Random random(seed);
@@ -335,7 +336,7 @@ class CountingEarth final : public SightEarth {
 
 TEST(QueryFootprint, AskForNoDistanceWhereADiscIsWantedAlready) {
   const TemporaryFolder folder;
-  const Filed filed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
+  const FiledTerrain filed(built(build(fieldNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
   const CountingEarth earth(filed.outline);
   const double metres = *earth.distance({0, 0}, {20, 0});
   QueryFootprint wanted(filed.outline);
@@ -373,7 +374,7 @@ bool isFineEnough(const MultiTriangulation& mt, const Criterion& criterion, cons
 
 TEST(WantedBy, ReadsWhatTheCutsOfARegionOrAFocusAreMadeOf) {
   std::uint64_t nodes = 0, nodesOfParts = 0, triangles = 0, trianglesOfParts = 0;
-  forAllKinds([&](const Filed& filed, Random& random) {
+  forAllKinds([&](const FiledTerrain& filed, Random& random) {
     const double largest = filed.whole.mt.largestError();
     for (int i = 0; i < 12; ++i) {
       const Vec2 p = filed.placeIn(random), q = filed.placeIn(random);
@@ -422,7 +423,7 @@ TEST(WantedBy, ReadsWhatTheCutsOfARegionOrAFocusAreMadeOf) {
 
 TEST(WantedBy, IsEverythingWherePixelsFitsOrBudgetsDecide) {
   const TemporaryFolder folder;
-  const Filed filed(built(build(familyNamed("ramp").make(30, 20, 1))), folder.file("model.amt"));
+  const FiledTerrain filed(built(build(fieldNamed("ramp").make(30, 20, 1))), folder.file("model.amt"));
   const auto isEverything = [&](const ExtractCriterion& criterion, const std::optional<Region>& region = {}) {
     const auto wanted = requiredBy(std::vector{criterion}, region, filed.outline);
     return wanted && !*wanted;
@@ -451,7 +452,7 @@ TEST(WantedBy, IsEverythingWherePixelsFitsOrBudgetsDecide) {
 
 TEST(WantedBy, AsksForTheFinestOfSeveralTolerances) {
   const TemporaryFolder folder;
-  const Filed filed(built(build(familyNamed("ramp").make(30, 20, 1))), folder.file("model.amt"));
+  const FiledTerrain filed(built(build(fieldNamed("ramp").make(30, 20, 1))), folder.file("model.amt"));
   std::vector<ExtractCriterion> criteria(3);
   for (std::size_t i = 0; i < criteria.size(); ++i) {
     criteria[i].maxError = 4.0 - static_cast<double>(i);

@@ -28,7 +28,7 @@ namespace {
 
 using test::georeferenceOf;
 using test::TemporaryFolder;
-using Chain = std::vector<Vec2>;
+using EarthChain = std::vector<Vec2>;
 
 class Proj {
  public:
@@ -87,7 +87,7 @@ double reduced(double degrees) {
 }
 
 /// The even-odd rule; of longitudes, which the ring has without a jump, modulo a turn.
-bool isInside(const Chain& ring, Vec2 p, bool isLonLat) {
+bool isInside(const EarthChain& ring, Vec2 p, bool isLonLat) {
   if (isLonLat) p.x = ring[0].x + reduced(p.x - ring[0].x);
   bool inside = false;
   for (const double turn : {0.0, -360.0, 360.0}) {
@@ -102,8 +102,8 @@ bool isInside(const Chain& ring, Vec2 p, bool isLonLat) {
 }
 
 /// The part of a ring on one side of a meridian.
-Chain clipped(const Chain& ring, double meridian, bool isWest) {
-  Chain part;
+EarthChain clipped(const EarthChain& ring, double meridian, bool isWest) {
+  EarthChain part;
   const auto isKept = [&](Vec2 p) { return isWest ? p.x <= meridian : p.x >= meridian; };
   for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
     const Vec2 a = ring[j], b = ring[i];
@@ -114,7 +114,7 @@ Chain clipped(const Chain& ring, double meridian, bool isWest) {
   return part;
 }
 
-std::string coordinates(const Chain& chain, double shift, bool isRing) {
+std::string coordinates(const EarthChain& chain, double shift, bool isRing) {
   std::string text = "(";
   for (std::size_t i = 0; i < chain.size() + (isRing ? 1 : 0); ++i) {
     const Vec2 p = chain[i % chain.size()];
@@ -124,7 +124,7 @@ std::string coordinates(const Chain& chain, double shift, bool isRing) {
 }
 
 /// A table with one geometry, as it may be drawn.
-std::string tableOf(const Chain& chain, bool isRing, bool isLonLat, std::uint32_t way) {
+std::string tableOf(const EarthChain& chain, bool isRing, bool isLonLat, std::uint32_t way) {
   std::string wkt;
   const auto [west, east] = std::ranges::minmax(chain, {}, &Vec2::x);
   const double seam = 180 + 360 * std::round(((west.x + east.x) / 2 - 180) / 360);
@@ -143,7 +143,7 @@ std::string tableOf(const Chain& chain, bool isRing, bool isLonLat, std::uint32_
 }
 
 /// Positions in space of points close together along a chain.
-std::vector<Vec3> inSpace(const Chain& chain, bool isRing, const Proj& toLonLat,
+std::vector<Vec3> inSpace(const EarthChain& chain, bool isRing, const Proj& toLonLat,
                           const GeographicLib::Geocentric& earth, int perEdge) {
   std::vector<Vec3> points;
   const auto add = [&](Vec2 p) {
@@ -164,7 +164,7 @@ struct Tally {
 };
 
 /// Compares every sample; those within the stated deviation of the border may be either.
-void compare(const Place& place, const Chain& chain, bool isRing, double distance, std::uint32_t way,
+void compare(const Place& place, const EarthChain& chain, bool isRing, double distance, std::uint32_t way,
              Tally& tally) {
   const TemporaryFolder folder;
   RasterHeightfield field;
@@ -236,7 +236,7 @@ TEST(RegionOnEarth, HoldsTheSamplesThatPROJAndGeographicLibSay) {
       Vec2 middle = toRegion(georeference.toSource(u * place.columns, v * place.rows));
       const double size = place.size * random.between(0.3, 1);
       const int kind = i % 4 == 3 ? (i == 3 ? 1 : 0) : 2;  // point, line or polygon
-      Chain chain;
+      EarthChain chain;
       const int corners = 4 + int(random.below(5));
       for (int k = 0; k < corners; ++k) {
         const double angle = 2 * std::numbers::pi * (k + 0.6 * random.unit()) / corners;

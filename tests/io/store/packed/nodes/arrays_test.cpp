@@ -10,11 +10,11 @@
 namespace arete::packed {
 namespace {
 
-constexpr std::uint32_t kNone = MultiTriangulation::kNone;
+constexpr std::uint32_t kNoTriangle = MultiTriangulation::kNone;
 
 /// The arrays of the tiny model, with its root.
 void allocateTiny(Arrays& arrays) {
-  const TerrainModel model = test::tinyModel();
+  const TerrainModel model = arete::test::tinyModel();
   const MtArrays& a = model.mt.arrays();
   arrays.isLattice = true;
   arrays.columns = arrays.rows = 3;
@@ -62,8 +62,8 @@ TEST(PackedArrays, JoinTheRootsTrianglesAcrossTheEdgesThatTwoOfThemShare) {
   allocateTiny(arrays);
   arrays.joinRoot();
   // Triangles {0, 1, 2} and {0, 2, 3} share the edge of 0 and 2: edge 2 of the first, edge 0 of the second.
-  EXPECT_EQ(arrays.border[0].across, (std::array<std::uint32_t, 3>{kNone, kNone, 1}));
-  EXPECT_EQ(arrays.border[1].across, (std::array<std::uint32_t, 3>{0, kNone, kNone}));
+  EXPECT_EQ(arrays.border[0].across, (std::array<std::uint32_t, 3>{kNoTriangle, kNoTriangle, 1}));
+  EXPECT_EQ(arrays.border[1].across, (std::array<std::uint32_t, 3>{0, kNoTriangle, kNoTriangle}));
   EXPECT_EQ(arrays.border[1].corners, (std::array<std::uint32_t, 3>{0, 2, 3}));
   for (std::uint32_t t : {0u, 1u}) {
     EXPECT_TRUE(Arrays::isLeft(arrays.remover[t]));
@@ -80,7 +80,7 @@ TEST(PackedArrays, FinishWithHintsAndRootTrianglesThatStay) {
   arrays.remover[1] = 0;
   arrays.slotBegin[1] = 4;
   arrays.finish();
-  EXPECT_EQ(arrays.remover[0], kNone);
+  EXPECT_EQ(arrays.remover[0], kNoTriangle);
   EXPECT_EQ(arrays.remover[1], 0u);
   EXPECT_EQ(arrays.slotBegin[2], 7u);
   EXPECT_EQ(arrays.creatorHint[0], 0u);
@@ -88,7 +88,7 @@ TEST(PackedArrays, FinishWithHintsAndRootTrianglesThatStay) {
 
 /// The tiny model before saturation: spheres of stars (their radii negative) and errors of floors.
 void fillTiny(Arrays& arrays) {
-  const TerrainModel model = test::tinyModel();
+  const TerrainModel model = arete::test::tinyModel();
   const MtArrays& a = model.mt.arrays();
   std::ranges::copy(a.slotBegin, arrays.slotBegin.get());
   std::ranges::copy(a.link, arrays.link.get());

@@ -14,7 +14,7 @@
 namespace arete::packed {
 namespace {
 
-using test::built;
+using arete::test::built;
 
 /// What plan.h and layout.h promise of a plan.
 void expectSound(const TerrainModel& model) {
@@ -74,13 +74,14 @@ TEST(PackedPlan, PutsEveryNodeInAPacketAfterThoseOfItsParents) {
 }
 
 TEST(PackedPlan, HasManyPacketsWhereThereAreManyTiles) {
-  const TerrainModel model = built(build(test::hills(600, 300, [](double z) { return std::round(z); })));
+  const TerrainModel model =
+      built(build(arete::test::hills(600, 300, [](double z) { return std::round(z); })));
   expectSound(model);
   EXPECT_GE(planPackets(model.mt, kindOf(model)).directory.packets.size(), 10u);
 }
 
 TEST(PackedPlan, IsTheSameEachTime) {
-  const TerrainModel model = built(build(test::hills(300, 280, [](double z) { return z; })));
+  const TerrainModel model = built(build(arete::test::hills(300, 280, [](double z) { return z; })));
   const Plan once = planPackets(model.mt, kindOf(model)), again = planPackets(model.mt, kindOf(model));
   EXPECT_EQ(toBytes(once.directory), toBytes(again.directory));
   EXPECT_TRUE(std::ranges::equal(once.packetOf, again.packetOf));
