@@ -6,11 +6,10 @@
 // slides into it, and so no slide can dam it.
 #include "datasets/erosion.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -45,7 +44,7 @@ void diffuseHillsides(ReliefGrid& grid, const ErosionStep& step, const DrainageN
   std::vector<double> before;
   for (int pass = 0; pass < passes; ++pass) {
     before = grid.heights;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(1, grid.rows - 1, 16), [&](const auto& range) {
+    parallelFor(IndexRange<std::size_t>(1, grid.rows - 1, 16), [&](const auto& range) {
       for (std::size_t row = range.begin(); row < range.end(); ++row)
         for (std::size_t cell = row * columns + 1; cell < (row + 1) * columns - 1; ++cell) {
           if (grid.isOutlet[cell] || network.upstreamCells[cell] >= channelCells) continue;

@@ -4,15 +4,13 @@
 // mostly neighbours on the ground, and a count of open donors per cell is all the memory it takes.
 #include "datasets/flow_routing.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <queue>
 
 #include "datasets/random.h"
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -119,7 +117,7 @@ void removeDepressions(ReliefGrid& grid, Depressions how, double stepMetres, std
 void routeFlow(const ReliefGrid& grid, DrainageNetwork& network) {
   const auto cells = static_cast<std::uint32_t>(grid.size());
   network.receiver.resize(cells);
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, cells, 1 << 14), [&](const auto& range) {
+  parallelFor(IndexRange<std::uint32_t>(0, cells, 1 << 14), [&](const auto& range) {
     for (std::uint32_t cell = range.begin(); cell < range.end(); ++cell)
       network.receiver[cell] = grid.isOutlet[cell] ? cell : steepestDescent(grid, cell);
   });

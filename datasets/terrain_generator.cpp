@@ -6,10 +6,6 @@
 #include "datasets/terrain_generator.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/info.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -24,6 +20,9 @@
 #include "datasets/landscape.h"
 #include "datasets/noise.h"
 #include "datasets/random.h"
+#include "engine/parallel/parallel_loops.h"
+#include "engine/parallel/thread_limit.h"
+#include "engine/parallel/with_threads.h"
 
 namespace arete {
 namespace {
@@ -59,7 +58,7 @@ Level makeLevel(const Plan& plan, int halvings, const Landscape& landscape, doub
   level.erodibility.resize(cells);
   const double x0 = -0.5 * plan.pixelMetres * (plan.columns - 1),
                y0 = -0.5 * plan.pixelMetres * (plan.rows - 1);
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, grid.rows, 8), [&](const auto& range) {
+  parallelFor(IndexRange<std::uint32_t>(0, grid.rows, 8), [&](const auto& range) {
     for (std::uint32_t row = range.begin(); row < range.end(); ++row)
       for (std::uint32_t column = 0; column < grid.columns; ++column) {
         const std::size_t cell = std::size_t(row) * grid.columns + column;
@@ -104,7 +103,7 @@ void refine(const ReliefGrid& coarse, ReliefGrid& fine, std::uint64_t seed) {
   constexpr double kBendCells = 1.6, kBendWavelength = 9;  // coarse cells
   const double roughness = 0.05 * fine.cellMetres;
   const FractalOptions bend{2, 2, 0.5};
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, fine.rows, 16), [&](const auto& range) {
+  parallelFor(IndexRange<std::uint32_t>(0, fine.rows, 16), [&](const auto& range) {
     for (std::uint32_t row = range.begin(); row < range.end(); ++row)
       for (std::uint32_t column = 0; column < fine.columns; ++column) {
         const std::size_t cell = std::size_t(row) * fine.columns + column;
@@ -209,9 +208,9 @@ Result<RasterHeightfield> generateTerrain(const TerrainOptions& options, const R
 
   const std::uint32_t margin = std::max(8u, std::max(options.columns, options.rows) / 10);
   const Plan plan = {options.columns + 2 * margin, options.rows + 2 * margin, margin, options.pixelMetres};
-  const int threads = tbb::info::default_concurrency();
-  tbb::task_arena arena(context.threads > 0 ? std::min(context.threads, threads) : threads);
-  ARETE_TRY(ReliefGrid grid, arena.execute([&] { return shape(plan, options, context); }));
+  RunContext limited = context;
+  limited.threads = context.threads > 0 ? std::min(context.threads, hardwareThreads()) : hardwareThreads();
+  ARETE_TRY(ReliefGrid grid, withThreads(limited, [&] { return shape(plan, options, context); }));
   RasterHeightfield field = cut(grid, plan, options);
   grid = {};
   if (options.lake) floodLake(field, options.pixelMetres);

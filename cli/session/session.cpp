@@ -5,7 +5,6 @@
 #include "cli/session/session.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -18,6 +17,7 @@
 #include "cli/session/progress_bar.h"
 #include "cli/session/proj_guard.h"
 #include "engine/memory/pages.h"
+#include "engine/parallel/thread_limit.h"
 #include "io/files/text/address_text.h"
 #include "io/files/watched_files.h"
 #include "io/geo/gdal/confined.h"
@@ -110,10 +110,8 @@ CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std:
 }
 
 ExitCode Session::runParsed() {
-  std::unique_ptr<tbb::global_control> limit;
-  if (threads_ > 0)
-    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                  static_cast<std::size_t>(threads_));
+  std::optional<ThreadLimit> limit;
+  if (threads_ > 0) limit.emplace(threads_);
   ExitCode code = ExitCode::ok;
   try {
     Status status = prepareGdal();

@@ -5,8 +5,6 @@
 #include "engine/cut/cut.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +15,7 @@
 #include "engine/cut/least_cut.h"
 #include "engine/cut/refine.h"
 #include "engine/cut/saturated_cut.h"
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 
 namespace arete {
@@ -71,8 +70,8 @@ bool isSatisfied(const MultiTriangulation& mt, const Criterion& criterion, Trian
 }
 
 double worstSeverity(const MultiTriangulation& mt, const Criterion& criterion, const Cut& cut) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, cut.ids.size(), 4096), 0.0,
+  return parallelReduce(
+      IndexRange<std::size_t>(0, cut.ids.size(), 4096), 0.0,
       [&](const auto& range, double worst) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
           Criterion::Corners corners = cut.triangles[i];

@@ -13,9 +13,6 @@
 // with that trip count.
 #include "engine/cut/front.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -28,6 +25,7 @@
 
 #include "engine/base/vector_clones.h"
 #include "engine/memory/pages.h"
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -222,10 +220,10 @@ std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set
     reserveInPages(empty, size);
     empty.resize(size);
   };
-  tbb::parallel_invoke(
+  parallelInvoke(
       [&] {
         for (std::uint32_t t = 0; t < roots; ++t) begin[1] += in.contains(a.remover[t]) ? 0 : 1;
-        tbb::parallel_for(std::uint32_t(0), set.spans(), [&](std::uint32_t span) {
+        parallelFor(std::uint32_t(0), set.spans(), [&](std::uint32_t span) {
           const auto marked = writer.mark(span);
           begin[span + 2] = marked.kept;
           open.fetch_add(marked.open, std::memory_order_relaxed);
@@ -250,7 +248,7 @@ std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set
     cut.ids[at++] = t;
     worst[0] = std::max(worst[0], a.error[t]);
   }
-  tbb::parallel_for(std::uint32_t(0), set.spans(), [&](std::uint32_t span) {
+  parallelFor(std::uint32_t(0), set.spans(), [&](std::uint32_t span) {
     const std::uint32_t to = begin[span + 1];
     worst[span + 1] = writer.write(span, cut.vertices.data() + rootVertices, cut.triangles.data() + to,
                                    cut.ids.data() + to);

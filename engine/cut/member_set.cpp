@@ -7,12 +7,12 @@
 // found without the index.
 #include "engine/cut/member_set.h"
 
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <cassert>
 #include <cstring>
 #include <numeric>
+
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -40,7 +40,7 @@ MemberSet::MemberSet(std::uint32_t certain, std::uint32_t end, std::uint32_t gro
                       groups = (words + kWordsPerGroup - 1) / kWordsPerGroup,
                       full = std::min(certain, end) / kNodesPerGroup;
   std::vector<Sink> runs((groups - full + groupsPerRun - 1) / groupsPerRun);
-  tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t run) {
+  parallelFor(std::size_t(0), runs.size(), [&](std::size_t run) {
     const std::uint32_t first = (full + static_cast<std::uint32_t>(run) * groupsPerRun) * kWordsPerGroup;
     fill(first, std::min(words, first + groupsPerRun * kWordsPerGroup), runs[run]);
   });
@@ -71,14 +71,14 @@ MemberSet::MemberSet(std::uint32_t certain, std::uint32_t end, std::uint32_t gro
   std::fill_n(halves_.get(), kHalvesPerGroup, Half{});
   if (isDense_)
     std::fill_n(halves_.get() + std::size_t(1 + groups) * kHalvesPerGroup, kHalvesPerGroup, Half{});
-  tbb::parallel_for(std::uint32_t(0), full, [&](std::uint32_t group) {
+  parallelFor(std::uint32_t(0), full, [&](std::uint32_t group) {
     begins_[group] = (1 + group) * kHalvesPerGroup;
     for (std::uint32_t h = group * kHalvesPerGroup; h < (group + 1) * kHalvesPerGroup; ++h)
       halves_[kHalvesPerGroup + h] = {~std::uint32_t(0), h * kNodesPerHalf};
     std::iota(&used_[group * kWordsPerGroup], &used_[group * kWordsPerGroup] + kWordsPerGroup,
               group * kWordsPerGroup);
   });
-  tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t run) {
+  parallelFor(std::size_t(0), runs.size(), [&](std::size_t run) {
     Place at = place[run];
     std::fill_n(halves_.get() + std::size_t(at.group) * kHalvesPerGroup,
                 std::size_t(place[run + 1].group - at.group) * kHalvesPerGroup, Half{});
@@ -160,7 +160,7 @@ std::uint32_t MemberSet::list(std::uint32_t span, std::uint32_t* members) const 
 
 NodeSet MemberSet::toNodeSet(std::uint32_t nodeCount) const {
   NodeSet set(nodeCount, 0);
-  tbb::parallel_for(std::uint32_t(0), spans(), [&](std::uint32_t span) {
+  parallelFor(std::uint32_t(0), spans(), [&](std::uint32_t span) {
     std::array<std::uint32_t, kMostInSpan> members;
     const std::uint32_t count = list(span, members.data());
     for (std::uint32_t i = 0; i < count; ++i) set[members[i]] = 1;

@@ -12,8 +12,6 @@
 // code finds the code at which the budget ends.
 #include "engine/cut/saturated_cut.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -23,6 +21,7 @@
 
 #include "engine/base/vector_clones.h"
 #include "engine/mt/node_blocks.h"
+#include "engine/parallel/parallel_sort.h"
 
 namespace arete {
 namespace {
@@ -178,7 +177,7 @@ SaturatedMembers saturatedMembers(const MultiTriangulation& mt, const BoundedCri
     const double allowed = criterion.allowedError(a.sphere[n]);
     order.emplace_back(allowed > 0 ? -error(n) / allowed : -std::numeric_limits<double>::infinity(), n);
   });
-  tbb::parallel_sort(order.begin(), order.end());
+  parallelSort(order.begin(), order.end());
   std::uint64_t triangles = mt.rootTriangleCount();
   std::size_t kept = 0;
   for (; kept < order.size(); ++kept) {

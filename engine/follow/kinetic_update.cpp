@@ -14,11 +14,11 @@
 // to allowed error enter first. What remains is evaluated first in the next update.
 #include "engine/follow/kinetic_update.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <limits>
 #include <optional>
+
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -126,7 +126,7 @@ void IncrementalCut::KineticUpdate::evaluateDue() {
   if (count < kBatchesAtOnce)
     for (std::size_t i = 0; i < count; ++i) evaluate(i);
   else
-    tbb::parallel_for(std::size_t(0), count, evaluate);
+    parallelFor(std::size_t(0), count, evaluate);
   for (std::size_t i = 0; i < count; ++i) settle(s_.queue.due(i), verdicts[i]);
   s_.queue.removeDue(count);
 }

@@ -14,8 +14,6 @@
 #include "engine/laws/validate.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +23,7 @@
 #include "engine/base/counted.h"
 #include "engine/laws/front_edges.h"
 #include "engine/mt/node_blocks.h"
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -225,8 +224,8 @@ Status validate(const MultiTriangulation& mt, const ValidateOptions& options, co
     std::uint32_t node = kNone;
     std::string what;
   };
-  const First first = tbb::parallel_reduce(
-      tbb::blocked_range<std::uint32_t>(0, nodes, 4096), First{},
+  const First first = parallelReduce(
+      IndexRange<std::uint32_t>(0, nodes, 4096), First{},
       [&](const auto& range, First found) {
         for (std::uint32_t n = range.begin(); n != range.end() && found.node == kNone; ++n) {
           if (context.cancelled()) break;
@@ -277,8 +276,8 @@ FrontExtent joined(FrontExtent x, const FrontExtent& y) {
 /// threads.
 template <class Add>
 FrontExtent sumOf(std::size_t count, const Add& add) {
-  return tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<std::size_t>(0, count, 1 << 14), FrontExtent{},
+  return parallelSum(
+      IndexRange<std::size_t>(0, count, 1 << 14), FrontExtent{},
       [&](const auto& range, FrontExtent sum) {
         for (std::size_t i = range.begin(); i != range.end() && sum.violation.empty(); ++i)
           add(static_cast<std::uint32_t>(i), sum);

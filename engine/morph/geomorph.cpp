@@ -11,8 +11,6 @@
 // wherever the path leads, also out of the ball or the frustum.
 #include "engine/morph/geomorph.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -20,6 +18,7 @@
 #include <numbers>
 
 #include "engine/base/vector_clones.h"
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 
 namespace arete {
@@ -67,7 +66,7 @@ MorphNode morphNode(const MultiTriangulation& mt, NodeId n) {
 std::vector<MorphNode> makeMorphNodes(const MultiTriangulation& mt, const RunContext& context) {
   std::vector<MorphNode> made(mt.nodeCount());
   withThreads(context, [&] {
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, mt.nodeCount(), 1024), [&](const auto& range) {
+    parallelFor(IndexRange<std::uint32_t>(0, mt.nodeCount(), 1024), [&](const auto& range) {
       for (std::uint32_t n = range.begin(); n < range.end(); ++n) made[n] = morphNode(mt, NodeId(n));
     });
   });

@@ -13,7 +13,6 @@
 // last star of the chain, extended by the vertices' offsets and by the distance itself.
 #include "engine/morph/geomorphed_surface.h"
 
-#include <tbb/parallel_for.h>
 #include <tsl/robin_map.h>
 
 #include <algorithm>
@@ -24,6 +23,7 @@
 
 #include "engine/base/scattered_id.h"
 #include "engine/morph/popping_bound.h"
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -41,11 +41,10 @@ class GeomorphedSurface::State {
     changes.clear();
     takeSteps(cut);
     pixels_.resize(members_.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, members_.size(), kMembersPerTask),
-                      [&](const auto& range) {
-                        given.pixelsPerHeight(std::span(balls_).subspan(range.begin(), range.size()),
-                                              std::span(pixels_).subspan(range.begin(), range.size()));
-                      });
+    parallelFor(IndexRange<std::size_t>(0, members_.size(), kMembersPerTask), [&](const auto& range) {
+      given.pixelsPerHeight(std::span(balls_).subspan(range.begin(), range.size()),
+                            std::span(pixels_).subspan(range.begin(), range.size()));
+    });
     MorphCamera camera = given;
     if (budgetBinds) {
       double least = std::numeric_limits<double>::infinity();
@@ -92,11 +91,10 @@ class GeomorphedSurface::State {
     }
     if (haveLeft) dropLeft();
     const std::span<Member> entered = std::span(members_).last(entered_);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, entered.size(), kChangesPerTask),
-                      [&](const auto& range) {
-                        for (std::size_t i = range.begin(); i < range.end(); ++i)
-                          entered[i].morph = morphNode(mt, NodeId(entered[i].node));
-                      });
+    parallelFor(IndexRange<std::size_t>(0, entered.size(), kChangesPerTask), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i)
+        entered[i].morph = morphNode(mt, NodeId(entered[i].node));
+    });
   }
 
   /// Moves nodes that are no longer members from the list to left_, in their order.
@@ -177,14 +175,13 @@ class GeomorphedSurface::State {
   /// The most pixels of popping if these nodes, parents first, all entered or all left.
   double chained(const MorphCamera& camera, std::span<const Member> nodes) const {
     std::vector<Changed> changed(nodes.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes.size(), kChangesPerTask),
-                      [&](const auto& range) {
-                        std::vector<Vec3> hull;
-                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          hullOf(nodes[i].node, 0, hull);
-                          changed[i].isSeen = camera.mayMeet(hull);
-                        }
-                      });
+    parallelFor(IndexRange<std::size_t>(0, nodes.size(), kChangesPerTask), [&](const auto& range) {
+      std::vector<Vec3> hull;
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        hullOf(nodes[i].node, 0, hull);
+        changed[i].isSeen = camera.mayMeet(hull);
+      }
+    });
     tsl::robin_map<std::uint32_t, std::size_t, ScatteredId> place;
     place.reserve(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) place[nodes[i].node] = i;
@@ -201,13 +198,12 @@ class GeomorphedSurface::State {
       const auto [child, parent] = *pair;
       changed[parent].isNeeded = changed[parent].isNeeded || changed[child].isNeeded;
     }
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes.size(), kChangesPerTask),
-                      [&](const auto& range) {
-                        for (std::size_t i = range.begin(); i < range.end(); ++i)
-                          if (changed[i].isNeeded)
-                            changed[i].own = poppingBound(mt, NodeId(nodes[i].node), nodes[i].morph,
-                                                          [&](std::uint32_t v) { return offset(v); });
-                      });
+    parallelFor(IndexRange<std::size_t>(0, nodes.size(), kChangesPerTask), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i)
+        if (changed[i].isNeeded)
+          changed[i].own = poppingBound(mt, NodeId(nodes[i].node), nodes[i].morph,
+                                        [&](std::uint32_t v) { return offset(v); });
+    });
     for (const auto& [child, parent] : pairs)
       changed[child].before = std::max(changed[child].before, changed[parent].before + changed[parent].own);
     double most = 0;

@@ -4,9 +4,6 @@
 // triangles are found by comparing ids with the last frame's: a few microseconds for 100 000 triangles.
 #include "engine/morph/view_mesh.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,6 +13,7 @@
 #include "engine/follow/incremental_cut.h"
 #include "engine/morph/geomorphed_surface.h"
 #include "engine/mt/exaggerated_mt.h"
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 
 namespace arete {
@@ -112,8 +110,8 @@ class ViewMesh::State {
   /// The tolerance that an incomplete cut keeps.
   double reached(const MorphCamera& camera, double cutPixels) const {
     const MtArrays& a = mt().arrays();
-    const double worst = tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, ids_.size(), 1024), 0.0,
+    const double worst = parallelReduce(
+        IndexRange<std::size_t>(0, ids_.size(), 1024), 0.0,
         [&](const auto& range, double most) {
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
             const TriangleId t(ids_[i]);
@@ -161,7 +159,7 @@ Result<ViewMesh::Report> ViewMesh::update(const View& view, const UpdateOptions&
 
 std::vector<std::array<float, 3>> ViewMesh::positions() const {
   std::vector<std::array<float, 3>> all(mt().vertexCount());
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, mt().vertexCount(), 4096), [&](const auto& range) {
+  parallelFor(IndexRange<std::uint32_t>(0, mt().vertexCount(), 4096), [&](const auto& range) {
     for (std::uint32_t v = range.begin(); v < range.end(); ++v) all[v] = state_->position(VertexId(v));
   });
   return all;

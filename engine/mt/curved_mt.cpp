@@ -17,14 +17,13 @@
 // or below (p, h), and so does its image, along U: the whole distance is at most the sum.
 #include "engine/mt/curved_mt.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
 #include "engine/mt/node_blocks.h"
 #include "engine/mt/saturated_balls.h"
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -64,7 +63,7 @@ void forEachTriangle(const MultiTriangulation& mt, const Bending& bending, const
     const auto corners = mt.arrays().rootTriangles[t];
     each(t, errorOf(TriangleId(t), place(corners[0]), place(corners[1]), place(corners[2])));
   }
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, mt.nodeCount(), 1024), [&](const auto& range) {
+  parallelFor(IndexRange<std::uint32_t>(0, mt.nodeCount(), 1024), [&](const auto& range) {
     std::vector<Vec3> link;
     for (std::uint32_t n = range.begin(); n < range.end(); ++n) {
       const NodeId node(n);

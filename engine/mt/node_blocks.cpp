@@ -6,11 +6,11 @@
 // clusters: balls around balls would be larger.
 #include "engine/mt/node_blocks.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -61,7 +61,7 @@ NodeBlocks makeNodeBlocks(std::span<const OutwardScale::Code> saturatedError,
     made.sphere[entry] = ballAround(sphere.subspan(begin, count));
     made.error[entry] = std::ranges::max(saturatedError.subspan(begin, count));
   };
-  tbb::parallel_for(std::size_t(0), made.sphere.size(), [&](std::size_t entry) {
+  parallelFor(std::size_t(0), made.sphere.size(), [&](std::size_t entry) {
     if (entry < blocks)
       make(entry, entry * MultiTriangulation::kNodesPerBlock, MultiTriangulation::kNodesPerBlock);
     else

@@ -14,7 +14,6 @@
 // random access: they prefetch the records of a node some nodes ahead. A pass frees each of the recorder's
 // arrays as soon as it has copied it, and the next array takes that memory: the peak is about one array above
 // the records, not twice the records.
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -26,6 +25,7 @@
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/mt/node_blocks.h"
 #include "engine/mt/recorder.h"
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -41,7 +41,7 @@ constexpr std::uint32_t kSlotsAhead = 32;  ///< how many slots ahead the codes o
 
 template <class Body>
 void forRange(std::size_t size, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size, kGrain), [&](const auto& range) {
+  parallelFor(IndexRange<std::size_t>(0, size, kGrain), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) body(static_cast<std::uint32_t>(i));
   });
 }
@@ -155,7 +155,7 @@ class MtRecorder::Finishing {
     const std::size_t tasks = (batches.size() + kBatchesPerTask - 1) / kBatchesPerTask;
     // First the number of each task's removals in each band, then where they go.
     std::vector<std::array<std::uint32_t, kBands>> begin(tasks);
-    tbb::parallel_for(std::size_t(0), tasks, [&](std::size_t task) {
+    parallelFor(std::size_t(0), tasks, [&](std::size_t task) {
       begin[task].fill(0);
       forTask(task, [&](std::uint32_t, std::uint32_t band) { ++begin[task][band]; });
     });
@@ -163,7 +163,7 @@ class MtRecorder::Finishing {
     for (std::uint32_t band = 0; band < kBands; ++band)
       for (auto& of : begin) next += std::exchange(of[band], next);
     removalOf_.resize(nodes_);
-    tbb::parallel_for(std::size_t(0), tasks, [&](std::size_t task) {
+    parallelFor(std::size_t(0), tasks, [&](std::size_t task) {
       forTask(task, [&](std::uint32_t r, std::uint32_t band) { removalOf_[begin[task][band]++] = r; });
     });
   }
@@ -269,7 +269,7 @@ class MtRecorder::Finishing {
       out_->above[id] = codes.above;
     };
     for (std::uint32_t i = 0; i < roots_; ++i) copy(i, kNone);
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, nodes_, kGrain), [&](const auto& range) {
+    parallelFor(IndexRange<std::uint32_t>(0, nodes_, kGrain), [&](const auto& range) {
       // Beyond the range's last slot another thread may have replaced the recorder ids already.
       const std::uint32_t end = out_->slotBegin[range.end()];
       for (std::uint32_t n = range.begin(); n != range.end(); ++n)

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/run_context.h"
 
 namespace arete {
@@ -21,7 +20,7 @@ std::optional<std::uint32_t> firstBad(std::size_t size, const RunContext& contex
   constexpr std::size_t kBlock = 1 << 14;
   std::atomic<std::size_t> first = size;
   const std::size_t blocks = (size + kBlock - 1) / kBlock;
-  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+  parallelFor(std::size_t{0}, blocks, [&](std::size_t block) {
     const std::size_t begin = block * kBlock, end = std::min(size, begin + kBlock);
     if (context.cancelled() || begin > first.load(std::memory_order_relaxed)) return;
     for (std::size_t i = begin; i < end; ++i) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <cstddef>
+
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 
@@ -20,8 +19,8 @@ void forRanges(LoopThreads threads, std::size_t size, std::size_t grain, const B
     if (size > 0) body(std::size_t(0), size);
     return;
   }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size, grain),
-                    [&](const auto& range) { body(range.begin(), range.end()); });
+  parallelFor(IndexRange<std::size_t>(0, size, grain),
+              [&](const auto& range) { body(range.begin(), range.end()); });
 }
 
 }  // namespace arete

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <vector>
 
 #include "engine/memory/uninitialized_vector.h"
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 
@@ -26,14 +25,14 @@ class ParallelFilter {
     const std::size_t chunks = (size + chunk - 1) / chunk;
     found_.resize(size);
     first_.assign(chunks + 1, 0);
-    tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t c) {
+    parallelFor(std::size_t(0), chunks, [&](std::size_t c) {
       const std::size_t begin = c * chunk;
       T* const to = found_.data() + begin;
       first_[c + 1] = static_cast<std::size_t>(fill(begin, std::min(begin + chunk, size), to) - to);
     });
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     kept.resize(first_[chunks]);
-    tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t c) {
+    parallelFor(std::size_t(0), chunks, [&](std::size_t c) {
       std::copy_n(found_.data() + c * chunk, first_[c + 1] - first_[c], kept.data() + first_[c]);
     });
   }

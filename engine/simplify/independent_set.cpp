@@ -10,13 +10,11 @@
 // decided in the order of costs.
 #include "engine/simplify/independent_set.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <atomic>
 
+#include "engine/parallel/parallel_loops.h"
+#include "engine/parallel/parallel_sort.h"
 #include "engine/simplify/star_prefetch.h"
 
 namespace arete {
@@ -83,7 +81,7 @@ void IndependentSet::choose(std::span<const VertexId> candidates, std::uint32_t 
   std::span<const VertexId> open = candidates;
   for (int round = 0; round < kRounds && !open.empty(); ++round) {
     const bool isBackwards = round % 2 == 1;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, open.size(), 256), [&](const auto& range) {
+    parallelFor(IndexRange<std::size_t>(0, open.size(), 256), [&](const auto& range) {
       const auto candidate = [&](std::size_t i) { return open[isBackwards ? open.size() - 1 - i : i]; };
       // The links of the next candidates are gathered early, which prefetches their records.
       std::array<Link, kLinksAhead> ahead;
@@ -113,8 +111,7 @@ void IndependentSet::choose(std::span<const VertexId> candidates, std::uint32_t 
 }
 
 void IndependentSet::sortByCost(std::vector<VertexId>& vertices) const {
-  tbb::parallel_sort(vertices.begin(), vertices.end(),
-                     [&](VertexId a, VertexId b) { return precedes(a, b); });
+  parallelSort(vertices.begin(), vertices.end(), [&](VertexId a, VertexId b) { return precedes(a, b); });
 }
 
 void IndependentSet::collectChosen(std::span<const VertexId> candidates, std::uint32_t level,

@@ -10,9 +10,6 @@
 // moved neighbour across its edge. So no location is written twice.
 #include "engine/simplify/live_mesh.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -20,6 +17,7 @@
 
 #include "engine/base/branchless.h"
 #include "engine/parallel/parallel_filter.h"
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 
@@ -95,7 +93,7 @@ SlotMap LiveMesh::compact(std::span<const VertexId> vertices) {
                      triangle.creator};
   });
   triangles.shrink(newSlot.liveCount());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices.size(), 4096), [&](const auto& range) {
+  parallelFor(IndexRange<std::size_t>(0, vertices.size(), 4096), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i)
       if (vertices[i].isValid()) vertexHalfedge[vertices[i]] = moved(vertexHalfedge[vertices[i]]);
   });

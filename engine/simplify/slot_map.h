@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -11,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/ids.h"
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 
@@ -23,7 +21,7 @@ class SlotMap {
   /// isLive(slot), for slots below size. O(size), parallel.
   template <class IsLive>
   SlotMap(std::size_t size, const IsLive& isLive) : words_(size / kBits + 1) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, words_.size(), 512), [&](const auto& range) {
+    parallelFor(IndexRange<std::size_t>(0, words_.size(), 512), [&](const auto& range) {
       for (std::size_t w = range.begin(); w != range.end(); ++w) {
         std::uint32_t live = 0;
         for (std::size_t slot = kBits * w; slot < std::min(kBits * w + kBits, size); ++slot)
@@ -68,7 +66,7 @@ class SlotMap {
  private:
   template <class Visit>
   void forLive(std::size_t begin, std::size_t end, const Visit& visit) const {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, kFewWords), [&](const auto& range) {
+    parallelFor(IndexRange<std::size_t>(begin, end, kFewWords), [&](const auto& range) {
       for (std::size_t w = range.begin(); w != range.end(); ++w) forLiveOf(w, visit);
     });
   }

@@ -2,12 +2,12 @@
 //
 // Every edge, fan and border belongs to one component, and is counted there. A vertex counts once in each of
 // its components: its fans are sorted by vertex and component.
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
+#include "engine/parallel/parallel_loops.h"
 #include "surface/diagnosis/parts.h"
 #include "surface/topology/border_loops.h"
 #include "surface/topology/components.h"
@@ -26,11 +26,11 @@ class TopologyPass {
         options_(options),
         result_(result),
         edges_(kept.triangles(), mesh.positions.size()) {
-    tbb::parallel_invoke([&] { fans_.emplace(edges_); },
-                         [&] {
-                           components_.emplace(edges_);
-                           orientation_.emplace(edges_);
-                         });
+    parallelInvoke([&] { fans_.emplace(edges_); },
+                   [&] {
+                     components_.emplace(edges_);
+                     orientation_.emplace(edges_);
+                   });
   }
 
   void run() {

@@ -4,8 +4,6 @@
 // twice have no place in the topology: one of their edges has no length, and the other two are one edge.
 #include "surface/diagnosis/diagnosis.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "engine/base/caught_failure.h"
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 #include "surface/diagnosis/parts.h"
 
@@ -37,16 +36,16 @@ Result<MeshDiagnosis> diagnoseHere(const TriangleMesh& mesh, const DiagnosisOpti
   const diagnosis::KeptTriangles kept(mesh);
   // Each fills members of its own.
   std::optional<diagnosis::SelfIntersections> crossing;
-  tbb::parallel_invoke([&] { diagnosis::examineTopology(mesh, kept, options, result); },
-                       [&] {
-                         diagnosis::examineVertices(mesh, options, result);
-                         diagnosis::examineFaces(mesh, options, result);
-                       },
-                       [&] {
-                         if (options.selfIntersections)
-                           crossing = diagnosis::countSelfIntersections(
-                               mesh, std::min(options.mostPlaces, DiagnosisOptions::kMostCrossings), context);
-                       });
+  parallelInvoke([&] { diagnosis::examineTopology(mesh, kept, options, result); },
+                 [&] {
+                   diagnosis::examineVertices(mesh, options, result);
+                   diagnosis::examineFaces(mesh, options, result);
+                 },
+                 [&] {
+                   if (options.selfIntersections)
+                     crossing = diagnosis::countSelfIntersections(
+                         mesh, std::min(options.mostPlaces, DiagnosisOptions::kMostCrossings), context);
+                 });
   if (context.cancelled() || (options.selfIntersections && !crossing))
     return failure(ErrorCode::interrupted, "the diagnosis was interrupted");
   if (options.selfIntersections) {

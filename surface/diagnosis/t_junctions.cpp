@@ -4,9 +4,6 @@
 // the boxes that it passes within the distance, not into those that only its own box meets: edges that run
 // far across the mesh meet few. The distance is that of a point from a segment in doubles, so that it is
 // certain to a few ulps of the coordinates.
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +11,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "engine/parallel/parallel_loops.h"
+#include "engine/parallel/per_thread.h"
 #include "surface/diagnosis/parts.h"
 
 namespace arete::diagnosis {
@@ -143,8 +142,8 @@ std::vector<TJunction> findTJunctions(std::span<const Vec3> positions,
 
   constexpr double kRounding = 16 * 0x1p-52;
   const PlaceTree tree(positions, places, distance + kRounding * largest);
-  tbb::enumerable_thread_specific<std::vector<TJunction>> found;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), 256), [&](const auto& range) {
+  PerThread<std::vector<TJunction>> found;
+  parallelFor(IndexRange<std::size_t>(0, edges.size(), 256), [&](const auto& range) {
     std::vector<TJunction>& here = found.local();
     for (std::size_t e = range.begin(); e < range.end(); ++e) {
       const auto [low, high] = edges[e];

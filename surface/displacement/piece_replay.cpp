@@ -4,8 +4,6 @@
 // of one height are independent: all threads work on them at once.
 #include "surface/displacement/piece_replay.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,6 +11,7 @@
 #include "engine/cut/cut.h"
 #include "engine/mt/hole_limit.h"
 #include "engine/parallel/loop_threads.h"
+#include "engine/parallel/per_thread.h"
 #include "engine/simplify/hole_triangles.h"
 #include "surface/error/piece_division.h"
 #include "surface/error/star_division.h"
@@ -89,7 +88,7 @@ StarLine PieceReplay::lineOf(NodeId n) const {
 
 Status PieceReplay::run(CoarseTriangleVisitor& visitor, const char* stage, const RunContext& context) const {
   std::vector<PieceList> pieces(mt_.triangleIdCount());
-  tbb::enumerable_thread_specific<PieceDivision> divisions([&] { return PieceDivision(original_); });
+  PerThread<PieceDivision> divisions([&] { return PieceDivision(original_); });
   std::vector<std::size_t> firstOf;
   for (std::size_t h = 0; h + 1 < heightBegins_.size(); ++h)
     for (std::size_t begin = heightBegins_[h]; begin < heightBegins_[h + 1]; begin += kBatch) {

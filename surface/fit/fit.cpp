@@ -8,9 +8,6 @@
 // All of it happens in a frame around the middle of the cut, in which the cut is about as large as 1.
 #include "surface/fit/fit.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -18,6 +15,7 @@
 #include "engine/base/box3.h"
 #include "engine/base/symmetric3.h"
 #include "engine/base/triangle_bvh.h"
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 #include "surface/fit/least_squares.h"
 #include "surface/fit/source_samples.h"
@@ -169,7 +167,7 @@ class Fitting {
     assigned.resize(samples.size());
     // Runs of samples have a sum each, so that no rounding depends on the threads.
     std::vector<double> sums((samples.size() + kPerSum - 1) / kPerSum, 0);
-    tbb::parallel_for(std::size_t(0), sums.size(), [&](std::size_t run) {
+    parallelFor(std::size_t(0), sums.size(), [&](std::size_t run) {
       for (std::size_t i = run * kPerSum; i < std::min(samples.size(), (run + 1) * kPerSum); ++i) {
         Assigned& one = assigned[i];
         // The samples of a face follow each other.

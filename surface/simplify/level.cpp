@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface/simplify/level.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <array>
 
 #include "engine/parallel/loop_threads.h"
+#include "engine/parallel/per_thread.h"
 #include "surface/simplify/cost.h"
 #include "surface/simplify/fans.h"
 #include "surface/simplify/removal.h"
@@ -35,7 +34,7 @@ std::size_t SurfaceLevels::level(double threshold, std::uint32_t number, MtRecor
 }
 
 void SurfaceLevels::evaluate(double threshold, std::uint32_t number) {
-  tbb::enumerable_thread_specific<SurfaceCost> costs([&] { return SurfaceCost(s_); });
+  PerThread<SurfaceCost> costs([&] { return SurfaceCost(s_); });
   filter_(due_.size(), shareOf(due_.size(), 128), due_,
           [&](std::size_t begin, std::size_t end, VertexId* to) {
             SurfaceCost& cost = costs.local();
@@ -113,7 +112,7 @@ void SurfaceLevels::remove(MtRecorder::BatchOrder order) {
   };
   seams_.resize(slotOf(chosen_.size()));
   s_.starLabels.resize(s_.recorder.firstSlot(removal(chosen_.size())));
-  tbb::enumerable_thread_specific<SurfaceRemover> removers([&] { return SurfaceRemover(s_); });
+  PerThread<SurfaceRemover> removers([&] { return SurfaceRemover(s_); });
   forRanges(LoopThreads::all, chosen_.size(), shareOf(chosen_.size(), 64),
             [&](std::size_t begin, std::size_t end) {
               SurfaceRemover& remover = removers.local();

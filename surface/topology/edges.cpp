@@ -5,13 +5,12 @@
 // parallel.
 #include "surface/topology/edges.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cassert>
 #include <limits>
 #include <numeric>
+
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -30,7 +29,7 @@ CornerId sideOf(SideKey key) {
 
 template <class Visit>
 void forVertices(std::size_t vertexCount, const Visit& visit) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertexCount, 4096), [&](const auto& range) {
+  parallelFor(IndexRange<std::size_t>(0, vertexCount, 4096), [&](const auto& range) {
     for (std::size_t v = range.begin(); v != range.end(); ++v) visit(v);
   });
 }

@@ -3,8 +3,6 @@
 // A raster is built in lattice coordinates, with integer predicates, and its errors are scanned from the
 // raster itself: see simplify.h for the levels and raster_error.h for the scan.
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +13,7 @@
 #include "engine/base/caught_failure.h"
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/parallel/parallel_filter.h"
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 #include "terrain/builder/build.h"
 #include "terrain/builder/build_in_tiles.h"
@@ -61,8 +60,8 @@ struct Range {
 
 /// The range of the samples that have data.
 Range rangeOf(std::span<const double> heights) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, heights.size(), kSamplesAtOnce), Range(),
+  return parallelReduce(
+      IndexRange<std::size_t>(0, heights.size(), kSamplesAtOnce), Range(),
       [&](const auto& part, Range range) {
         for (const double z : heights.subspan(part.begin(), part.size())) {
           range.low = z < range.low ? z : range.low;  // false for NODATA

@@ -5,11 +5,11 @@
 // are stored (rounded to float), and their bounds are rounded outwards.
 #include "terrain/error/height_blocks.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -63,7 +63,7 @@ HeightBlocks::HeightBlocks(std::span<const double> heights, std::uint32_t column
   const auto rows = static_cast<std::uint32_t>(heights.size() / columns),
              blockRows = (rows + kSide - 1) >> kShift;
   blocks_.resize(std::size_t(columns_) * blockRows);
-  tbb::parallel_for(std::uint32_t(0), blockRows, [&](std::uint32_t row) {
+  parallelFor(std::uint32_t(0), blockRows, [&](std::uint32_t row) {
     for (std::uint32_t column = 0; column < columns_; ++column)
       blocks_[std::size_t(row) * columns_ + column] =
           blockOf(heights.data() + std::size_t(row) * kSide * columns + column * kSide, columns,

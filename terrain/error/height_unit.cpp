@@ -4,15 +4,14 @@
 // significand.
 #include "terrain/error/height_unit.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -38,8 +37,8 @@ HeightUnit HeightUnit::of(std::span<const double> heights) {
     double largest = 0;
   };
   constexpr std::size_t kHeightsAtOnce = 1 << 16;
-  const Found found = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, heights.size(), kHeightsAtOnce), Found{},
+  const Found found = parallelReduce(
+      IndexRange<std::size_t>(0, heights.size(), kHeightsAtOnce), Found{},
       [&](const auto& part, Found so) {
         for (const double height : heights.subspan(part.begin(), part.size())) {
           so.lowest = std::min(so.lowest, lowestBit(height));

@@ -6,11 +6,11 @@
 // d - 1 whole blocks of samples away from it.
 #include "terrain/error/void_clearance.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 
@@ -22,7 +22,7 @@ VoidClearance::VoidClearance(std::span<const double> heights, std::uint32_t colu
   const std::size_t stride = across + 2;
   std::vector<std::uint8_t> framed(stride * (down + 2), kFar);
   std::atomic<bool> hasVoids = false;
-  tbb::parallel_for(std::size_t(0), down, [&](std::size_t blockRow) {
+  parallelFor(std::size_t(0), down, [&](std::size_t blockRow) {
     std::uint8_t* const blocks = &framed[(blockRow + 1) * stride + 1];
     const std::size_t end = std::min<std::size_t>(rows, (blockRow + 1) * kSide);
     bool isFound = false;

@@ -12,9 +12,6 @@
 // operation without a second array.
 #pragma once
 
-#include <oneapi/tbb/parallel_invoke.h>
-#include <oneapi/tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -24,6 +21,8 @@
 #include <vector>
 
 #include "engine/memory/uninitialized_vector.h"
+#include "engine/parallel/parallel_loops.h"
+#include "engine/parallel/parallel_sort.h"
 #include "engine/parallel/run_context.h"
 #include "terrain/features/features.h"
 
@@ -91,8 +90,8 @@ template <class Before>
 void sweepFeatures(FeatureTrees& trees, std::vector<FeatureLink>& links, const Before& before,
                    Feature::Kind kind, std::span<const double> heights, const FeatureOptions& options,
                    std::vector<Feature>& found) {
-  tbb::parallel_sort(links.begin(), links.end(),
-                     [&](const FeatureLink& a, const FeatureLink& b) { return before(a.later, b.later); });
+  parallelSort(links.begin(), links.end(),
+               [&](const FeatureLink& a, const FeatureLink& b) { return before(a.later, b.later); });
   for (const FeatureLink& link : links) {
     std::uint32_t elder = trees.find(link.later), younger = trees.find(link.first);
     if (younger == elder) continue;
@@ -127,7 +126,7 @@ std::vector<Feature> rankFeaturesOf(std::span<const double> heights, FeaturePare
     std::vector<FeatureLink> links = linksOf(before, trees);
     if (!context.cancelled()) sweepFeatures(trees, links, before, kind, heights, options, pairs);
   };
-  tbb::parallel_invoke(
+  parallelInvoke(
       [&] { sweep(upwards, parents.lower, LowerVertex(heights), Feature::Kind::pit, found); },
       [&] { sweep(downwards, parents.higher, HigherVertex(heights), Feature::Kind::peak, peaks); });
   if (context.cancelled()) return {};

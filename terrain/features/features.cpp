@@ -5,14 +5,13 @@
 // is reached, so c is joined with a only: two edges per triangle.
 #include "terrain/features/features.h"
 
-#include <oneapi/tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <cassert>
 #include <limits>
 #include <numeric>
 #include <unordered_set>
 
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 #include "terrain/features/feature_sweep.h"
 
@@ -64,7 +63,7 @@ std::vector<Feature> rankFeatures(std::span<const double> heights, std::span<con
   context.report(kStage, 0);
   std::vector<Feature> ranked = withThreads(context, [&] {
     FeatureParents parents;
-    tbb::parallel_invoke(
+    parallelInvoke(
         [&] { parents.lower = firstNeighbours(heights.size(), triangles, LowerVertex(heights)); },
         [&] { parents.higher = firstNeighbours(heights.size(), triangles, HigherVertex(heights)); });
     const auto linksOf = [&](const auto& before, const FeatureTrees& trees) {

@@ -6,12 +6,11 @@
 // can the sample be a pass of either sweep: neighbours in one run are joined by the ring's own edges before
 // the sample is reached, so an edge to one of each run is enough. Samples on the border and beside NODATA are
 // few; for them the triangles of the surrounding cells are visited.
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <array>
 #include <bit>
 
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 #include "terrain/features/feature_sweep.h"
 #include "terrain/model/raster_cells.h"
@@ -53,7 +52,7 @@ class Lattice {
                            UninitializedVector<std::uint32_t>(count)};
     const std::size_t rows = field_.rows;
     passesOfRow_.resize(rows);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows, 8), [&](const auto& range) {
+    parallelFor(IndexRange<std::size_t>(0, rows, 8), [&](const auto& range) {
       for (std::size_t row = range.begin(); row != range.end(); ++row)
         scanRow(static_cast<std::uint32_t>(row), parents);
     });

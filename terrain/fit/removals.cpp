@@ -8,15 +8,14 @@
 //
 // A successful removal puts the leaves of its link into the queue (again): nodes that have become leaves, and
 // neighbours that failed before heights changed.
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <queue>
 #include <utility>
 #include <vector>
 
+#include "engine/parallel/parallel_loops.h"
+#include "engine/parallel/per_thread.h"
 #include "engine/parallel/with_threads.h"
 #include "terrain/fit/removal.h"
 #include "terrain/fit/steps.h"
@@ -41,7 +40,7 @@ class Removals {
     while (!queue_.empty()) {
       if (context_.cancelled()) return failure(ErrorCode::interrupted, "the fit was interrupted");
       takeBatch();
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, batch_, 1), [&](const auto& range) {
+      parallelFor(IndexRange<std::size_t>(0, batch_, 1), [&](const auto& range) {
         FitPatches& patches = patches_.local();
         for (std::size_t i = range.begin(); i != range.end(); ++i)
           patches.tryRemoval(trials_[i].node, rings_, trials_[i]);
@@ -108,7 +107,7 @@ class Removals {
   std::uint32_t round_ = 0;
   std::vector<RemovalTrial> trials_;
   std::size_t batch_ = 0;
-  tbb::enumerable_thread_specific<FitPatches> patches_;
+  PerThread<FitPatches> patches_;
 };
 
 }  // namespace

@@ -12,8 +12,6 @@
 #include "terrain/fit/samples.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -22,6 +20,7 @@
 #include <utility>
 
 #include "engine/memory/required_memory.h"
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 #include "terrain/model/plan_orientation.h"
 
@@ -147,7 +146,7 @@ Result<FitSamples> onPoints(const MultiTriangulation& mt, const Cut& cut, const 
     }
   std::atomic<bool> isLost = false;
   withThreads(context, [&] {
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, mt.nodeCount(), 1024), [&](const auto& range) {
+    parallelFor(IndexRange<std::uint32_t>(0, mt.nodeCount(), 1024), [&](const auto& range) {
       if (context.cancelled()) return;
       for (std::uint32_t start = range.begin(); start != range.end(); ++start) {
         if (nodes[start]) continue;

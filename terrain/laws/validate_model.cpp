@@ -7,9 +7,6 @@
 #include "terrain/laws/validate_model.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +14,8 @@
 
 #include "engine/base/caught_failure.h"
 #include "engine/laws/validate.h"
+#include "engine/parallel/parallel_loops.h"
+#include "engine/parallel/parallel_sort.h"
 #include "terrain/model/plan_orientation.h"
 #include "terrain/triangulation/finest_points.h"
 #include "terrain/triangulation/finest_raster.h"
@@ -45,8 +44,8 @@ std::uint32_t firstWithoutArea(const MultiTriangulation& mt) {
   };
   for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t)
     if (!hasArea(TriangleId(t), {})) return t;
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::uint32_t>(0, mt.nodeCount(), 4096), kNone,
+  return parallelReduce(
+      IndexRange<std::uint32_t>(0, mt.nodeCount(), 4096), kNone,
       [&](const auto& range, std::uint32_t found) {
         for (std::uint32_t n = range.begin(); n != range.end(); ++n)
           for (std::uint32_t i = 0; i < mt.ceilingSize(NodeId(n)); ++i) {
@@ -124,8 +123,8 @@ Status law8(const TerrainModel& model, const Cut& finest) {
     found.push_back(t);
   }
   for (auto& t : expected) smallestFirst(t);
-  tbb::parallel_sort(found.begin(), found.end());
-  tbb::parallel_sort(expected.begin(), expected.end());
+  parallelSort(found.begin(), found.end());
+  parallelSort(expected.begin(), expected.end());
   if (found.size() != expected.size())
     return broken(fmt::format("law 8: the finest front has {} triangles, the samples give {}", found.size(),
                               expected.size()));

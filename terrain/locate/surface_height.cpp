@@ -6,16 +6,14 @@
 // cache for the next.
 #include "terrain/locate/surface_height.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "engine/base/caught_failure.h"
 #include "engine/base/morton.h"
+#include "engine/parallel/parallel_loops.h"
+#include "engine/parallel/parallel_sort.h"
 #include "engine/parallel/shared_progress.h"
 #include "engine/parallel/with_threads.h"
 #include "terrain/model/plan_box.h"
@@ -100,20 +98,19 @@ Result<std::vector<std::optional<SurfaceHeight>>> SurfaceHeights::at(std::span<c
   SharedProgress progress(context, "heights", positions.size());
   context.report("heights", 0);
   withThreads(context, [&] {
-    tbb::parallel_for(std::size_t{0}, positions.size(), [&](std::size_t i) {
+    parallelFor(std::size_t{0}, positions.size(), [&](std::size_t i) {
       order[i] = {mortonKey(model_.toPlan(positions[i]), locator_.roots().bounds()),
                   static_cast<std::uint32_t>(i)};
     });
-    tbb::parallel_sort(order.begin(), order.end());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), kPositionsPerTask),
-                      [&](const auto& range) {
-                        if (context.cancelled()) return;
-                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          const std::uint32_t index = order[i].position;
-                          answers[index] = inPlan(model_.toPlan(positions[index]), allowed);
-                        }
-                        progress.add(range.size());
-                      });
+    parallelSort(order.begin(), order.end());
+    parallelFor(IndexRange<std::size_t>(0, positions.size(), kPositionsPerTask), [&](const auto& range) {
+      if (context.cancelled()) return;
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        const std::uint32_t index = order[i].position;
+        answers[index] = inPlan(model_.toPlan(positions[index]), allowed);
+      }
+      progress.add(range.size());
+    });
   });
   if (context.cancelled()) return failure(ErrorCode::interrupted, "the query was stopped");
   context.report("heights", 1);

@@ -6,10 +6,8 @@
 // is the same to the last bit for any number of threads.
 #include "terrain/measure/bands.h"
 
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
-
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
 
 #include <fmt/format.h>
 
@@ -197,15 +195,12 @@ Status forEachBand(std::size_t bands, const RunContext& context, const char* sta
   std::mutex reporting;
   std::size_t done = 0;
   withThreads(context, [&] {
-    tbb::parallel_for(
-        std::size_t{0}, bands,
-        [&](std::size_t band) {
-          if (context.cancelled()) return;
-          task(band);
-          const std::lock_guard lock(reporting);
-          context.report(stage, static_cast<double>(++done) / static_cast<double>(bands));
-        },
-        tbb::simple_partitioner{});
+    parallelForTasks(std::size_t{0}, bands, [&](std::size_t band) {
+      if (context.cancelled()) return;
+      task(band);
+      const std::lock_guard lock(reporting);
+      context.report(stage, static_cast<double>(++done) / static_cast<double>(bands));
+    });
   });
   if (context.cancelled()) return failure(ErrorCode::interrupted, "measuring was interrupted");
   return {};

@@ -15,10 +15,8 @@
 #include "terrain/measure/measure.h"
 
 #include "engine/base/caught_failure.h"
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -59,7 +57,7 @@ class RasterMeasurement {
     grid_.resize(in_.mesh.positions.size());
     std::atomic<bool> finite = true;
     withThreads(in_.context, [&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid_.size(), 65536), [&](const auto& range) {
+      parallelFor(IndexRange<std::size_t>(0, grid_.size(), 65536), [&](const auto& range) {
         for (std::size_t v = range.begin(); v != range.end(); ++v) {
           Vec2 p = dem_.georeference.toGrid(in_.mesh.positions[v].x, in_.mesh.positions[v].y);
           const Vec2 sample = {std::nearbyint(p.x), std::nearbyint(p.y)};

@@ -4,13 +4,12 @@
 // height again as a reader will, and fails at the first one that differs in a bit.
 #include "terrain/model/height_encoding.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -28,7 +27,7 @@ bool tryEncode(std::span<const double> heights, std::span<const std::uint32_t> o
   out.bytes = UninitializedVector<std::byte>(order.size() * sizeof(Raw));
   Raw* raw = reinterpret_cast<Raw*>(out.bytes.data());
   std::atomic<bool> fits = true;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 8192), [&](const auto& range) {
+  parallelFor(IndexRange<std::size_t>(0, order.size(), 8192), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end() && fits.load(std::memory_order_relaxed); ++i) {
       if (i + kAhead < range.end()) __builtin_prefetch(&heights[order[i + kAhead]]);
       const double z = heights[order[i]];

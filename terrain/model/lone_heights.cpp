@@ -7,13 +7,13 @@
 #include "terrain/model/lone_heights.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -86,8 +86,8 @@ class Bins {
 
 template <class T, class Take, class Join>
 T reduce(std::span<const double> heights, const T& nothing, const Take& take, const Join& join) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, heights.size(), kSamplesAtOnce), nothing,
+  return parallelReduce(
+      IndexRange<std::size_t>(0, heights.size(), kSamplesAtOnce), nothing,
       [&](const auto& part, T found) {
         for (const double z : heights.subspan(part.begin(), part.size())) take(found, z);
         return found;

@@ -5,8 +5,6 @@
 #include "terrain/sight/paths.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/shared_progress.h"
 #include "engine/parallel/with_threads.h"
 #include "terrain/sight/judge.h"
@@ -159,12 +158,11 @@ Result<std::vector<Result<SightPathAnswer>>> answerPaths(std::span<const SightPa
   SharedProgress progress(context, "lines of sight", paths.size());
   context.report("lines of sight", 0);
   withThreads(context, [&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, paths.size(), kPathsPerTask),
-                      [&](const auto& range) {
-                        for (std::size_t i = range.begin(); i < range.end() && !context.cancelled(); ++i)
-                          answers[i] = answerPath(paths[i], earth, engine, profiles, options);
-                        progress.add(range.size());
-                      });
+    parallelFor(IndexRange<std::size_t>(0, paths.size(), kPathsPerTask), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end() && !context.cancelled(); ++i)
+        answers[i] = answerPath(paths[i], earth, engine, profiles, options);
+      progress.add(range.size());
+    });
   });
   if (context.cancelled()) return failure(ErrorCode::interrupted, "the query was stopped");
   context.report("lines of sight", 1);

@@ -4,13 +4,13 @@
 // on. From the first end of the line to the last, a square that is below the line is skipped as a whole; one
 // that may matter is entered, down to its cells. (Maximum mipmaps for rays through heightfields:
 // [TevsIhrkeSeidel2008].)
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "engine/base/float_bounds.h"
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 #include "terrain/sight/engine.h"
 #include "terrain/sight/walk.h"
@@ -67,7 +67,7 @@ class SightPyramid final : public SightEngine {
 
   Level firstLevel() const {
     Level level = shape(kFirstSize);
-    tbb::parallel_for(std::uint32_t{0}, level.rows, [&](std::uint32_t row) {
+    parallelFor(std::uint32_t{0}, level.rows, [&](std::uint32_t row) {
       const std::uint32_t rowEnd = std::min((row + 1) * level.size + 1, grid_->rows());
       for (std::uint32_t column = 0; column < level.columns; ++column) {
         const std::uint32_t columnEnd = std::min((column + 1) * level.size + 1, grid_->columns());

@@ -21,9 +21,6 @@
 // so the MT is the same for any number of threads (docs/decisions/0015).
 #pragma once
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -31,6 +28,8 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/parallel/parallel_loops.h"
+#include "engine/parallel/per_thread.h"
 #include "engine/parallel/run_context.h"
 #include "engine/parallel/shared_progress.h"
 #include "terrain/simplify/level.h"
@@ -155,19 +154,14 @@ class Simplifier {
     std::vector<std::vector<VertexId>> held(tiles);
     {
       const StageClock::Scope stage(context_.clock, "simplify: tiles");
-      tbb::parallel_for(
-          tbb::blocked_range<std::uint32_t>(0, tiles, 1),
-          [&](const auto& range) {
-            for (std::uint32_t p = range.begin(); p != range.end(); ++p) {
-              Worker& worker = workers_.local();
-              for (std::uint32_t k = 0; k < levels && !context_.cancelled(); ++k)
-                progress_->add(worker.levelOf({indexOf(p), indexOf(p + 1)}, thresholds[k], numbers_ + 1 + k,
-                                              {groups_, p}));
-              held[p].swap(worker.held());
-              s_.thresholds.sort(held[p]);
-            }
-          },
-          tbb::simple_partitioner());
+      parallelForTasks(std::uint32_t(0), tiles, [&](std::uint32_t p) {
+        Worker& worker = workers_.local();
+        for (std::uint32_t k = 0; k < levels && !context_.cancelled(); ++k)
+          progress_->add(
+              worker.levelOf({indexOf(p), indexOf(p + 1)}, thresholds[k], numbers_ + 1 + k, {groups_, p}));
+        held[p].swap(worker.held());
+        s_.thresholds.sort(held[p]);
+      });
     }
     levels_ += levels;
     numbers_ += levels;
@@ -202,7 +196,7 @@ class Simplifier {
   TileOptions tiles_;
   const RunContext& context_;
   LevelWorkers<Plan, Errors> together_;
-  tbb::enumerable_thread_specific<Worker> workers_{[this] { return Worker(s_); }};
+  PerThread<Worker> workers_{[this] { return Worker(s_); }};
   std::uint32_t levels_ = 0;   // thresholds
   std::uint32_t numbers_ = 0;  // of levels, with those of held vertices
   std::uint32_t groups_ = 0;   // of batches

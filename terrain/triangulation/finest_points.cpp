@@ -8,9 +8,6 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +16,8 @@
 
 #include "engine/base/caught_failure.h"
 #include "engine/memory/pages.h"
+#include "engine/parallel/parallel_loops.h"
+#include "engine/parallel/parallel_sort.h"
 #include "engine/parallel/with_threads.h"
 #include "engine/simplify/live_mesh.h"
 #include "terrain/model/plan_box.h"
@@ -71,13 +70,13 @@ Delaunay insertAlongGround(const std::vector<PlacedPoint>& points, const RunCont
 
 /// Each from its least corner on, and all by rising corners.
 void sort(Triangles& triangles) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles.size(), 1 << 13), [&](const auto& range) {
+  parallelFor(IndexRange<std::size_t>(0, triangles.size(), 1 << 13), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       auto& t = triangles[i];
       std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     }
   });
-  tbb::parallel_sort(triangles.begin(), triangles.end());
+  parallelSort(triangles.begin(), triangles.end());
 }
 
 Result<FinestPoints> triangulate(const PointHeightfield& field, double xStretch, const RunContext& context) {

@@ -10,8 +10,6 @@
 // outgoing half-edge without a twin begins a fan of its vertex; a vertex with two of them is pinched.
 #include "terrain/triangulation/finest_raster.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -19,6 +17,7 @@
 #include <utility>
 
 #include "engine/parallel/loop_threads.h"
+#include "engine/parallel/parallel_loops.h"
 #include "terrain/model/raster_cells.h"
 
 namespace arete {
@@ -121,7 +120,7 @@ class MeshLayout {
     std::uint8_t* const valid = validCorners_.data() + columns_;
     std::uint32_t* const first = firstTriangles_.data() + columns_;
     std::vector<std::uint32_t> squareFirst(squares + 1, 0);
-    tbb::parallel_for(std::size_t(0), squares, [&](std::size_t square) {
+    parallelFor(std::size_t(0), squares, [&](std::size_t square) {
       std::uint32_t count = 0;
       cells.forSquare(square, [&](std::uint32_t column, std::uint32_t row) {
         const unsigned corners = cells.valid(column, row);
@@ -131,7 +130,7 @@ class MeshLayout {
       squareFirst[square + 1] = count;
     });
     for (std::size_t square = 0; square < squares; ++square) squareFirst[square + 1] += squareFirst[square];
-    tbb::parallel_for(std::size_t(0), squares, [&](std::size_t square) {
+    parallelFor(std::size_t(0), squares, [&](std::size_t square) {
       std::uint32_t next = squareFirst[square];
       cells.forSquare(square, [&](std::uint32_t column, std::uint32_t row) {
         const std::uint32_t cell = field.index(column, row);
@@ -241,7 +240,7 @@ LiveMesh finestMesh(const RasterHeightfield& heightfield, std::vector<VertexId>&
     while ((!seen.isValid() || seen < h) && !last.compare_exchange_weak(seen, h, std::memory_order_relaxed)) {
     }
   };
-  tbb::parallel_for(std::size_t(0), cells.squareCount(), [&](std::size_t square) {
+  parallelFor(std::size_t(0), cells.squareCount(), [&](std::size_t square) {
     cells.forSquare(square, [&](std::uint32_t column, std::uint32_t row) {
       const bool isInside = (column + 1) % kSquare > 1 && (row + 1) % kSquare > 1;
       layout.lay(column, row, mesh, [&](VertexId v, HalfedgeId h) {

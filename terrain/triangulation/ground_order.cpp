@@ -4,15 +4,13 @@
 // cell, as others are far away, are ordered by a curve of their own, recursively.
 #include "terrain/triangulation/ground_order.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <tuple>
 
 #include "engine/memory/uninitialized_vector.h"
+#include "engine/parallel/parallel_loops.h"
+#include "engine/parallel/parallel_sort.h"
 #include "terrain/model/plan_box.h"
 
 namespace arete {
@@ -50,12 +48,12 @@ std::vector<std::uint32_t> groundOrder(std::span<const Vec2> positions) {
     std::uint32_t point;
   };
   UninitializedVector<Place> places(positions.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), 1 << 13), [&](const auto& range) {
+  parallelFor(IndexRange<std::size_t>(0, positions.size(), 1 << 13), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i)
       places[i] = {indexOnCurve(cell(positions[i].x, box.xMin), cell(positions[i].y, box.yMin)),
                    static_cast<std::uint32_t>(i)};
   });
-  tbb::parallel_sort(places.begin(), places.end(), [&](const Place& a, const Place& b) {
+  parallelSort(places.begin(), places.end(), [&](const Place& a, const Place& b) {
     if (a.onCurve != b.onCurve) return a.onCurve < b.onCurve;
     const Vec2 &p = positions[a.point], &q = positions[b.point];
     return std::tie(p.x, p.y, a.point) < std::tie(q.x, q.y, b.point);

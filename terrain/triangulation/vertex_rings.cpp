@@ -4,18 +4,17 @@
 // offsets, a second walk writes the neighbours.
 #include "terrain/triangulation/vertex_rings.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <cstddef>
 #include <utility>
+
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
 
 template <class Visit>
 void forVertices(const LiveMesh& mesh, const Visit& visit) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertexCount(), 1 << 13), [&](const auto& range) {
+  parallelFor(IndexRange<std::size_t>(0, mesh.vertexCount(), 1 << 13), [&](const auto& range) {
     for (std::size_t v = range.begin(); v != range.end(); ++v)
       if (const VertexId id(static_cast<std::uint32_t>(v)); mesh.isInTriangle(id)) visit(id);
   });

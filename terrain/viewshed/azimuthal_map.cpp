@@ -26,14 +26,12 @@
 // nodes and checks alone. The factors kCheck..., named below, stand for what is between them.
 #include "terrain/viewshed/azimuthal_map.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 
 namespace arete {
@@ -153,9 +151,9 @@ std::array<double, 3> parabola(double before, double middle, double after) {
 /// Calls addRow(row, errors) for rows 0 to `rows` - 1, in parallel, and combines the errors.
 template <class AddRow>
 MapErrors reduceRows(int rows, const AddRow& addRow) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<int>(0, rows), MapErrors{},
-      [&](const tbb::blocked_range<int>& range, MapErrors errors) {
+  return parallelReduce(
+      IndexRange<int>(0, rows), MapErrors{},
+      [&](const IndexRange<int>& range, MapErrors errors) {
         for (int row = range.begin(); row < range.end() && errors.isReached; ++row) addRow(row, errors);
         return errors;
       },

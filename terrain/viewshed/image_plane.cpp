@@ -10,11 +10,10 @@
 // limits ks.
 #include "terrain/viewshed/image_plane.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <numbers>
 
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 
 namespace arete {
@@ -218,7 +217,7 @@ std::vector<float> viewshedSteepness(const SightGrid& grid, const RunContext& co
   // along a column rises by at most hypot(a, b) in a step. NODATA differences are left out.
   std::vector<float> cells(std::size_t{columns} * rows, 0), steep(cells.size());
   withThreads(context, [&] {
-    tbb::parallel_for(0u, rows - 1, [&](std::uint32_t row) {
+    parallelFor(0u, rows - 1, [&](std::uint32_t row) {
       const double *upper = grid.row(row), *lower = grid.row(row + 1);
       float* out = cells.data() + std::size_t{row} * columns;
       for (std::uint32_t c = 0; c + 1 < columns; ++c) {
@@ -236,7 +235,7 @@ std::vector<float> viewshedSteepness(const SightGrid& grid, const RunContext& co
     // The maximum of 4 x 4 cells, whose upper left samples are -2 to +1 away: of four in a row, then in a
     // column.
     std::vector<float> across(cells.size());
-    tbb::parallel_for(0u, rows, [&](std::uint32_t row) {
+    parallelFor(0u, rows, [&](std::uint32_t row) {
       const float* in = cells.data() + std::size_t{row} * columns;
       float* out = across.data() + std::size_t{row} * columns;
       for (std::uint32_t c = 0; c < columns; ++c) {
@@ -247,7 +246,7 @@ std::vector<float> viewshedSteepness(const SightGrid& grid, const RunContext& co
         out[c] = most;
       }
     });
-    tbb::parallel_for(0u, rows, [&](std::uint32_t row) {
+    parallelFor(0u, rows, [&](std::uint32_t row) {
       float* out = steep.data() + std::size_t{row} * columns;
       const std::uint32_t first = row > 1 ? row - 2 : 0, last = std::min(row + 1, rows - 1);
       for (std::uint32_t r = first; r <= last; ++r) {

@@ -5,13 +5,12 @@
 #include "terrain/viewshed/many.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 
 namespace arete {
@@ -94,7 +93,7 @@ Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainM
     all.withoutLine = std::max(all.withoutLine, one.withoutLine);
     const auto server = static_cast<std::uint16_t>(n + 1);
     withThreads(context, [&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size, kCellsPerTask), [&](const auto& range) {
+      parallelFor(IndexRange<std::size_t>(0, size, kCellsPerTask), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end() && !context.cancelled(); ++i) {
           const ViewshedCell cell = one.cells[i];
           if (weightOf(cell) > weightOf(all.cells[i])) all.cells[i] = cell;

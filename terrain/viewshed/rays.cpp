@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // One engine's answer for each place, rows in parallel. It works for every engine and every Earth.
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <mutex>
 
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/shared_progress.h"
 #include "engine/parallel/with_threads.h"
 #include "terrain/viewshed/methods.h"
@@ -23,7 +23,7 @@ Status forRows(std::uint32_t rows, const RunContext& context, const Body& body) 
   std::mutex mutex;
   std::pair<std::uint32_t, Error> first{rows, {}};
   withThreads(context, [&] {
-    tbb::parallel_for(0u, rows, [&](std::uint32_t row) {
+    parallelFor(0u, rows, [&](std::uint32_t row) {
       if (context.cancelled() || isBroken) return;
       if (const Status status = body(row); !status) {
         isBroken = true;

@@ -19,11 +19,11 @@
 // line, and terrain in front of a visible sample is not above the line at all. Every other sample takes an
 // engine's answer: those in between, less than a step away, beside NODATA and not hidden by terrain in front
 // of that, or behind a corner of the terrain that a line may meet in a single point.
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/shared_progress.h"
 #include "engine/parallel/with_threads.h"
 #include "terrain/viewshed/wedge.h"
@@ -117,7 +117,7 @@ Status viewshedSweep(const ViewshedTask& task, const AzimuthalMap* map, const Ru
     std::vector<Status> statuses(wedges.size());
     SharedProgress progress(context, "viewshed", wedges.size(), before, before + 0.5);
     withThreads(context, [&] {
-      tbb::parallel_for(std::size_t{0}, wedges.size(), [&](std::size_t i) {
+      parallelFor(std::size_t{0}, wedges.size(), [&](std::size_t i) {
         if (context.cancelled()) return;
         ViewshedWedgeSweep sweep(image, wedges[i], result);
         statuses[i] = sweep.run(context);

@@ -52,6 +52,17 @@ TEST(Rooms, IncludeNoLayerAboveTheirOwn) {
       EXPECT_LE(rank(other), rank(room)) << room << " declares " << other;
 }
 
+TEST(Rooms, NameThreadsInParallelAlone) {
+  for (const std::string& layer : kLayers)
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / layer)) {
+      if (!entry.is_regular_file() || entry.path().parent_path() == kRoot / "engine/parallel") continue;
+      std::ifstream stream(entry.path());
+      for (std::string line; std::getline(stream, line);)
+        EXPECT_FALSE(line.starts_with("#include <") && line.find("tbb/") != line.npos)
+            << entry.path() << ": " << line;
+    }
+}
+
 // The two stand beside each other over engine/.
 TEST(Rooms, OfTerrainAndSurfaceDoNotIncludeEachOther) {
   for (const auto& [room, declared] : declaredRooms())

@@ -5,7 +5,6 @@
 #include "viewer/gl/terrain_on_gpu.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
@@ -14,6 +13,7 @@
 
 #include "engine/morph/geomorph.h"
 #include "engine/mt/node_blocks.h"
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -21,7 +21,7 @@ namespace {
 std::vector<float> metricPositions(const MultiTriangulation& mt) {
   std::vector<float> positions(std::size_t(3) * mt.vertexCount());
   const MetricFrame metric = mt.arrays().metric;
-  tbb::parallel_for(std::uint32_t(0), mt.vertexCount(), [&](std::uint32_t v) {
+  parallelFor(std::uint32_t(0), mt.vertexCount(), [&](std::uint32_t v) {
     const Vec3 p = metric.toMetric(mt.position(VertexId(v)));
     positions[3 * std::size_t(v)] = float(p.x);
     positions[3 * std::size_t(v) + 1] = float(p.y);
@@ -35,7 +35,7 @@ std::vector<std::uint32_t> nodeWords(const MultiTriangulation& mt) {
   const MtArrays& a = mt.arrays();
   const std::uint32_t n = mt.nodeCount();
   std::vector<std::uint32_t> words(2 * (std::size_t(n) + 1), 0);
-  tbb::parallel_for(std::uint32_t(0), n, [&](std::uint32_t i) {
+  parallelFor(std::uint32_t(0), n, [&](std::uint32_t i) {
     const std::uint32_t border = mt.isOpen(NodeId(i)) ? 0x80000000u : 0;
     words[2 * std::size_t(i)] = std::bit_cast<std::uint32_t>(a.scale.decode(a.saturatedError[i])) | border;
     words[2 * std::size_t(i) + 1] = a.slotBegin[i];

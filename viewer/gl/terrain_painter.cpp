@@ -4,8 +4,6 @@
 // fragment shader colours by height, slope, aspect or error; the sky is a triangle behind everything.
 #include "viewer/gl/terrain_painter.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/parallel/parallel_loops.h"
 #include "terrain/model/camera.h"
 #include "viewer/gl/drape_on_gpu.h"
 #include "viewer/gl/gl_program.h"
@@ -37,7 +36,7 @@ std::vector<float> slopesOf(const RasterHeightfield& f, const MetricFrame& metri
     if (!std::isnan(after)) return after - here;
     return std::isnan(before) ? 0 : here - before;
   };
-  tbb::parallel_for(std::uint32_t(0), f.rows, [&](std::uint32_t row) {
+  parallelFor(std::uint32_t(0), f.rows, [&](std::uint32_t row) {
     for (std::uint32_t col = 0; col < f.columns; ++col) {
       const double here = f.at(col, row);
       if (std::isnan(here)) continue;

@@ -9,8 +9,6 @@
 // steps of a thirty-second of the DEM their bends change by far less.
 #include "viewer/scene/curved_ground.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -19,6 +17,7 @@
 #include <vector>
 
 #include "engine/mt/curved_mt.h"
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 #include "io/geo/crs/local_frame.h"
 #include "io/geo/crs/lonlat.h"
@@ -119,7 +118,7 @@ bool CurvedGround::State::measure() {
   const double step = std::max({(high.x - low.x) / kCells, (high.y - low.y) / kCells, 1000.0});
   const int nx = int(std::ceil((high.x - low.x) / step)), ny = int(std::ceil((high.y - low.y) / step));
   std::vector<std::array<double, 2>> found(std::size_t(nx + 1) * std::size_t(ny + 1), {0, 0});
-  tbb::parallel_for(0, ny + 1, [&](int j) {
+  parallelFor(0, ny + 1, [&](int j) {
     for (int i = 0; i <= nx; ++i) {
       const double x = low.x + i * (high.x - low.x) / std::max(nx, 1),
                    y = low.y + j * (high.y - low.y) / std::max(ny, 1);
@@ -241,21 +240,20 @@ Result<MultiTriangulation> CurvedGround::curvedMt(double stretch, const RunConte
   std::atomic<bool> isWhole = true;
   constexpr std::uint32_t kAtOnce = 4096;
   withThreads(context, [&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::uint32_t>(0, mt.vertexCount(), kAtOnce), [&](const auto& range) {
-          if (context.cancelled()) return;
-          const std::span<Vec2> places = std::span(bending.plan).subspan(range.begin(), range.size());
-          for (std::uint32_t v = range.begin(); v < range.end(); ++v)
-            bending.plan[v] = s.model->toSource(mt.vertices().planPosition(VertexId(v)));
-          s.lonLat.toLonLat(places);
-          for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
-            const Vec3 p =
-                s.onEllipsoid(bending.plan[v], s.exaggerated(mt.vertices().height(VertexId(v)), stretch));
-            if (!isFinite(p)) isWhole = false;
-            bending.plan[v] = {p.x, p.y};
-            bending.heights[v] = p.z / bending.metric.scale.z;
-          }
-        });
+    parallelFor(IndexRange<std::uint32_t>(0, mt.vertexCount(), kAtOnce), [&](const auto& range) {
+      if (context.cancelled()) return;
+      const std::span<Vec2> places = std::span(bending.plan).subspan(range.begin(), range.size());
+      for (std::uint32_t v = range.begin(); v < range.end(); ++v)
+        bending.plan[v] = s.model->toSource(mt.vertices().planPosition(VertexId(v)));
+      s.lonLat.toLonLat(places);
+      for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
+        const Vec3 p =
+            s.onEllipsoid(bending.plan[v], s.exaggerated(mt.vertices().height(VertexId(v)), stretch));
+        if (!isFinite(p)) isWhole = false;
+        bending.plan[v] = {p.x, p.y};
+        bending.heights[v] = p.z / bending.metric.scale.z;
+      }
+    });
   });
   if (context.cancelled())
     return failure(ErrorCode::interrupted, "bending the ground was interrupted", kCulprit);

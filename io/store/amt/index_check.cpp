@@ -16,8 +16,6 @@
 #include "io/store/amt/index_check.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -31,6 +29,7 @@
 #include "engine/mt/hole_limit.h"
 #include "engine/mt/node_blocks.h"
 #include "engine/parallel/first_bad.h"
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 #include "io/store/format/layout.h"
 #include "io/store/format/slot_to_node.h"
@@ -169,13 +168,13 @@ class MtIndexCheck {
     // Every floor id is some triangle's, once; so one more removed triangle than floor ids is in no floor.
     std::atomic<std::uint64_t> removed = 0;
     const auto count = [&](std::uint64_t here) { removed.fetch_add(here, std::memory_order_relaxed); };
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, roots_, kBlock), [&](const auto& range) {
+    parallelFor(IndexRange<std::uint32_t>(0, roots_, kBlock), [&](const auto& range) {
       std::uint64_t here = 0;
       for (std::uint32_t t = range.begin(); t != range.end(); ++t)
         here += a_.remover[t] != MultiTriangulation::kNone ? 1 : 0;
       count(here);
     });
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, nodes_, kBlock), [&](const auto& range) {
+    parallelFor(IndexRange<std::uint32_t>(0, nodes_, kBlock), [&](const auto& range) {
       std::uint64_t here = 0;
       for (std::uint32_t n = range.begin(); n != range.end(); ++n)
         for (std::uint32_t s = a_.slotBegin[n]; s < a_.slotBegin[n + 1]; ++s) {

@@ -9,9 +9,6 @@
 // Every index is compared with the sizes of the arrays before it is used.
 #include "io/store/amt/mt_part.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstring>
@@ -21,6 +18,7 @@
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/mt/hole_limit.h"
 #include "engine/mt/node_blocks.h"
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 namespace {
@@ -116,7 +114,7 @@ class SubsetCopy {
   template <class Work>
   void forWords(const Work& work) const {
     constexpr std::size_t kWords = 64;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes_.wordCount(), kWords), [&](const auto& range) {
+    parallelFor(IndexRange<std::size_t>(0, nodes_.wordCount(), kWords), [&](const auto& range) {
       for (std::size_t word = range.begin(); word < range.end(); ++word) work(word);
     });
   }
@@ -267,7 +265,7 @@ std::optional<MultiTriangulation> prefixOfMt(const MultiTriangulation& whole, st
   const auto arrays = std::make_shared<PrefixArrays>();
   arrays->whole = whole;
   arrays->remover.resize(ids);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ids, kGrain), [&](const auto& range) {
+  parallelFor(IndexRange<std::size_t>(0, ids, kGrain), [&](const auto& range) {
     for (std::size_t t = range.begin(); t < range.end(); ++t)
       arrays->remover[t] = a.remover[t] < nodes ? a.remover[t] : MultiTriangulation::kNone;
   });

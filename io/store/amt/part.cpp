@@ -14,14 +14,13 @@
 // not loaded is zeros. A wrong index among these is met as in a damaged file.
 #include "io/store/amt/part.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <vector>
 
 #include "engine/mt/node_blocks.h"
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 #include "io/store/amt/checks.h"
 #include "io/store/amt/index_check.h"
@@ -86,7 +85,7 @@ class PartReader {
     const std::uint32_t blocks = static_cast<std::uint32_t>(nodeBlockCount(whole_.nodeCount()));
     const std::uint32_t all = static_cast<std::uint32_t>(a_.blockError.size()) - blocks;
     isPageRequired_.resize(all);
-    tbb::parallel_for(std::uint32_t{0}, all, [&](std::uint32_t page) {
+    parallelFor(std::uint32_t{0}, all, [&](std::uint32_t page) {
       isPageRequired_[page] =
           isRequired(a_.blockError[blocks + page], requiredOf(a_.blockSphere[blocks + page]));
     });
@@ -99,7 +98,7 @@ class PartReader {
   /// the first ones, without testing each of them.
   bool isTheSameEverywhere() const {
     std::vector<double> required(pages_);
-    tbb::parallel_for(std::uint32_t{0}, pages_, [&](std::uint32_t page) {
+    parallelFor(std::uint32_t{0}, pages_, [&](std::uint32_t page) {
       required[page] = requiredOf(a_.blockSphere[std::size_t{page} * kBlocksPerPage]);
     });
     return std::ranges::adjacent_find(
@@ -143,7 +142,7 @@ class PartReader {
       segments_.touch(saturatedError_, begin, end);
       segments_.touch(sphere_, begin, end);
     }
-    tbb::parallel_for(std::uint32_t{0}, pages_, [&](std::uint32_t page) {
+    parallelFor(std::uint32_t{0}, pages_, [&](std::uint32_t page) {
       if (isPageRequired_[page] == 0 || context_.cancelled()) return;
       const auto end = std::min<std::size_t>((page + 1) * kBlocksPerPage, nodes.wordCount());
       for (std::size_t block = page * kBlocksPerPage; block < end; ++block)

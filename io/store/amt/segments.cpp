@@ -6,12 +6,12 @@
 #include "io/store/amt/segments.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cassert>
 
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/shared_progress.h"
 #include "engine/parallel/with_threads.h"
 #include "io/store/format/checksum.h"
@@ -77,7 +77,7 @@ Status AmtSegments::check(const RunContext& context) {
   std::atomic<std::size_t> altered = states_.size();
   SharedProgress progress(context, "check checksums", segments.size() + 1);
   withThreads(context, [&] {
-    tbb::parallel_for(std::size_t{0}, segments.size(), [&](std::size_t i) {
+    parallelFor(std::size_t{0}, segments.size(), [&](std::size_t i) {
       if (context.cancelled()) return;
       const std::size_t segment = segments[i], c = chunkOf(segment);
       const auto bytes = file_.bytes(file_.chunks()[c]);

@@ -5,10 +5,9 @@
 // of hashing it at once.
 #include "io/store/format/checksum.h"
 
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 #include "io/store/format/layout.h"
-
-#include <tbb/parallel_for.h>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -63,7 +62,7 @@ std::optional<AmtChecksums> amtChecksums(std::span<const std::span<const std::by
     }
     sums.blocks[i] = XXH3_64bits_digest(state.get());
   };
-  withThreads(context, [&] { tbb::parallel_for(std::size_t{0}, blocks.size(), hash); });
+  withThreads(context, [&] { parallelFor(std::size_t{0}, blocks.size(), hash); });
   if (stopped || context.cancelled()) return std::nullopt;
   context.report(stage, 1);
   return sums;

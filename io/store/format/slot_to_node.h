@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -11,6 +8,7 @@
 
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/mt/multitriangulation.h"
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete {
 
@@ -25,7 +23,7 @@ class SlotToNode {
   explicit SlotToNode(const MtArrays& arrays)
       : slotBegin_(arrays.slotBegin), hints_(arrays.creatorHint), marks_(arrays.link.size()) {
     const auto nodes = static_cast<std::uint32_t>(slotBegin_.size() - 1);
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, nodes, 4096), [&](const auto& range) {
+    parallelFor(IndexRange<std::uint32_t>(0, nodes, 4096), [&](const auto& range) {
       for (std::uint32_t n = range.begin(); n != range.end(); ++n) {
         const std::uint32_t last = slotBegin_[n + 1] - 1;
         for (std::uint32_t slot = slotBegin_[n]; slot <= last; ++slot) {

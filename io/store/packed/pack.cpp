@@ -4,14 +4,14 @@
 // When all packets have been walked, the tables follow from how often each symbol occurs, and every packet is
 // encoded. Packets are walked in parallel, each after those that it depends on, as they are read.
 #include <fmt/format.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
 #include <numeric>
 
 #include "engine/base/caught_failure.h"
+#include "engine/parallel/parallel_loops.h"
+#include "engine/parallel/per_thread.h"
 #include "engine/parallel/with_threads.h"
 #include "io/store/format/checksum.h"
 #include "io/store/packed/heightfield/form.h"
@@ -57,7 +57,7 @@ class Packer {
     giveWalkBack();
     const std::vector<RansTable> tables = tablesFor(streams);
     std::vector<std::vector<std::byte>> bytes(packets.size());
-    tbb::parallel_for(std::size_t{0}, packets.size(), [&](std::size_t i) {
+    parallelFor(std::size_t{0}, packets.size(), [&](std::size_t i) {
       if (!context_.cancelled()) bytes[i] = encode(plan_.directory.packets[i], streams[i], tables, i == 0);
     });
     if (context_.cancelled()) return failure(ErrorCode::interrupted, "packing was interrupted");
@@ -209,7 +209,7 @@ class Packer {
   Arrays arrays_;
   Walk walk_;
   PackedOrder order_;
-  tbb::enumerable_thread_specific<Space> spaces_;
+  PerThread<Space> spaces_;
 };
 
 /// Whether all triangles that stay have the same error and RMS, of which a packed file says one.

@@ -5,7 +5,6 @@
 // afterwards. A sphere's radius is negative until it is final, which shows if a damaged file makes a parent
 // depend on a child that is not.
 #include <fmt/format.h>
-#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 #include <optional>
 
 #include "engine/base/caught_failure.h"
+#include "engine/parallel/per_thread.h"
 #include "engine/parallel/with_threads.h"
 #include "io/store/format/checksum.h"
 #include "io/store/format/metadata.h"
@@ -132,7 +132,7 @@ class Unpacker {
   const LoadPacked& load_;
   std::vector<std::uint32_t> tables_;  ///< entries of all tables
   Arrays* arrays_ = nullptr;
-  tbb::enumerable_thread_specific<CoderSpace> spaces_;
+  PerThread<CoderSpace> spaces_;
   std::uint64_t done_ = 0;
 };
 

@@ -8,14 +8,13 @@
 #include "io/store/packed/nodes/arrays.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 
 #include "engine/mt/enclosing_ball.h"
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete::packed {
 
@@ -92,7 +91,7 @@ void Arrays::finish() {
     if ((remover[t] & kMark) != 0) remover[t] = kNone;
   slotBegin[nodes] = slots;
   constexpr std::uint32_t k = MultiTriangulation::kSlotsPerHint;
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, nodes, 1u << 14), [&](const auto& range) {
+  parallelFor(IndexRange<std::uint32_t>(0, nodes, 1u << 14), [&](const auto& range) {
     for (std::uint32_t n = range.begin(); n < range.end(); ++n)
       for (std::uint32_t h = (slotBegin[n] + k - 1) / k; h * k < slotBegin[n + 1]; ++h) creatorHint[h] = n;
   });

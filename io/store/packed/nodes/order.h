@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <tbb/task_group.h>
-
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -12,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/parallel/per_thread.h"
 #include "engine/parallel/run_context.h"
 #include "io/store/packed/nodes/layout.h"
 
@@ -115,7 +114,7 @@ class PacketOrder {
   std::size_t firstBad_ = 0;
   std::string problem_;
   std::mutex mutex_;
-  tbb::task_group tasks_;
+  TaskGroup tasks_;
 };
 
 /// PacketOrder, constructed and run.

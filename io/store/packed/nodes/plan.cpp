@@ -16,9 +16,6 @@
 // prefetched (slot_to_node.h). The rest goes packet by packet, in parallel.
 #include "io/store/packed/nodes/plan.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -28,6 +25,7 @@
 #include "engine/base/box3.h"
 #include "engine/base/morton.h"
 #include "engine/memory/uninitialized_vector.h"
+#include "engine/parallel/parallel_loops.h"
 
 namespace arete::packed {
 namespace {
@@ -209,7 +207,7 @@ std::uint32_t floorBegin(const MtArrays& a, std::uint32_t n) {
 UninitializedVector<Descent> descentsOf(const MultiTriangulation& mt, const Parents& parents,
                                         const Tiling& tiling) {
   UninitializedVector<Descent> descents(mt.nodeCount());
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, mt.nodeCount(), 4096), [&](const auto& range) {
+  parallelFor(IndexRange<std::uint32_t>(0, mt.nodeCount(), 4096), [&](const auto& range) {
     for (std::uint32_t n = range.begin(); n != range.end(); ++n) descents[n] = ownOf(mt, NodeId(n), tiling);
   });
   for (std::uint32_t n = mt.nodeCount(); n-- > 0;)
@@ -377,15 +375,15 @@ Plan planPackets(const MultiTriangulation& mt, const MtKind& kind) {
     order = tiler.order();
     plan.packetOf = tiler.take();
   }
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, nodes, 1 << 14), [&](const auto& range) {
+  parallelFor(IndexRange<std::uint32_t>(0, nodes, 1 << 14), [&](const auto& range) {
     for (std::uint32_t n = range.begin(); n != range.end(); ++n) plan.packetOf[n] = order[plan.packetOf[n]];
   });
   plan.directory.packets.resize(order.size());
   plan.ownParents.resize(nodes);
   plan.listed.resize(order.size());
   const NodesByPacket nodesBy(plan.packetOf, order.size());
-  tbb::parallel_for(std::size_t{0}, order.size(),
-                    [&](std::size_t c) { describe(mt, static_cast<std::uint32_t>(c), nodesBy.of(c), plan); });
+  parallelFor(std::size_t{0}, order.size(),
+              [&](std::size_t c) { describe(mt, static_cast<std::uint32_t>(c), nodesBy.of(c), plan); });
   plan.directory.number();
   return plan;
 }
