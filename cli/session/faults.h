@@ -3,7 +3,7 @@
 
 namespace arete {
 
-/// Prepares the process for what happens around it.
+/// Installs signal handlers and repairs the standard descriptors.
 ///
 /// * A file that is read through a mapping and truncated or overwritten meanwhile causes SIGBUS or SIGSEGV:
 /// then the

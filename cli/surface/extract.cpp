@@ -208,7 +208,7 @@ class Extraction {
     // A glTF has them in a frame of its own, whose z is up.
     const Result<MeshFormat> format = meshFormatOf(request.output, arguments_.format);
     const bool isGltf = format && (format->extension == ".glb" || format->extension == ".gltf");
-    // Those of a fit are not known by triangle.
+    // After a fit only the error of the whole mesh is known.
     if (!fit && (!isGltf || model_.up == "z")) options.triangleErrors = front.errors;
     options.format = arguments_.format;
     options.existing = arguments_.existing;

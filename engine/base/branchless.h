@@ -11,8 +11,8 @@ namespace arete {
 /// mispredicted branch costs more than the store. Together, the places that use it took a build to 0.94 to
 /// 0.96 of its time (docs/decisions/0018).
 ///
-/// The store is atomic and relaxed: threads may store to one target at once. The dummy belongs to the call,
-/// as one that threads shared would be contended. Precondition: `target` exists whether or not the condition
+/// The store is atomic and relaxed: threads may store to one target at once. The dummy is local,
+/// so threads do not contend for it. Precondition: `target` exists whether or not the condition
 /// holds.
 template <class T>
 [[gnu::always_inline]] inline void storeIf(bool condition, T& target, std::type_identity_t<T> value) {

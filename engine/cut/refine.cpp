@@ -27,8 +27,8 @@ namespace {
 
 constexpr std::size_t kRefinementsPerCheck = 1 << 12;
 constexpr std::uint8_t kClaimed = 2;  // about to enter
-/// A walk to fewer triangles than one for so many nodes takes shorter than the evaluations that would shorten
-/// it.
+/// With fewer than one triangle for this many nodes, a plain walk is faster than searching for a limit of
+/// severity first.
 constexpr std::uint64_t kShortWalk = 256;
 
 struct Waiting {

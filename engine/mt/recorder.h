@@ -17,7 +17,7 @@
 namespace arete {
 
 /// The number of a recorded removal, in the order in which removals were announced. Invalid (the default):
-/// none, as of the triangles of the finest triangulation, which no removal created.
+/// the triangle is of the finest triangulation, and no removal created it.
 using RemovalId = Id<struct RemovalTag>;
 /// The number of a triangle while recording (MtRecorder).
 using RecorderId = Id<struct RecorderTag>;

@@ -66,7 +66,8 @@ Result<TerrainModel> buildFrom(DemRead dem, const std::string& source, const Bui
       dem.heightfield);
 }
 
-/// Whether a warning is about where a raster without a position is: of an array that is no news.
+/// Whether a warning is about the position of a raster without one: arrays have no position, so it is left
+/// out.
 bool isOfPlace(const std::string& warning) {
   return warning.find("has no georeference") != std::string::npos ||
          warning.find("look like degrees") != std::string::npos;

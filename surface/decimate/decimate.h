@@ -34,7 +34,7 @@ struct DecimateOptions {
   std::uint32_t maxTriangles = 0;
   /// Of the planes of a quadric: by the areas of their triangles, or equal.
   bool weighsByArea = true;
-  /// Clusters have the best of their vertices instead of the least of their quadric.
+  /// Places a cluster at its best input vertex instead of its quadric's minimum.
   bool keepsClusterVertices = false;
   bool keepsBorders = false;
   /// Steps that would make the surface cross itself are refused. Of the operators that contract edges or

@@ -20,7 +20,7 @@
 namespace arete {
 namespace {
 
-/// Nodes of a batch: what a visitor keeps of their floors stays small.
+/// Nodes per batch: bounds the memory that a visitor holds for their floors.
 constexpr std::size_t kBatch = 4096;
 
 HoleTriangulation floorOf(const MultiTriangulation& mt, NodeId n) {

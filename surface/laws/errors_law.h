@@ -24,8 +24,8 @@ SourceSamples samplesOfSource(const SurfaceModel& model, bool isFull);
 
 /// Law 10 on one front: every sample of the source lies within the stored error of a triangle of its chart,
 /// or within that of a triangle beyond a line of an edge between them, but for a billionth of its longest
-/// side and 64 ulp of the largest coordinate. So errors that are too small are found, each by itself, where
-/// no other triangle is near.
+/// side and 64 ulp of the largest coordinate. This detects an understated error where no other
+/// triangle covers the sample.
 ///
 /// O((samples + triangles) log n), and one test for each sample in the box of a triangle, widened by its
 /// error. Errors: brokenPromise, with the sample; interrupted.

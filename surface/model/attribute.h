@@ -59,8 +59,7 @@ struct Attribute {
   std::span<const std::byte> element(std::size_t i) const {
     return std::span(values).subspan(i * elementBytes(), elementBytes());
   }
-  /// The element as numbers, without a fraction taken of it. Exact for every
-  /// type.
+  /// The raw numbers of an element; normalised integers are not divided. Exact for every type.
   std::vector<double> numbers(std::size_t i) const;
   /// Adds an element, each number rounded to the nearest of the type and held
   /// within its range; NaN of an integer type is 0. Precondition:

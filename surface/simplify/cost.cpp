@@ -13,8 +13,8 @@
 namespace arete {
 namespace {
 
-/// Of the integral of a fan that folds the surface: it waits until the error is eight times as large, and
-/// then what is around has mostly changed.
+/// Factor of the integral of a fan that folds the surface: it delays the removal until the threshold has
+/// grown eightfold, when most of what lies around has changed.
 constexpr double kFoldWeight = 64;
 /// Of the square of a line's largest deviation and of its new edge's length: about what a surface has that is
 /// a pyramid as high over a hexagon with such edges.
@@ -117,7 +117,7 @@ double SurfaceCost::integralBeyondBorder() const {
   }
   // Borders and lines of equal deviation are removed at once, or the one would force the other to stay.
   if (countsAll) return kLineWeight * squared * squaredLength;
-  // As of a rectangle that is as far everywhere as the gap is deep: less lets triangles lie over deep gaps.
+  // The cost of a rectangle at the full depth of the gap. A smaller cost would let triangles span deep gaps.
   return std::sqrt(squaredLength * squared) * squared;
 }
 

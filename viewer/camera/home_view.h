@@ -18,7 +18,7 @@ struct MetricBox {
   double diagonal() const;
 };
 
-/// The least box along the axes of the plan that holds all of the terrain; isolated samples are none of it.
+/// The bounding box of the triangulated terrain along the axes of the plan, without isolated samples.
 /// O(vertices).
 MetricBox metricBox(const TerrainModel& model);
 

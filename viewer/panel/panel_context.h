@@ -7,7 +7,7 @@ struct GLFWwindow;
 
 namespace arete {
 
-/// Dear ImGui, as long as a window: it takes the window's input first and draws over what is drawn.
+/// Owns the ImGui context of one window. ImGui receives input before the viewer, and draws over its picture.
 class PanelContext {
  public:
   /// @param scale of the screen: 1, or 2 on a dense one.

@@ -11,7 +11,7 @@
 namespace arete {
 
 /// The vertices of a surface in graphics memory: one for each wedge, or for each vertex of the MT where there
-/// are no wedges. Every cut draws triangles of them; all is written once, but for displaced positions.
+/// are no wedges. Uploaded once and indexed by every cut; displaced positions alone are rewritten.
 struct SurfaceOnGpu {
   GlBuffer positions;      ///< 3 floats, upright
   GlBuffer normals;        ///< 3 floats, upright; zero: the triangle's own is to be used

@@ -411,7 +411,7 @@ class PlyReader {
     mesh_.materialOf.resize(faces_.size(), 0);
   }
 
-  /// Errors that are none, negative or not finite, are any numbers of faces.
+  /// A property named `error` with negative or non-finite values is kept as an attribute of faces.
   static void keepOddErrors(MeshFile& file) {
     if (std::ranges::all_of(file.triangleErrors, [](float e) { return e >= 0 && std::isfinite(e); })) return;
     if (std::ranges::count(file.mesh.triangleAttributes, "error", &Attribute::name) == 0) {

@@ -44,7 +44,7 @@ int stripRowsOf(GDALRasterBand& band) {
 }
 
 /// @return Whether the driver knows which blocks are absent, and some are.
-/// @param said Receives what GDAL says meanwhile, which it does not repeat.
+/// @param said Receives the messages of GDAL, which reports each once.
 bool hasAbsentBlocks(GDALRasterBand& band, std::string& said) {
   const GdalErrors errors;
   const int status = band.GetDataCoverageStatus(0, 0, band.GetXSize(), band.GetYSize(), 0, nullptr);

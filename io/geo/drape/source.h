@@ -36,7 +36,7 @@ class DatasetStack {
 /// An opened image with its bands of colours and of transparency.
 struct DrapeSource {
   DatasetStack opened;
-  GdalDatasetPtr turned;     ///< what is opened, whole turns away; null: where it lies itself
+  GdalDatasetPtr turned;     ///< the source shifted by whole turns; null: not shifted
   std::vector<int> colors;   ///< one band (grey) or three
   int alpha = 0;             ///< band of transparency; 0: none
   double coarser = 1;        ///< length of a pixel's side, in pixels of the file

@@ -55,7 +55,7 @@ Status checkExtractOutput(const std::string& path, const TerrainModel& model, co
 /// before they are measured.
 /// @param reserve  what the tolerance is reduced by
 /// @param taken    the cut, where it is known
-/// @param tin      what is said of it is filled in
+/// @param tin      receives the counts and errors of the TIN
 /// Errors: those of takeCut() and of the fit (terrain/fit/fit.h).
 Result<TinExport> takeTin(const TerrainModel& model, const ExtractCriterion& criterion,
                           const std::optional<Region>& region, double reserve, std::optional<Cut> taken,

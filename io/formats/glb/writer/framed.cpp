@@ -72,7 +72,7 @@ bool scalesAlike(const LocalFrame& frame) {
   const double z = frame.toLocal({o.x, o.y, o.z + 1}).z - frame.toLocal(o).z;
   const double x = frame.toLocal({o.x + 1, o.y, o.z}).x - frame.toLocal(o).x;
   const double y = frame.toLocal({o.x, o.y + 1, o.z}).y - frame.toLocal(o).y;
-  constexpr double kAlike = 1e-3;  // what a map's scale changes of a direction is below what a normal is for
+  constexpr double kAlike = 1e-3;  // smaller differences of scale do not change normals visibly
   return std::abs(x - z) <= kAlike * z && std::abs(y - z) <= kAlike * z;
 }
 
