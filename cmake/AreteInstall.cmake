@@ -1,7 +1,7 @@
 # What `cmake --install` leaves behind: the program, and Arete as a library.
 #
 #   bin/arete
-#   lib/libarete_{engine,surface,terrain,io}.a the layers of the library
+#   lib/libarete_{engine,surface,terrain,io_store,...}.a the layers of the library
 #   include/arete/<room>/<header>.h         users write #include <arete/engine/cut/cut.h>
 #   lib/cmake/Arete/                        find_package(Arete) gives Arete::engine, Arete::surface, Arete::terrain, Arete::io
 #

@@ -24,13 +24,11 @@ namespace fs = std::filesystem;
 Result<HmmInput> makeInput(const DemSource& source, const std::string& png) {
   ARETE_TRY(const Json made, runForked([&]() -> Result<Json> {
               ARETE_CHECK(generateDem(source));
-              const Result<DemRead> dem = readDem(source.path);
-              if (!dem) return tl::unexpected(dem.error());
-              const auto* field = std::get_if<RasterHeightfield>(&dem->heightfield);
+              ARETE_TRY(const DemRead dem, readDem(source.path));
+              const auto* field = std::get_if<RasterHeightfield>(&dem.heightfield);
               if (field == nullptr) return failure(ErrorCode::unsupported, "not a raster", source.path);
-              const Result<HmmInput> input = writeHmmInput(*field, png);
-              if (!input) return tl::unexpected(input.error());
-              return Json(input->unit);
+              ARETE_TRY(const HmmInput input, writeHmmInput(*field, png));
+              return Json(input.unit);
             }));
   return HmmInput{png, made.get<double>()};
 }
@@ -38,9 +36,8 @@ Result<HmmInput> makeInput(const DemSource& source, const std::string& png) {
 Result<Figures> buildPinned(const DemSource& source, const std::string& model) {
   ARETE_TRY(const Json built, runForked([&]() -> Result<Json> {
               ARETE_CHECK(stayOnOneCore());
-              const Result<Figures> figures = buildOnce(source, HoleShape::delaunay, 1, model);
-              if (!figures) return tl::unexpected(figures.error());
-              return toJson(*figures);
+              ARETE_TRY(const Figures figures, buildOnce(source, HoleShape::delaunay, 1, model));
+              return toJson(figures);
             }));
   return figuresFromJson(built);
 }

@@ -201,12 +201,11 @@ Result<Growth> growthOf(std::uint32_t vertices, const std::string& scratch) {
               SurfaceMesh mesh(generateAsteroid({.vertices = vertices}));
               const double count = double(mesh.positions.size());
               const Stopwatch watch;
-              const Result<SurfaceModel> model = buildSurface(std::move(mesh));
-              if (!model) return tl::unexpected(model.error());
+              ARETE_TRY(const SurfaceModel model, buildSurface(std::move(mesh)));
               const double seconds = watch.seconds();
               const double peak = peakBytes();
               const fs::path path = fs::path(scratch) / "rock.amt";
-              ARETE_CHECK(writeSurfaceAmt(path.string(), *model));
+              ARETE_CHECK(writeSurfaceAmt(path.string(), model));
               const double bytes = double(fs::file_size(path));
               fs::remove(path);
               return Json{{"vertices", count}, {"peak", peak}, {"file", bytes}, {"seconds", seconds}};

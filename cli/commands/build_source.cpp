@@ -49,7 +49,7 @@ bool isMesh(const DemArguments& dem) {
   std::error_code ignored;
   if (!dem.reading.otherFiles.empty() || !std::filesystem::is_regular_file(dem.path, ignored)) return false;
   const Result<MeshFormat> format = meshFormatOf(dem.path);
-  return format && format->read && format->extension != ".gpkg";
+  return format && format->read && !format->holds.sharesFile;
 }
 
 Result<DemRead> readSource(const DemArguments& dem, const std::string& kind, Session& session) {

@@ -18,8 +18,8 @@
 #include "io/files/text_scan.h"
 #include "io/formats/exchange/convert.h"
 #include "io/formats/exchange/mesh_formats.h"
+#include "io/query/extract/model_file.h"
 #include "io/store/amt/file.h"
-#include "io/store/amt/surface_file.h"
 
 namespace arete {
 namespace {
@@ -57,12 +57,14 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
     return failure(ErrorCode::usage, "is for meshes; an .amt states its axes and units",
                    arguments.placing.unit.empty() ? "--up" : "--unit");
   ARETE_CHECK(checkOutput("--output", output, {arguments.input}));
-  if (const Result<bool> isSurface = isSurfaceAmt(arguments.input); isSurface && *isSurface)
-    return convertSurfaceFile({arguments.input, output, arguments.isPacked, arguments.positionBits}, session);
+  ARETE_TRY(AmtContainer file, openModelFile(arguments.input));
+  if (file.isOfSurface())
+    return convertSurfaceFile({output, arguments.isPacked, arguments.positionBits}, file, session);
   if (arguments.positionBits != 0)
     return failure(ErrorCode::usage, fmt::format("is for surfaces, and {} is terrain", arguments.input),
                    "--position-bits");
-  ARETE_TRY(const TerrainModel model, loadAmt(arguments.input, {}, session.context()));
+  ARETE_TRY(const AmtFile terrain, openAmt(std::move(file)));
+  ARETE_TRY(const TerrainModel model, terrain.read({}, session.context()));
   const AmtWriteOptions options{.isPacked = arguments.isPacked};
   ARETE_CHECK(writeAmt(output, model, session.context(), options));
   std::error_code error;

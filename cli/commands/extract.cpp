@@ -26,11 +26,11 @@
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/map_scale.h"
 #include "io/geo/dem/raster_writer.h"
+#include "io/query/extract/model_file.h"
 #include "io/query/extract/part.h"
 #include "io/query/extract/region_argument.h"
 #include "io/query/extract/report_json.h"
 #include "io/query/extract/tin.h"
-#include "io/store/amt/surface_file.h"
 #include "terrain/model/plan_box.h"
 #include "terrain/model/plan_region.h"
 #include "terrain/model/relief.h"
@@ -253,7 +253,8 @@ void warnOfMapMetres(const std::vector<ExtractRequest>& requests, const TerrainM
   if (known.mapScale) return;
   stateMapScale(known, outline.toSource({(box.xMin + box.xMax) / 2, (box.yMin + box.yMax) / 2}));
   const bool wantsMetres = std::ranges::any_of(requests, [](const ExtractRequest& request) {
-    return request.criterion.focus || request.criterion.camera || request.output.ends_with(".glb");
+    const Result<MeshFormat> format = meshFormatOf(request.output, request.format);
+    return request.criterion.focus || request.criterion.camera || (format && format->holds.isYUp);
   });
   if (known.mapScale && wantsMetres)
     session.warn(fmt::format(
@@ -262,7 +263,7 @@ void warnOfMapMetres(const std::vector<ExtractRequest>& requests, const TerrainM
         (*known.mapScale)[0], (*known.mapScale)[1]));
 }
 
-Status runSurfaceExtract(const ExtractArguments& arguments, Session& session) {
+Status runSurfaceExtract(const ExtractArguments& arguments, const AmtContainer& file, Session& session) {
   ARETE_TRY(const auto asked, arguments.criterion.ofSurface());
   for (const auto& [option, isStated] : {std::pair{"--certificate", arguments.certificateOption->count() > 0},
                                          std::pair{"--error-raster", !arguments.errorRaster.empty()}})
@@ -277,13 +278,13 @@ Status runSurfaceExtract(const ExtractArguments& arguments, Session& session) {
                          .isBothWays = arguments.isBothWays,
                          .isUndisplaced = arguments.isUndisplaced,
                          .existing = arguments.existing},
-                        session);
+                        file, session);
 }
 
 Status runExtract(const ExtractArguments& arguments, Session& session) {
   ARETE_CHECK(arguments.criterion.check());
-  const Result<bool> isSurface = isSurfaceAmt(arguments.model);
-  if (isSurface && *isSurface) return runSurfaceExtract(arguments, session);
+  ARETE_TRY(AmtContainer container, openModelFile(arguments.model));
+  if (container.isOfSurface()) return runSurfaceExtract(arguments, container, session);
   for (const auto& [option, isStated] :
        {std::pair{"--map", !arguments.map.empty()}, std::pair{"--drop-parts", !arguments.dropParts.empty()},
         std::pair{"--drop-attributes", !arguments.dropAttributes.empty()},
@@ -292,7 +293,7 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
     if (isStated) return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", option);
   if (arguments.criterion.isForSurfaces())
     return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", "--fit rms");
-  ARETE_TRY(const AmtFile file, openAmt(arguments.model));
+  ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
   // The relief is that of all samples.
   const bool statesShares = arguments.criterion.statesShares();
   ARETE_TRY(const TerrainModel outline, statesShares ? file.read({}, session.context())

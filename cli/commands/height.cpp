@@ -19,6 +19,7 @@
 #include "io/geo/crs/transform.h"
 #include "io/geo/table/height_table.h"
 #include "io/geo/table/point_table.h"
+#include "io/query/extract/model_file.h"
 #include "terrain/locate/surface_height.h"
 
 namespace arete {
@@ -101,7 +102,7 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
     if (!isHeightTable(arguments.output))
       return failure(ErrorCode::usage, "a table of heights ends in .csv or .gpkg", culprit);
   }
-  ARETE_TRY(const AmtFile file, openAmt(arguments.model));
+  ARETE_TRY(const AmtFile file, openTerrainFile(arguments.model));
   ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
   ARETE_TRY(const TerrainError maxError, terrainErrorOf(arguments.maxError, file, session));
   if (!arguments.output.empty())

@@ -14,8 +14,8 @@
 #include "engine/base/counted.h"
 #include "io/files/text/stated_size.h"
 #include "io/geo/crs/names.h"
+#include "io/query/extract/model_file.h"
 #include "io/store/amt/file.h"
-#include "io/store/amt/surface_file.h"
 #include "terrain/model/error_curve.h"
 #include "terrain/model/relief.h"
 
@@ -162,10 +162,10 @@ Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const 
 }
 
 Status runInfo(const InfoArguments& arguments, Session& session) {
-  if (const Result<bool> isSurface = isSurfaceAmt(arguments.model); isSurface && *isSurface)
-    return sayAboutSurface(arguments.model, arguments.at, session);
-  ARETE_TRY(const AmtFile file, openAmt(arguments.model));
-  ARETE_TRY(const TerrainModel model, loadAmt(arguments.model, {}, session.context()));
+  ARETE_TRY(AmtContainer container, openModelFile(arguments.model));
+  if (container.isOfSurface()) return sayAboutSurface(container, arguments.at, session);
+  ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
+  ARETE_TRY(const TerrainModel model, file.read({}, session.context()));
   Facts facts;
   facts.bytes = file.bytes().size();
   facts.writer = file.writer();

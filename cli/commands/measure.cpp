@@ -23,9 +23,9 @@
 #include "io/geo/crs/names.h"
 #include "io/geo/dem/dem_reader.h"
 #include "io/geo/dem/raster_writer.h"
+#include "io/query/extract/model_file.h"
 #include "io/query/extract/region_argument.h"
 #include "io/query/extract/report_json.h"
-#include "io/store/amt/surface_file.h"
 #include "terrain/measure/measure.h"
 #include "terrain/model/plan_region.h"
 #include "terrain/model/relief.h"
@@ -170,8 +170,8 @@ Status runMeasure(MeasureArguments arguments, Session& session) {
     ARETE_TRY(auto stated, parseStatedSize(arguments.expectText, "--expect"));
     arguments.expect = std::move(stated);
   }
-  const Result<bool> isModel = isSurfaceAmt(arguments.dem.path);
-  const bool isAgainstMesh = isMeshFile(arguments.dem.path) || (isModel && *isModel);
+  const Result<AmtContainer> model = openModelFile(arguments.dem.path);
+  const bool isAgainstMesh = isMeshFile(arguments.dem.path) || (model && model->isOfSurface());
   ARETE_CHECK(checkKind(arguments, isAgainstMesh));
   if (isAgainstMesh) {
     MeasureMeshesArguments meshes;

@@ -18,6 +18,7 @@
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/formats/exchange/metric_mesh.h"
 #include "io/geo/crs/names.h"
+#include "io/query/extract/model_file.h"
 #include "io/query/extract/report_json.h"
 #include "io/store/amt/surface_file.h"
 #include "surface/front/front.h"
@@ -33,12 +34,12 @@ struct Measured : MeshFile {
 
 /// A mesh, or the finest front of a surface's model: its source as the build mended it.
 Result<Measured> readMeasured(const std::string& path, const Session& session) {
-  const Result<bool> isSurface = isSurfaceAmt(path);
-  if (!isSurface || !*isSurface) {
+  const Result<AmtContainer> container = openModelFile(path);
+  if (!container || !container->isOfSurface()) {
     ARETE_TRY(MeshFile read, readMesh(path, session.context()));
     return Measured{std::move(read)};
   }
-  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(path, AmtVerify::all, session.context()));
+  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(*container, AmtVerify::all, session.context()));
   Measured file;
   file.positionError = model.positionError;
   file.mesh = finestSurfaceOf(model).mesh;

@@ -13,9 +13,10 @@
 #include "cli/arguments/arguments.h"
 #include "cli/surface/validate.h"
 #include "engine/base/counted.h"
+#include "engine/laws/law.h"
 #include "io/files/text/address_text.h"
+#include "io/query/extract/model_file.h"
 #include "io/store/amt/file.h"
-#include "io/store/amt/surface_file.h"
 #include "terrain/laws/compare_source.h"
 #include "terrain/laws/validate_model.h"
 
@@ -26,24 +27,6 @@ struct ValidateArguments {
   std::string model;
   DemArguments source;
   ValidateModelOptions options;
-};
-
-struct Law {
-  int number;
-  const char* says;
-};
-
-constexpr std::array kLaws = {
-    Law{1, "every parent is older than its child"},
-    Law{2, "a node's floor and ceiling cover the same region"},
-    Law{3, "a triangle has one creator, at most one remover, and occurs once"},
-    Law{4, "no part of a node is a modification by itself"},
-    Law{5, "every front is a conforming triangulation of the domain"},
-    Law{6, "saturated errors and spheres contain those of the children"},
-    Law{7, "fixed vertices are in the root"},
-    Law{8, "the finest front is the source's samples"},
-    Law{9, "every front is Delaunay"},
-    Law{10, "stored errors and bounds are at least the true ones"},
 };
 
 /// Whether the model claims the law: law 9 holds for the Delaunay shape with exact rims only.
@@ -81,12 +64,14 @@ std::string scopeOf(const Law& law, const ErrorsChecked& checked) {
 }
 
 Status runValidate(const ValidateArguments& arguments, Session& session) {
-  if (const Result<bool> isSurface = isSurfaceAmt(arguments.model); isSurface && *isSurface) {
+  ARETE_TRY(AmtContainer container, openModelFile(arguments.model));
+  if (container.isOfSurface()) {
     if (!arguments.source.path.empty())
       return failure(ErrorCode::usage, "is for terrain, and the file is of a surface", "--against");
-    return validateSurfaceFile(arguments.model, {.everySample = arguments.options.everyTriangle}, session);
+    return validateSurfaceFile(container, {.everySample = arguments.options.everyTriangle}, session);
   }
-  ARETE_TRY(const TerrainModel model, loadAmt(arguments.model, {}, session.context()));
+  ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
+  ARETE_TRY(const TerrainModel model, file.read({}, session.context()));
   ErrorsChecked checked;
   Status valid = validateModel(model, arguments.options, session.context(), &checked);
   if (!valid && valid.error().code == ErrorCode::interrupted) return valid;
@@ -105,7 +90,7 @@ Status runValidate(const ValidateArguments& arguments, Session& session) {
     for (const Law& law : kLaws)
       text +=
           fmt::format("  law {}  {}  {}{}\n", law.number, isClaimed(law, model) ? "holds" : "is not claimed",
-                      law.says, scopeOf(law, checked));
+                      law.ofTerrain, scopeOf(law, checked));
     text += arguments.source.path.empty() ? "  heights not compared with the source (--against)\n"
                                           : fmt::format("  heights all {} are those of {}\n", compared,
                                                         nameWithoutQuery(arguments.source.path));
@@ -113,7 +98,8 @@ Status runValidate(const ValidateArguments& arguments, Session& session) {
   }
   Json laws = Json::array();
   for (const Law& law : kLaws)
-    if (valid) laws.push_back({{"law", law.number}, {"says", law.says}, {"claimed", isClaimed(law, model)}});
+    if (valid)
+      laws.push_back({{"law", law.number}, {"says", law.ofTerrain}, {"claimed", isClaimed(law, model)}});
   Json json = {{"file", arguments.model},
                {"holds", valid.has_value()},
                {"randomFronts", arguments.options.randomFronts},

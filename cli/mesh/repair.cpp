@@ -228,10 +228,7 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
                                                         .isOfFloats = isOfFloats},
                                                        session.context()));
   warnOf(converted, arguments.input, target.format.name, session);
-  const MeshNumbers numbers{
-      .first = target.format.extension == ".obj" || target.format.extension == ".2dm" ? 1u : 0u,
-      .vertexOf = {},
-      .faceOf = {}};
+  const MeshNumbers numbers{.first = target.format.holds.firstIndex, .vertexOf = {}, .faceOf = {}};
   session.say(writtenText(target.path, converted) + mendedText(input, welded, repaired) +
               fmt::format("now: {}\n", verdictOf(*diagnosis)) + diagnosisText(*diagnosis, numbers));
   if (session.wantsJson()) {

@@ -25,6 +25,7 @@
 #include "io/geo/dem/clutter_raster.h"
 #include "io/geo/table/line_table.h"
 #include "io/geo/table/sight_pairs.h"
+#include "io/query/extract/model_file.h"
 #include "terrain/sight/paths.h"
 
 namespace arete {
@@ -225,7 +226,7 @@ Status reportMany(const LosArguments& a, const SightResults& results, Json json,
 
 Status runLos(const LosArguments& a, Session& session) {
   ARETE_CHECK(checkArguments(a));
-  ARETE_TRY(const AmtFile file, openAmt(a.model));
+  ARETE_TRY(const AmtFile file, openTerrainFile(a.model));
   ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
   if (!a.output.empty())
     if (Status output =

@@ -25,6 +25,7 @@
 #include "io/files/text_scan.h"
 #include "io/geo/crs/position_argument.h"
 #include "io/geo/crs/transform.h"
+#include "io/query/extract/model_file.h"
 #include "io/query/extract/region_reader.h"
 #include "terrain/sight/fresnel.h"
 #include "terrain/sight/paths.h"
@@ -91,11 +92,10 @@ Result<Way> typedWay(const std::string& text, const CrsTransform& toDem) {
 }
 
 Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference& dem,
-                                  const LongitudeTurns& turns, const Result<CrsTransform>& toDem,
-                                  Session& session) {
+                                  const LongitudeTurns& turns, const CrsTransform& toDem, Session& session) {
   if (!isFile(a.along)) {
     if (!a.layer.empty()) return failure(ErrorCode::usage, "requires --along FILE", "--layer");
-    ARETE_TRY(auto way, typedWay(a.along, *toDem));
+    ARETE_TRY(auto way, typedWay(a.along, toDem));
     return std::vector<Way>{std::move(way)};
   }
   if (a.sight.lonLat)
@@ -265,7 +265,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
     return failure(ErrorCode::usage, "a profile is written as .csv", "--output " + a.output);
   if (!a.png.empty() && text::lowerExtension(a.png) != "png")
     return failure(ErrorCode::usage, "a picture ends in .png", "--png " + a.png);
-  ARETE_TRY(const AmtFile amt, openAmt(a.model));
+  ARETE_TRY(const AmtFile amt, openTerrainFile(a.model));
   ARETE_TRY(const TerrainModel outline, outlineOf(amt, session));
   for (const auto& [option, path] : {std::pair{"--output", a.output}, {"--png", a.png}})
     if (!path.empty()) ARETE_CHECK(checkOutput(option, path, {a.model, a.along, outline.source}));

@@ -26,6 +26,7 @@
 #include "io/geo/dem/placed_grid.h"
 #include "io/geo/dem/raster_writer.h"
 #include "io/geo/table/sight_pairs.h"
+#include "io/query/extract/model_file.h"
 #include "io/query/extract/query_footprint.h"
 #include "io/store/amt/file.h"
 #include "terrain/sight/paths.h"
@@ -305,7 +306,7 @@ Status answer(const Question& q, Session& session) {
 Status runViewshed(const ViewshedArguments& a, Session& session) {
   ARETE_CHECK(a.check());
   ARETE_TRY(auto options, a.options());
-  ARETE_TRY(const AmtFile file, openAmt(a.model));
+  ARETE_TRY(const AmtFile file, openTerrainFile(a.model));
   ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
   ARETE_CHECK(checkOutput("--output", a.output, {a.model, a.observers.file, a.like, outline.source}));
   ARETE_TRY(const TerrainError maxError, terrainErrorOf(a.maxError, file, session));

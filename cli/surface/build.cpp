@@ -12,6 +12,7 @@
 #include "cli/surface/mending.h"
 #include "engine/base/stopwatch.h"
 #include "io/geo/crs/names.h"
+#include "io/query/surface/write_model.h"
 #include "io/store/amt/surface_file.h"
 #include "surface/front/front.h"
 
@@ -100,7 +101,7 @@ Status buildSurfaceFile(const SurfaceBuildArguments& arguments, MeshInput input,
 
   Stopwatch writing;
   const SurfaceWriteOptions options{.isPacked = arguments.isPacked, .positionBits = arguments.positionBits};
-  ARETE_CHECK(writeSurfaceAmt(arguments.output, built->model, session.context(), options));
+  ARETE_CHECK(writeSurfaceModel(arguments.output, built->model, session.context(), options));
   seconds.write = writing.seconds();
   report(arguments, faces, vertices, built->model, seconds, session);
   return {};

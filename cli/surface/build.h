@@ -17,7 +17,7 @@ struct SurfaceBuildArguments {
 };
 
 /// `arete build` of a mesh with faces: builds, writes, reports. Errors: those of
-/// buildSurfaceModel() and writeSurfaceAmt().
+/// buildSurfaceModel() and writeSurfaceModel().
 Status buildSurfaceFile(const SurfaceBuildArguments& arguments, MeshInput input, double secondsToRead,
                         Session& session);
 

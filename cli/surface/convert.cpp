@@ -7,22 +7,24 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/mesh/tolerance.h"
+#include "io/query/surface/write_model.h"
 #include "io/store/amt/surface_file.h"
 
 namespace arete {
 
-Status convertSurfaceFile(const SurfaceConvertArguments& arguments, Session& session) {
+Status convertSurfaceFile(const SurfaceConvertArguments& arguments, const AmtContainer& file,
+                          Session& session) {
   if (arguments.positionBits != 0 && !arguments.isPacked)
     return failure(ErrorCode::usage, "requires --packed", "--position-bits");
-  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(arguments.input, AmtVerify::all, session.context()));
+  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(file, AmtVerify::all, session.context()));
   const SurfaceWriteOptions options{.isPacked = arguments.isPacked, .positionBits = arguments.positionBits};
-  ARETE_CHECK(writeSurfaceAmt(arguments.output, model, session.context(), options));
+  ARETE_CHECK(writeSurfaceModel(arguments.output, model, session.context(), options));
   std::error_code error;
   const auto size = std::filesystem::file_size(arguments.output, error);
   const std::uint64_t bytes = error ? 0 : size;
   const double perVertex = static_cast<double>(bytes) / static_cast<double>(model.mt.vertexCount());
   session.say(fmt::format("{}: {}, {:.1f} bytes a vertex\n", arguments.output, byteCount(bytes), perVertex));
-  session.answer({{"input", arguments.input},
+  session.answer({{"input", file.path()},
                   {"output", arguments.output},
                   {"format", "AMT"},
                   {"isPacked", arguments.isPacked},

@@ -5,18 +5,20 @@
 
 #include "cli/session/session.h"
 #include "engine/base/result.h"
+#include "io/store/amt/container.h"
 
 namespace arete {
 
 struct SurfaceConvertArguments {
-  std::string input, output;
+  std::string output;
   bool isPacked = false;
   int positionBits = 0;
 };
 
 /// `arete convert` of the .amt of a surface to its plain or packed form. Errors: those of loadSurfaceAmt()
-/// and writeSurfaceAmt().
-Status convertSurfaceFile(const SurfaceConvertArguments& arguments, Session& session);
+/// and writeSurfaceModel().
+Status convertSurfaceFile(const SurfaceConvertArguments& arguments, const AmtContainer& file,
+                          Session& session);
 
 /// The option --position-bits of the commands that write packed surfaces; 0: the vertices stay.
 void addPositionBitsTo(CLI::App& command, int& positionBits);

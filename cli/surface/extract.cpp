@@ -207,9 +207,9 @@ class Extraction {
     options.verticalUnit = model_.verticalUnit;
     // A glTF has them in a frame of its own, whose z is up.
     const Result<MeshFormat> format = meshFormatOf(request.output, arguments_.format);
-    const bool isGltf = format && (format->extension == ".glb" || format->extension == ".gltf");
+    const bool hasOwnFrame = format && format->holds.isYUp;
     // After a fit only the error of the whole mesh is known.
-    if (!fit && (!isGltf || model_.up == "z")) options.triangleErrors = front.errors;
+    if (!fit && (!hasOwnFrame || model_.up == "z")) options.triangleErrors = front.errors;
     options.format = arguments_.format;
     options.existing = arguments_.existing;
     OutputGroup together;
@@ -418,8 +418,8 @@ class Extraction {
 
 }  // namespace
 
-Status extractSurface(const SurfaceExtractArguments& arguments, Session& session) {
-  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(arguments.model, AmtVerify::all, session.context()));
+Status extractSurface(const SurfaceExtractArguments& arguments, const AmtContainer& file, Session& session) {
+  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(file, AmtVerify::all, session.context()));
   ARETE_TRY(const auto requests, requestsOf(arguments, model));
   ARETE_CHECK(checkOutputs(arguments, requests));
   Extraction extraction(arguments, model, session);

@@ -8,6 +8,7 @@
 #include "cli/session/session.h"
 #include "engine/base/result.h"
 #include "io/files/existing_file.h"
+#include "io/store/amt/container.h"
 
 namespace arete {
 
@@ -26,6 +27,6 @@ struct SurfaceExtractArguments {
 /// `arete extract` of a surface: one mesh for each tolerance, or the one of a budget. Errors: those of
 /// loadSurfaceAmt(), takeCut(), writeMesh(); usage, naming the option; a budget below the root's triangles,
 /// with the least count and what forbids fewer.
-Status extractSurface(const SurfaceExtractArguments& arguments, Session& session);
+Status extractSurface(const SurfaceExtractArguments& arguments, const AmtContainer& file, Session& session);
 
 }  // namespace arete

@@ -51,16 +51,15 @@ Result<std::vector<CurvePoint>> curveOf(const std::string& at, const SurfaceMode
 
 }  // namespace
 
-Status sayAboutSurface(const std::string& path, const std::string& at, Session& session) {
-  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(path, AmtVerify::all, session.context()));
+Status sayAboutSurface(const AmtContainer& file, const std::string& at, Session& session) {
+  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(file, AmtVerify::all, session.context()));
   ARETE_TRY(const std::vector<CurvePoint> curve, curveOf(at, model, session.context()));
   const MultiTriangulation& mt = model.mt;
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  const std::uint64_t bytes = error ? 0 : size;
+  const std::uint64_t bytes = file.bytes().size();
   const MeshAttributes& a = model.attributes;
-  ARETE_TRY(const bool isPacked, isPackedAmt(path));
-  std::string text = fmt::format("{}: {}, a surface{}\n", path, byteCount(bytes), isPacked ? ", packed" : "");
+  const bool isPacked = file.isPacked();
+  std::string text =
+      fmt::format("{}: {}, a surface{}\n", file.path(), byteCount(bytes), isPacked ? ", packed" : "");
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<14} {}\n", what, value);
   };
@@ -103,7 +102,7 @@ Status sayAboutSurface(const std::string& path, const std::string& at, Session& 
          {"saturated", p.saturated}});
   }
   session.say(text);
-  session.answer({{"file", path},
+  session.answer({{"file", file.path()},
                   {"kind", "surface"},
                   {"bytes", bytes},
                   {"isPacked", isPacked},

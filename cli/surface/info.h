@@ -5,12 +5,13 @@
 
 #include "cli/session/session.h"
 #include "engine/base/result.h"
+#include "io/store/amt/container.h"
 
 namespace arete {
 
 /// `arete info` of the .amt file of a surface.
 /// @param at the errors of its curve, as --at states them; empty: round shares of the diagonal.
 /// Errors: those of loadSurfaceAmt(); usage, naming the option.
-Status sayAboutSurface(const std::string& path, const std::string& at, Session& session);
+Status sayAboutSurface(const AmtContainer& file, const std::string& at, Session& session);
 
 }  // namespace arete

@@ -3,49 +3,29 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "cli/arguments/arguments.h"
 #include "cli/surface/mending.h"
+#include "engine/laws/law.h"
 #include "io/store/amt/surface_file.h"
 
 namespace arete {
-namespace {
-
-struct Law {
-  int number;
-  const char* says;
-};
-
-constexpr std::array kLaws = {
-    Law{1, "every parent is older than its child"},
-    Law{2, "a node's floor and ceiling have the same boundary"},
-    Law{3, "a triangle has one creator, at most one remover, and occurs once"},
-    Law{4, "no part of a node is a modification by itself"},
-    Law{5, "fronts are oriented manifolds of the topology of the source"},
-    Law{6, "saturated errors and spheres contain those of the children"},
-    Law{8, "the finest front has all faces that the build kept"},
-    Law{10, "every sample of the source lies within the error of a triangle, in every front"},
-};
-
-}  // namespace
-
-Status validateSurfaceFile(const std::string& path, const SurfaceLawOptions& options, Session& session) {
-  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(path, AmtVerify::all, session.context()));
+Status validateSurfaceFile(const AmtContainer& file, const SurfaceLawOptions& options, Session& session) {
+  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(file, AmtVerify::all, session.context()));
   const Status valid = validateSurface(model, options, session.context());
   if (!valid && valid.error().code == ErrorCode::interrupted) return valid;
   Json laws = Json::array();
   std::string text = fmt::format(
       "{}: checksums, indices and every law hold\n"
       "  surface {}, {} at the finest\n",
-      path, grouped(model.fileFaces, "face", "faces"),
+      file.path(), grouped(model.fileFaces, "face", "faces"),
       grouped(model.mt.finestTriangleCount(), "triangle", "triangles"));
   text += mendedText(model.mending, "  mended  ");
   for (const Law& law : kLaws) {
-    text += fmt::format("  law {:<2}  holds  {}\n", law.number, law.says);
-    laws.push_back({{"law", law.number}, {"says", law.says}, {"claimed", true}});
+    if (law.ofSurfaces.empty()) continue;
+    text += fmt::format("  law {:<2}  holds  {}\n", law.number, law.ofSurfaces);
+    laws.push_back({{"law", law.number}, {"says", law.ofSurfaces}, {"claimed", true}});
   }
-  Json json = {{"file", path}, {"kind", "surface"}, {"holds", valid.has_value()}};
+  Json json = {{"file", file.path()}, {"kind", "surface"}, {"holds", valid.has_value()}};
   json["sourceFaces"] = model.fileFaces;
   json["finestTriangles"] = model.mt.finestTriangleCount();
   json["mended"] = mendedJson(model.mending);
@@ -59,7 +39,7 @@ Status validateSurfaceFile(const std::string& path, const SurfaceLawOptions& opt
     json["violation"] = valid.error().message;
   }
   session.answer(json);
-  if (!valid) return failure(valid.error().code, valid.error().message, path);
+  if (!valid) return failure(valid.error().code, valid.error().message, file.path());
   return {};
 }
 

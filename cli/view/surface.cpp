@@ -168,12 +168,12 @@ Status checkOutputs(const ViewArguments& a) {
 
 }  // namespace
 
-Status viewSurface(ViewArguments a, Session& session) {
+Status viewSurface(ViewArguments a, const AmtContainer& file, Session& session) {
   ARETE_TRY(SurfaceViewSettings settings, a.ofSurface());
   ARETE_CHECK(a.check());
   ARETE_TRY(const auto size, a.pictures.size());
   ARETE_CHECK(checkOutputs(a));
-  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(a.model, AmtVerify::all, session.context()));
+  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(file, AmtVerify::all, session.context()));
   ARETE_CHECK(a.detail.findBudget(model.mt.finestTriangleCount()));
   settings.maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);
   const Upright upright(model, a.viewpoint.up);

@@ -4,6 +4,7 @@
 #include "cli/session/session.h"
 #include "cli/view/arguments.h"
 #include "engine/base/result.h"
+#include "io/store/amt/container.h"
 
 namespace arete {
 
@@ -11,6 +12,6 @@ namespace arete {
 /// their film.
 ///
 /// Errors: usage, naming the option: one that is for terrain; those of reading, drawing and writing.
-Status viewSurface(ViewArguments arguments, Session& session);
+Status viewSurface(ViewArguments arguments, const AmtContainer& file, Session& session);
 
 }  // namespace arete

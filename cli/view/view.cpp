@@ -20,8 +20,8 @@
 #include "cli/view/surface.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/query/extract/camera_argument.h"
+#include "io/query/extract/model_file.h"
 #include "io/store/amt/file.h"
-#include "io/store/amt/surface_file.h"
 #include "terrain/locate/surface_height.h"
 #include "viewer/camera/flight_json.h"
 #include "viewer/camera/home_view.h"
@@ -77,15 +77,16 @@ Result<std::optional<Flight>> flightOf(const ViewArguments& a, const TerrainMode
 }
 
 Status runView(ViewArguments a, Session& session) {
-  if (const Result<bool> isSurface = isSurfaceAmt(a.model); isSurface && *isSurface)
-    return viewSurface(a, session);
+  ARETE_TRY(AmtContainer container, openModelFile(a.model));
+  if (container.isOfSurface()) return viewSurface(a, container, session);
   ARETE_CHECK(a.check());
   if (!a.viewpoint.up.empty())
     return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", "--up");
   ARETE_TRY(ViewSettings settings, a.settings());
   ARETE_TRY(const DrapeOptions drapeOptions, a.appearance.drapeOptions());
   ARETE_TRY(const auto size, a.pictures.size());
-  ARETE_TRY(const TerrainModel model, loadAmt(a.model, {}, session.context()));
+  ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
+  ARETE_TRY(const TerrainModel model, file.read({}, session.context()));
   ARETE_CHECK(a.detail.findBudget(model.mt.finestTriangleCount()));
   settings.maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);
   const SurfaceHeights heights(model);

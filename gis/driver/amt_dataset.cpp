@@ -12,6 +12,7 @@
 #include "gis/driver/gdal_errors.h"
 #include "io/formats/exchange/export_tin.h"
 #include "io/geo/crs/reader.h"
+#include "io/query/extract/model_file.h"
 #include "io/store/amt/surface_file.h"
 #include "io/store/format/layout.h"
 
@@ -22,12 +23,6 @@ namespace fs = std::filesystem;
 
 /// Overviews end where they are smaller than this.
 constexpr int kLeastOverview = 128;
-
-Result<AmtContainer> openContainer(const std::string& path) try {
-  return AmtContainer::open(path, {.isCopied = true});
-} catch (...) {
-  return caughtFailure(path);
-}
 
 }  // namespace
 
@@ -48,7 +43,7 @@ GDALDataset* AmtDataset::open(GDALOpenInfo* info) {
   };
   const Result<DriverOptions> options = readOpenOptions(info->papszOpenOptions);
   if (!options) return refuse(options.error());
-  Result<AmtContainer> container = openContainer(info->pszFilename);
+  Result<AmtContainer> container = openModelFile(info->pszFilename, {.isCopied = true});
   if (!container) return refuse(container.error());
   auto dataset = std::make_unique<AmtDataset>();
   dataset->SetDescription(info->pszFilename);

@@ -13,10 +13,12 @@
 #include "engine/base/float_bounds.h"
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
+#include "io/query/extract/model_file.h"
 #include "io/query/surface/build_model.h"
 #include "io/query/surface/criterion.h"
 #include "io/query/surface/fit_front.h"
 #include "io/query/surface/region.h"
+#include "io/query/surface/write_model.h"
 #include "io/store/amt/container.h"
 #include "io/store/amt/surface_file.h"
 #include "python/bindings/arrays.h"
@@ -136,8 +138,8 @@ py::dict oneWay(const DistanceOneWay& way) {
 
 /// From the source to the mesh, from the mesh to the source, and both together; each with how far rounding
 /// may have moved the source.
-py::dict measureMesh(const SurfaceModel& model, const Doubles& vertices, const Indices& triangles,
-                     std::uint64_t samples, const py::object& progress) {
+py::dict measureSurfaceMesh(const SurfaceModel& model, const Doubles& vertices, const Indices& triangles,
+                            std::uint64_t samples, const py::object& progress) {
   const MeshDistanceReport report =
       call(progress, [&](const RunContext& context) -> Result<MeshDistanceReport> {
         const SurfaceFront source = finestSurfaceOf(model);
@@ -206,13 +208,13 @@ void defineModel(py::module_& module) {
              warn(tin.warnings);
              return tin;
            })
-      .def("measure", &measureMesh)
+      .def("measure", &measureSurfaceMesh)
       .def("save",
            [](const SurfaceModel& model, const std::string& path, bool isPacked, int positionBits,
               const py::object& progress) {
              call(progress, [&](const RunContext& context) {
-               return writeSurfaceAmt(path, model, context,
-                                      {.isPacked = isPacked, .positionBits = positionBits});
+               return writeSurfaceModel(path, model, context,
+                                        {.isPacked = isPacked, .positionBits = positionBits});
              });
            })
       .def_property_readonly("diagonal", [](const SurfaceModel& m) { return m.diagonal; })
@@ -248,7 +250,7 @@ void defineSurface(py::module_& module) {
     return buildArrays(vertices, triangles, optionsOf(isDisplaced, keepsBorders), progress);
   });
   module.def("is_surface", [](const std::string& path) {
-    const Result<AmtContainer> container = AmtContainer::open(path, {.isCopied = true});
+    const Result<AmtContainer> container = openModelFile(path, {.isCopied = true});
     if (!container) raise(container.error());
     return container->isOfSurface();
   });
@@ -256,7 +258,7 @@ void defineSurface(py::module_& module) {
     return std::make_shared<SurfaceModel>(
         call(progress, [&](const RunContext& context) -> Result<SurfaceModel> {
           // Not mapped: another program may truncate the file while this one goes on.
-          ARETE_TRY(const AmtContainer container, AmtContainer::open(path, {.isCopied = true}));
+          ARETE_TRY(const AmtContainer container, openModelFile(path, {.isCopied = true}));
           return loadSurfaceAmt(container, AmtVerify::all, context);
         }));
   });

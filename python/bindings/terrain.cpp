@@ -16,6 +16,7 @@
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/position_argument.h"
 #include "io/geo/dem/dem_reader.h"
+#include "io/query/extract/model_file.h"
 #include "io/query/extract/region_argument.h"
 #include "io/query/extract/tin.h"
 #include "io/store/amt/file.h"
@@ -88,7 +89,7 @@ TerrainPtr buildFile(const std::string& path, const BuildRequest& request, const
   TerrainModel model = call(progress, [&](const RunContext& context) -> Result<TerrainModel> {
     // Its vertices alone are another thing.
     if (const Result<MeshFormat> format = meshFormatOf(path);
-        format && format->read && format->extension != ".gpkg")
+        format && format->read && !format->holds.sharesFile)
       return failure(ErrorCode::unsupported, "is a mesh: arete.build_surface() builds from it", path);
     Result<DemRead> dem = readDem(path, {}, context);
     if (!dem) return tl::unexpected(source.empty() ? dem.error() : ofArray(dem.error(), path));
@@ -330,8 +331,9 @@ void defineTerrain(py::module_& module) {
   module.def("open_terrain", [](const std::string& path, const py::object& progress) {
     return std::make_shared<Terrain>(
         // Not mapped: another program may truncate the file while this one goes on.
-        call(progress, [&](const RunContext& context) {
-          return loadAmt(path, {.verify = AmtVerify::all, .open = {.isCopied = true}, .wanted = {}}, context);
+        call(progress, [&](const RunContext& context) -> Result<TerrainModel> {
+          ARETE_TRY(const AmtFile file, openTerrainFile(path, {.isCopied = true}));
+          return file.read({}, context);
         }));
   });
 }

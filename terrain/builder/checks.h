@@ -7,13 +7,9 @@
 
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
-#include "terrain/model/build_options.h"
 #include "terrain/model/heightfield.h"
 
 namespace arete {
-
-/// Whether options are in range and fixed vertices among the samples. Errors: usage, naming the field.
-Status checkOptions(const BuildOptions& options, std::size_t sampleCount);
 
 /// Whether the extent of a model, in metres, is in the range of its spheres, which are floats. Errors:
 /// invalidData.

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
 
+#include "engine/base/result.h"
+
 namespace arete {
+
+/// The most neighbours that a vertex may have when it is removed.
+inline constexpr std::uint32_t kMostDegree = 32;
 
 /// The shape of the triangles that fill the hole of a removed vertex.
 enum class HoleShape {
@@ -24,7 +30,7 @@ constexpr double defaultThresholdRatio(HoleShape shape) {
 struct BuildOptions {
   HoleShape shape = HoleShape::delaunay;
 
-  /// A vertex with more neighbours is not removed until some of them are. 6 .. 32.
+  /// A vertex with more neighbours is not removed until some of them are. 6 .. kMostDegree.
   std::uint32_t maxDegree = 14;
 
   /// A level admits removals whose error is below a threshold. The threshold grows by this ratio from the
@@ -48,5 +54,8 @@ struct BuildOptions {
 
 /// @return the name that users type and that files contain: "delaunay" or "fidelity"
 std::string_view toString(HoleShape shape);
+
+/// Whether options are in range and fixed vertices among the samples. Errors: usage, naming the field.
+Status checkOptions(const BuildOptions& options, std::size_t sampleCount);
 
 }  // namespace arete

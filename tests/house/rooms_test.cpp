@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <map>
+#include <set>
 
 #include "house/house.h"
 
@@ -19,6 +21,13 @@ namespace fs = std::filesystem;
 const fs::path kRoot = ARETE_SOURCE_FOLDER;
 const std::vector<std::string> kLayers = {"engine", "surface", "terrain", "io",
                                           "gis",    "python",  "viewer",  "cli"};
+/// The layers inside io/, each with those below it.
+const std::map<std::string, std::set<std::string>> kBelow = {
+    {"io/files", {}},
+    {"io/store", {"io/files"}},
+    {"io/geo", {"io/files"}},
+    {"io/formats", {"io/files", "io/geo"}},
+    {"io/query", {"io/files", "io/store", "io/geo", "io/formats"}}};
 
 Rooms declaredRooms() {
   return readRooms(ARETE_ROOMS);
@@ -50,6 +59,34 @@ TEST(Rooms, IncludeNoLayerAboveTheirOwn) {
   for (const auto& [room, declared] : declaredRooms())
     for (const std::string& other : declared)
       EXPECT_LE(rank(other), rank(room)) << room << " declares " << other;
+}
+
+TEST(Rooms, OfIoIncludeOnlyTheLayersBelowTheirOwn) {
+  const auto layerOfIo = [](const std::string& room) {
+    return room.substr(0, room.find('/', std::string("io/").size()));
+  };
+  for (const auto& [room, declared] : declaredRooms()) {
+    if (layerOf(room) != "io") continue;
+    const std::string own = layerOfIo(room);
+    ASSERT_TRUE(kBelow.contains(own)) << room;
+    for (const std::string& other : declared) {
+      const bool isBelow =
+          layerOf(other) != "io" || layerOfIo(other) == own || kBelow.at(own).contains(layerOfIo(other));
+      EXPECT_TRUE(isBelow) << room << " declares " << other;
+    }
+  }
+}
+
+// What the bytes of a model are, is known without what builds it.
+TEST(Rooms, OfStoreIncludeOfTerrainAndSurfacesTheModelAlone) {
+  for (const auto& [room, declared] : declaredRooms()) {
+    if (!room.starts_with("io/store")) continue;
+    for (const std::string& other : declared) {
+      const bool isModel = other == "terrain/model" || other == "surface/model";
+      EXPECT_TRUE(isModel || (layerOf(other) != "terrain" && layerOf(other) != "surface"))
+          << room << " declares " << other;
+    }
+  }
 }
 
 TEST(Rooms, NameThreadsInParallelAlone) {

@@ -94,10 +94,6 @@ std::vector<std::string> meshUnitNames() {
   return names;
 }
 
-bool isYUp(const MeshFormat& format) {
-  return format.extension == ".glb" || format.extension == ".gltf";
-}
-
 Status placeMesh(MeshFile& mesh, const MeshPlacing& placing, MeshUp wanted) {
   const std::string known = knownFrame(mesh);
   if (!placing.unit.empty()) {

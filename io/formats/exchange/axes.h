@@ -37,7 +37,4 @@ struct MeshPlacing {
 /// known. invalidData: a coordinate is out of range then. O(size).
 Status placeMesh(MeshFile& mesh, const MeshPlacing& placing, MeshUp wanted);
 
-/// Whether y points up in files of a format: in glTF. In all others z does.
-bool isYUp(const MeshFormat& format);
-
 }  // namespace arete

@@ -46,7 +46,7 @@ Status stateCrs(MeshFile& mesh, const std::string& text, std::vector<std::string
 /// Turns and scales the mesh as stated, for the format.
 Status place(MeshFile& mesh, const ConvertOptions& options, const MeshFormat& format) {
   MeshPlacing placing = options.placing;
-  if (options.crs.empty()) return placeMesh(mesh, placing, isYUp(format) ? MeshUp::y : MeshUp::z);
+  if (options.crs.empty()) return placeMesh(mesh, placing, format.holds.isYUp ? MeshUp::y : MeshUp::z);
   if (!placing.unit.empty())
     return failure(ErrorCode::usage, "`crs` states the unit", fmt::format("unit {}", placing.unit));
   if (mesh.up == MeshUp::y && placing.up == MeshUp::unknown) placing.up = MeshUp::y;
@@ -83,8 +83,8 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   const bool ofFloats = options.isOfFloats ? *options.isOfFloats : movedByFloats(mesh.mesh) == 0;
   ARETE_CHECK(place(mesh, options, format));
   ARETE_CHECK(stateCrs(mesh, options.crs, converted.warnings));
-  if (!isYUp(format))
-    for (std::string& sentence : applyTextureTransforms(mesh.mesh, format.extension != ".obj"))
+  if (!format.holds.isYUp)
+    for (std::string& sentence : applyTextureTransforms(mesh.mesh, !format.holds.holdsTextureTransforms))
       converted.warnings.push_back(std::move(sentence));
   converted.triangles = mesh.mesh.triangles.size();
   converted.vertices = mesh.mesh.positions.size();

@@ -6,9 +6,6 @@
 #include <numeric>
 #include <set>
 
-#include "io/formats/obj/obj.h"
-#include "io/formats/stl/stl.h"
-
 namespace arete {
 namespace {
 
@@ -67,8 +64,7 @@ std::vector<std::uint32_t> groupedFaces(MeshRef mesh) {
 }
 
 std::vector<std::uint32_t> trianglesOfFile(MeshRef mesh, const MeshFormat& format) {
-  const bool statesPartsOnce = format.write == &writeObj || format.write == &writeStl;
-  return statesPartsOnce ? groupedFaces(mesh) : std::vector<std::uint32_t>();
+  return format.holds.statesPartsOnce ? groupedFaces(mesh) : std::vector<std::uint32_t>();
 }
 
 SurfaceMesh inOrder(MeshRef mesh, const std::vector<std::uint32_t>& triangleOf) {

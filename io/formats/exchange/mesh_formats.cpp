@@ -33,26 +33,39 @@ namespace arete {
 
 namespace {
 
-constexpr MeshFormatTraits kHoldsAll = {
-    .isExact = true, .holdsCrs = true, .holdsVerticalUnit = true, .holdsErrors = true};
-constexpr MeshFormatTraits kHoldsQualities = {.isExact = true,
-                                              .holdsCrs = true,
-                                              .holdsVerticalUnit = true,
-                                              .holdsErrors = true,
-                                              .holdsQualities = true};
-constexpr MeshFormatTraits kHoldsNoErrors = {.isExact = true, .holdsCrs = true, .holdsVerticalUnit = true};
-
-constexpr MeshFormatTraits kHoldsFrame = {.holdsCrs = true, .holdsVerticalUnit = true};
+constexpr MeshFormatTraits kPly = {.isExact = true,
+                                   .holdsCrs = true,
+                                   .holdsVerticalUnit = true,
+                                   .holdsErrors = true,
+                                   .holdsQualities = true,
+                                   .hasOneTextureSet = true,
+                                   .mayHoldPoints = true};
+constexpr MeshFormatTraits kObj = {.isExact = true,
+                                   .holdsCrs = true,
+                                   .holdsVerticalUnit = true,
+                                   .hasOneTextureSet = true,
+                                   .holdsTextureTransforms = true,
+                                   .statesPartsOnce = true,
+                                   .firstIndex = 1};
+constexpr MeshFormatTraits kOff = {
+    .isExact = true, .holdsCrs = true, .holdsVerticalUnit = true, .hasOneTextureSet = true};
+constexpr MeshFormatTraits kStl = {.statesPartsOnce = true};
+constexpr MeshFormatTraits kGltf = {
+    .holdsCrs = true, .holdsVerticalUnit = true, .isYUp = true, .holdsTextureTransforms = true};
+constexpr MeshFormatTraits k2dm = {
+    .isExact = true, .holdsCrs = true, .holdsVerticalUnit = true, .firstIndex = 1};
+constexpr MeshFormatTraits kGpkg = {
+    .isExact = true, .holdsCrs = true, .holdsVerticalUnit = true, .holdsErrors = true, .sharesFile = true};
 
 constexpr std::array kFormats = {
-    MeshFormat{"PLY", ".ply", &readPly, &writePly, kHoldsQualities},
-    MeshFormat{"OBJ", ".obj", &readObj, &writeObj, kHoldsNoErrors},
-    MeshFormat{"OFF", ".off", &readOff, &writeOff, kHoldsNoErrors},
-    MeshFormat{"STL", ".stl", &readStl, &writeStl, {}},
-    MeshFormat{"GLB", ".glb", &readGlb, &writeGlb, kHoldsFrame},
-    MeshFormat{"glTF", ".gltf", &readGltf, &writeGltf, kHoldsFrame},
-    MeshFormat{"2DM", ".2dm", &read2dm, &write2dm, kHoldsNoErrors},
-    MeshFormat{"GeoPackage", ".gpkg", &readGpkg, &writeGpkg, kHoldsAll},
+    MeshFormat{"PLY", ".ply", &readPly, &writePly, kPly},
+    MeshFormat{"OBJ", ".obj", &readObj, &writeObj, kObj},
+    MeshFormat{"OFF", ".off", &readOff, &writeOff, kOff},
+    MeshFormat{"STL", ".stl", &readStl, &writeStl, kStl},
+    MeshFormat{"GLB", ".glb", &readGlb, &writeGlb, kGltf},
+    MeshFormat{"glTF", ".gltf", &readGltf, &writeGltf, kGltf},
+    MeshFormat{"2DM", ".2dm", &read2dm, &write2dm, k2dm},
+    MeshFormat{"GeoPackage", ".gpkg", &readGpkg, &writeGpkg, kGpkg},
 };
 
 template <class Predicate>
@@ -98,7 +111,7 @@ Result<MeshFile> readAs(const std::filesystem::path& path, const RunContext& con
   if (!format.read)
     return failure(ErrorCode::unsupported, fmt::format("{} files can be written, not read", format.name),
                    path.string());
-  const bool isPointsToo = !needsFaces && format.read == &readPly;
+  const bool isPointsToo = !needsFaces && format.holds.mayHoldPoints;
   Result<MeshFile> file = isPointsToo ? readPlyOfPoints(path, context) : format.read(path, context);
   if (!file) return file;
   nameInUtf8(*file);
@@ -110,10 +123,6 @@ Result<MeshFile> readAs(const std::filesystem::path& path, const RunContext& con
   if (const Status joined = joinSoup(*file, context); !joined)
     return failure(joined.error().code, joined.error().message, path.string());
   return file;
-}
-
-bool isGltf(const MeshFormat& format) {
-  return format.write == &writeGlb || format.write == &writeGltf;
 }
 
 /// Writes a mesh as the format can have it: textures where their transforms put them, one set of texture
@@ -130,13 +139,14 @@ Result<MeshWriteReport> writeFitted(const MeshFormat& format, MeshRef mesh, cons
   if (const Status ok = mesh.validate(); !ok)
     return failure(ErrorCode::invalidData, ok.error().message, path.string());
   std::vector<std::string> lost;
-  const bool holdsMtl = format.write == &writeObj;
-  if (!isGltf(format) && hasTextureTransforms(mesh.attributes, !holdsMtl)) {
+  // OBJ's are of the material, glTF's of each texture: only glTF takes every one.
+  const bool holdsSome = format.holds.holdsTextureTransforms;
+  if (!format.holds.isYUp && hasTextureTransforms(mesh.attributes, !holdsSome)) {
     copy();
-    if (!applyTextureTransforms(*fitted, !holdsMtl).empty())
+    if (!applyTextureTransforms(*fitted, !holdsSome).empty())
       lost.emplace_back("textures of one material that are placed in several ways");
   }
-  if (format.write == &writePly || format.write == &writeObj || format.write == &writeOff)
+  if (format.holds.hasOneTextureSet)
     if (std::optional<SurfaceMesh> one = withOneTextureSet(current())) fitted = std::move(one);
   const std::vector<std::uint32_t> triangleOf = trianglesOfFile(current(), format);
   std::vector<float> errors;
@@ -189,7 +199,7 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path, std::string_v
 
 bool isMeshFile(const std::filesystem::path& path) {
   const Result<MeshFormat> format = meshFormatOf(path);
-  return format && format->read && (format->read != &readGpkg || holdsSurfaces(path));
+  return format && format->read && (!format->holds.sharesFile || holdsSurfaces(path));
 }
 
 Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context,
@@ -211,7 +221,7 @@ Result<MeshWriteReport> writeMesh(MeshRef mesh, const std::filesystem::path& pat
   if (!format.write)
     return failure(ErrorCode::unsupported, fmt::format("{} files can be read, not written", format.name),
                    path.string());
-  if (format.write == &writeGpkg && isNoFile(path))
+  if (format.holds.sharesFile && isNoFile(path))
     return failure(ErrorCode::unsupported, "is not a file, and a GeoPackage is a database that needs one",
                    path.string());
   OutputGroup together;

@@ -84,13 +84,22 @@ struct MeshWriteReport {
   std::vector<std::filesystem::path> filesBeside = {};  ///< MTL, pictures
 };
 
-/// What a format can hold.
+/// What a format can hold, and how.
 struct MeshFormatTraits {
   bool isExact = false;  ///< keeps doubles bit by bit; else float32 relative to a recorded origin
   bool holdsCrs = false;
   bool holdsVerticalUnit = false;
   bool holdsErrors = false;     ///< one per triangle
   bool holdsQualities = false;  ///< one per vertex, and colours
+  /// A frame of its own, whose y is up and whose unit is the metre; and texture coordinates of several sets,
+  /// each with its transform.
+  bool isYUp = false;
+  bool hasOneTextureSet = false;        ///< the others are left out
+  bool holdsTextureTransforms = false;  ///< shift and scale of a material's pictures
+  bool statesPartsOnce = false;         ///< an object, group or material is one run of faces
+  bool mayHoldPoints = false;           ///< reads a file without faces as points
+  bool sharesFile = false;              ///< a file of it may hold no mesh, and it is a database, not a stream
+  std::uint32_t firstIndex = 0;         ///< the number of the first vertex and face in the file
 };
 
 }  // namespace arete

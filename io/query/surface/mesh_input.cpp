@@ -72,11 +72,10 @@ Result<MeshInput> readMeshInput(const std::string& path, const RunContext& conte
         std::max(input.fileVertices, std::uint64_t{*std::ranges::max_element(input.file.vertexOf)} + 1);
   input.fileFaces =
       mesh.faceOf.empty() ? mesh.triangles.size() : std::uint64_t{*std::ranges::max_element(mesh.faceOf)} + 1;
-  input.numbers.first = format.extension == ".obj" || format.extension == ".2dm" ? 1 : 0;
+  input.numbers.first = format.holds.firstIndex;
   input.numbers.faceOf = mesh.faceOf;
   input.numbers.vertexOf = input.file.vertexOf;
-  const bool isGltf = format.extension == ".glb" || format.extension == ".gltf";
-  if (!isGltf && mesh.vertexAttributes.empty()) return input;
+  if (!format.holds.isYUp && mesh.vertexAttributes.empty()) return input;
   ARETE_TRY(const JoinedSurface joined, joinSurface(mesh, {.partOf = mesh.objectOf}, context));
   input.joinedAtSeams = joined.joinedVertices;
   if (joined.joinedVertices == 0) return input;

@@ -17,8 +17,6 @@
 #include "engine/base/counted.h"
 #include "io/files/copied_file.h"
 #include "io/files/mapped_file.h"
-#include "io/geo/gdal/support.h"
-#include "io/geo/gdal/virtual_file.h"
 #include "io/store/format/checksum.h"
 
 namespace arete {
@@ -55,13 +53,6 @@ Status AmtContainer::load(std::span<const std::byte> part) const {
 
 Result<std::shared_ptr<const FileImage>> AmtContainer::openImage(const std::string& path,
                                                                  const AmtOpenOptions& options) {
-  if (isVirtualPath(path))
-    return readVirtualFile(path, sizeof(AmtHeader), [](std::span<const std::byte> front) -> std::uint64_t {
-      AmtHeader header;
-      if (front.size() < sizeof header) return 0;
-      std::memcpy(&header, front.data(), sizeof header);
-      return std::memcmp(front.data(), kAmtMagic.data(), kAmtMagic.size()) == 0 ? header.fileBytes : 0;
-    });
   if (options.isCopied) {
     ARETE_TRY(auto copied, CopiedFile::open(path));
     return std::shared_ptr<const FileImage>(std::move(copied));
@@ -221,10 +212,14 @@ Status AmtContainer::checkZeros() const {
 
 Result<AmtContainer> AmtContainer::open(const std::string& path, const AmtOpenOptions& options) {
   ARETE_TRY(auto image, openImage(path, options));
+  if (options.randomAccess) image->adviseRandomAccess();
+  return open(path, std::move(image));
+}
+
+Result<AmtContainer> AmtContainer::open(const std::string& path, std::shared_ptr<const FileImage> image) {
   AmtContainer container;
   container.path_ = path;
   container.file_ = std::move(image);
-  if (options.randomAccess) container.file_->adviseRandomAccess();
   AmtHeader header;
   Status status = container.readHeader(header);
   if (status) status = container.readDirectory(header);

@@ -25,9 +25,9 @@ struct AmtOpenOptions {
   bool randomAccess = false;
 };
 
-/// An .amt file as a directory of chunks, whatever they hold: mapped, read piece by piece, or whole where it
-/// is in one of GDAL's virtual file systems ("/vsizip/..."). Header, directory and the metadata's checksum
-/// have been checked, the other chunks have not been read. Cheap to copy but for the directory.
+/// An .amt file as a directory of chunks, whatever they hold: mapped, read piece by piece, or whole in
+/// memory. Header, directory and the metadata's checksum have been checked, the other chunks have not been
+/// read. Cheap to copy but for the directory.
 class AmtContainer {
  public:
   /// Errors, naming the path: notFound; unreadable: permissions, an empty file, a file that is changed while
@@ -35,6 +35,8 @@ class AmtContainer {
   /// file, another version or byte order, a required chunk that is not known; corrupt: cut short (the message
   /// says by how much), a wrong checksum, chunks out of range. O(1).
   static Result<AmtContainer> open(const std::string& path, const AmtOpenOptions& options = {});
+  /// The same of bytes that were read elsewhere; `path` names them in errors.
+  static Result<AmtContainer> open(const std::string& path, std::shared_ptr<const FileImage> image);
 
   AmtContainer() = default;
   const std::string& path() const { return path_; }

@@ -19,7 +19,6 @@
 #include "io/store/packed/packed.h"
 #include "io/store/packed/surface/displacement_bytes.h"
 #include "io/store/packed/surface/source_numbers.h"
-#include "surface/displacement/find_displacement.h"
 #include "surface/model/face_heirs.h"
 #include "surface/model/renumbered.h"
 
@@ -40,6 +39,34 @@ AmtShape leftOutShape(std::uint64_t count) {
 std::array<AmtShape, 2> displacementShapes(const MultiTriangulation& mt) {
   return {AmtShape{amt_tag::kDirections, AmtScalar::u8, 3, mt.vertexCount()},
           AmtShape{amt_tag::kReaches, AmtScalar::u8, 1, mt.triangleIdCount()}};
+}
+
+struct PackedModel {
+  PackedSurfaceMt packed;
+  SurfaceModel model;  ///< in the order of the packed MT: as a reader has it
+};
+
+/// Packs the MT, and takes the model in the order of the packed MT. Displacements stay as they are.
+Result<PackedModel> packModel(const SurfaceModel& source, int positionBits, const RunContext& context) {
+  const auto refuse = [](Error error) {
+    if (error.code != ErrorCode::interrupted) error.message = "the model cannot be packed: " + error.message;
+    return tl::unexpected(std::move(error));
+  };
+  Result<PackedSurfaceMt> packed = packSurfaceMt(source.mt, {positionBits}, context);
+  if (!packed) return refuse(packed.error());
+  SurfaceMetadata metadata = surfaceMetadataOf(source, {});
+  metadata.hasDoubles = packed->hasDoubles;
+  metadata.positionStep = packed->step;
+  metadata.scale = packed->scale;
+  metadata.model.positionError += packed->moved;
+  const PackedMt& bytes = packed->bytes;
+  const Result<MultiTriangulation> mt =
+      unpackSurfaceMt(metadata, bytes.directory, bytes.tables, bytes.nodes, context);
+  if (!mt) return refuse(mt.error());
+  SurfaceModel model = renumbered(source, *mt, packed->order.vertexOf, packed->order.triangleOf);
+  model.positionError += packed->moved;
+  packed->order = {};
+  return PackedModel{std::move(*packed), std::move(model)};
 }
 
 class Writing {
@@ -73,33 +100,17 @@ class Writing {
  private:
   const SurfaceModel& model() const { return packedModel_ ? *packedModel_ : source_; }
 
-  /// Packs the MT, and takes the model in the order of the packed MT: that is what a reader has.
   Status pack(int positionBits) {
-    Result<PackedSurfaceMt> packed = packSurfaceMt(model().mt, {positionBits}, context_);
-    if (!packed) return refusePacking(packed.error());
-    packed_ = std::move(*packed);
-    SurfaceMetadata metadata = surfaceMetadataOf(model(), {});
-    metadata.hasDoubles = packed_.hasDoubles;
-    metadata.positionStep = packed_.step;
-    metadata.scale = packed_.scale;
-    metadata.model.positionError += packed_.moved;
-    const PackedMt& bytes = packed_.bytes;
-    const Result<MultiTriangulation> mt =
-        unpackSurfaceMt(metadata, bytes.directory, bytes.tables, bytes.nodes, context_);
-    if (!mt) return refusePacking(mt.error());
-    packedModel_ = renumbered(source_, *mt, packed_.order.vertexOf, packed_.order.triangleOf);
-    packedModel_->positionError += packed_.moved;
-    packed_.order = {};
-    if (packed_.moved == 0 || source_.displacement.isEmpty()) return {};
-    // What is certain of it, is of the places before they were rounded.
-    Result<SurfaceDisplacement> displacement = findDisplacement(*packedModel_, context_);
-    if (!displacement) return refusePacking(displacement.error());
-    packedModel_->displacement = std::move(*displacement);
+    Result<PackedModel> both = packModel(source_, positionBits, context_);
+    if (!both) {
+      if (both.error().code == ErrorCode::interrupted) return chunks_.interrupted();
+      return failure(both.error().code, both.error().message, path_);
+    }
+    if (both->packed.moved > 0 && !source_.displacement.isEmpty())
+      return chunks_.refuse("has displacements of places that rounding moves: they are found again first");
+    packed_ = std::move(both->packed);
+    packedModel_ = std::move(both->model);
     return {};
-  }
-  Status refusePacking(const Error& error) {
-    if (error.code == ErrorCode::interrupted) return chunks_.interrupted();
-    return failure(error.code, "the model cannot be packed: " + error.message, path_);
   }
 
   void addPacked() {
@@ -334,18 +345,13 @@ Status writeSurfaceAmt(const std::string& path, const SurfaceModel& model, const
   return caughtFailure(path);
 }
 
-Result<bool> isSurfaceAmt(const std::string& path) try {
-  ARETE_TRY(const AmtContainer container, AmtContainer::open(path));
-  return container.isOfSurface();
+Result<SurfaceModel> roundSurface(const SurfaceModel& model, int positionBits,
+                                  const RunContext& context) try {
+  ARETE_TRY(PackedModel both, packModel(model, positionBits, context));
+  if (both.packed.moved > 0) both.model.displacement = {};
+  return std::move(both.model);
 } catch (...) {
-  return caughtFailure(path);
-}
-
-Result<bool> isPackedAmt(const std::string& path) try {
-  ARETE_TRY(const AmtContainer container, AmtContainer::open(path));
-  return container.isPacked();
-} catch (...) {
-  return caughtFailure(path);
+  return caughtFailure();
 }
 
 Result<SurfaceModel> loadSurfaceAmt(const std::string& path, AmtVerify verify,

@@ -22,15 +22,16 @@ struct SurfaceWriteOptions {
 };
 
 /// Writes the model. The same model and options give the same bytes. Errors: as writeAmt(), those of
-/// SurfaceModel::validate(), and of packSurfaceMt().
+/// SurfaceModel::validate(), and of packSurfaceMt(); invalidData: positionBits move places of a model with
+/// displacements, which are certain of the places before (roundSurface()).
 Status writeSurfaceAmt(const std::string& path, const SurfaceModel& model, const RunContext& context = {},
                        const SurfaceWriteOptions& options = {});
 
-/// Whether a file holds a surface. Errors: those of AmtContainer::open(). O(1).
-Result<bool> isSurfaceAmt(const std::string& path);
-
-/// Whether a file is packed, as isSurfaceAmt().
-Result<bool> isPackedAmt(const std::string& path);
+/// The model as it is read from a packed file with rounded places: in another order, with larger errors, and
+/// without its displacements where rounding moved any place. Rounding it again moves nothing. Errors: those
+/// of packSurfaceMt().
+Result<SurfaceModel> roundSurface(const SurfaceModel& model, int positionBits,
+                                  const RunContext& context = {});
 
 /// Reads a file and checks checksums, indices and sizes as `verify` says. Errors: those of openAmt() and of
 /// the checks; unsupported: the file is of terrain.

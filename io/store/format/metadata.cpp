@@ -19,7 +19,7 @@
 #include "io/files/text/address_text.h"
 #include "io/files/text/json_tree.h"
 #include "io/store/format/json_fields.h"
-#include "terrain/builder/checks.h"
+#include "terrain/model/build_options.h"
 
 namespace arete {
 namespace {

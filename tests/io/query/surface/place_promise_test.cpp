@@ -27,6 +27,7 @@
 #include "full_run.h"
 #include "io/query/surface/criterion.h"
 #include "io/query/surface/region.h"
+#include "io/query/surface/write_model.h"
 #include "io/store/amt/surface_file.h"
 #include "surface/builder/build.h"
 #include "surface/displacement/displaced_places.h"
@@ -289,7 +290,7 @@ class SurfacePlaces : public ::testing::Test {
     if (random.below(3) == 0) {
       const int bits = random.below(2) == 0 ? 8 : 12;
       const std::string path = (folder_ / "m.amt").string();
-      ASSERT_TRUE(writeSurfaceAmt(path, model_, {}, {.isPacked = true, .positionBits = bits}));
+      ASSERT_TRUE(writeSurfaceModel(path, model_, {}, {.isPacked = true, .positionBits = bits}));
       Result<SurfaceModel> read = loadSurfaceAmt(path);
       ASSERT_TRUE(read) << read.error().describe();
       model_ = std::move(*read);

@@ -16,6 +16,7 @@
 #include "io/query/surface/criterion.h"
 #include "io/query/surface/distance_by_chart.h"
 #include "io/query/surface/fit_front.h"
+#include "io/query/surface/write_model.h"
 #include "io/store/amt/surface_file.h"
 #include "surface/builder/build.h"
 #include "surface/families.h"
@@ -67,7 +68,7 @@ class RoundedSurfaces : public ::testing::Test {
 
   SurfaceModel rounded(const SurfaceModel& model, int bits) const {
     const std::string path = (folder_ / "m.amt").string();
-    const Status written = writeSurfaceAmt(path, model, {}, {.isPacked = true, .positionBits = bits});
+    const Status written = writeSurfaceModel(path, model, {}, {.isPacked = true, .positionBits = bits});
     EXPECT_TRUE(written) << written.error().describe();
     Result<SurfaceModel> read = loadSurfaceAmt(path);
     EXPECT_TRUE(read) << read.error().describe();

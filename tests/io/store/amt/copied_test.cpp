@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Files that are read piece by piece, and those of GDAL's file systems: the same parts as of mapped files,
-// and an error where the file is changed meanwhile.
-#include <cpl_vsi.h>
-#include <fmt/format.h>
+// Files that are read piece by piece: the same parts as of mapped files, and an error where the file is
+// changed meanwhile.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,6 +18,7 @@
 #include "io/io_fixture.h"
 #include "io/store/amt/file.h"
 #include "io/store/amt/surface_file.h"
+#include "io/written_amt.h"
 #include "surface/builder/build.h"
 #include "surface/families.h"
 #include "terrain/builder/build.h"
@@ -28,46 +27,14 @@ namespace arete {
 namespace {
 
 namespace fs = std::filesystem;
+using test::areSame;
 using test::built;
+using test::expectSame;
 using test::hills;
 using test::TemporaryFolder;
+using test::writtenTo;
 
 constexpr AmtOpenOptions kCopied{.isCopied = true};
-
-/// A file of a terrain, plain or packed.
-std::string writtenTo(const TemporaryFolder& folder, bool isPacked, bool isRound = true,
-                      std::uint32_t columns = 220, std::uint32_t rows = 180) {
-  RasterHeightfield field =
-      hills(columns, rows, [&](double z) { return isRound ? std::round(4 * z) / 4 : z; });
-  field.georeference.geoTransform = {0, 30, 0, 0, 0, -30};
-  const std::string path = folder.file(isPacked ? "packed.amt" : "plain.amt");
-  EXPECT_TRUE(writeAmt(path, built(build(field)), {}, {.isPacked = isPacked}));
-  return path;
-}
-
-template <class T>
-bool areSame(std::span<const T> a, std::span<const T> b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
-}
-
-void expectSame(const TerrainModel& x, const TerrainModel& y) {
-  const MtArrays &a = x.mt.arrays(), &b = y.mt.arrays();
-  EXPECT_EQ(a.rootVertices, b.rootVertices);
-  EXPECT_TRUE(areSame(a.rootTriangles, b.rootTriangles));
-  EXPECT_TRUE(areSame(a.slotBegin, b.slotBegin));
-  EXPECT_TRUE(areSame(a.link, b.link));
-  EXPECT_TRUE(areSame(a.remover, b.remover));
-  EXPECT_TRUE(areSame(a.error, b.error));
-  EXPECT_TRUE(areSame(a.below, b.below));
-  EXPECT_TRUE(areSame(a.above, b.above));
-  EXPECT_TRUE(areSame(a.floor, b.floor));
-  EXPECT_TRUE(areSame(a.saturatedError, b.saturatedError));
-  EXPECT_TRUE(areSame(a.sphere, b.sphere));
-  EXPECT_TRUE(areSame(a.blockError, b.blockError));
-  EXPECT_TRUE(areSame(a.creatorHint, b.creatorHint));
-  EXPECT_TRUE(areSame(a.vertices.samples, b.vertices.samples));
-  EXPECT_TRUE(areSame(a.vertices.rawHeights, b.vertices.rawHeights));
-}
 
 TEST(CopiedAmt, GivesThePartsOfAMappedFile) {
   const TemporaryFolder folder;
@@ -171,54 +138,6 @@ TEST(CopiedAmt, OfASurfaceIsTheSameModel) {
     ASSERT_GT(fs::file_size(path), 140000u);  // more than is read when it is opened
     fs::resize_file(path, fs::file_size(path) / 2);
     EXPECT_FALSE(loadSurfaceAmt(*open));
-  }
-}
-
-TEST(VirtualAmt, IsReadFromMemoryArchivesAndPartsOfFiles) {
-  const TemporaryFolder folder;
-  for (const bool isPacked : {false, true}) {
-    const std::string path = writtenTo(folder, isPacked, true, 60, 50);
-    std::ifstream from(path, std::ios::binary);
-    std::string bytes((std::istreambuf_iterator<char>(from)), {});
-    const auto put = [&](const std::string& name, const std::string& content) {
-      VSILFILE* const file = VSIFOpenL(name.c_str(), "wb");
-      ASSERT_NE(file, nullptr) << name;
-      EXPECT_EQ(VSIFWriteL(content.data(), 1, content.size(), file), content.size());
-      EXPECT_EQ(VSIFCloseL(file), 0);
-    };
-    put("/vsimem/copied_test.amt", bytes);
-    put("/vsigzip/" + folder.file(isPacked ? "packed.gz" : "plain.gz"), bytes);
-    put("/vsizip/" + folder.file("a.zip") + "/in/a.amt", bytes);
-    put(folder.file("behind.bin"), "some bytes before" + bytes + "and after");
-    const TerrainModel wanted = built(loadAmt(path));
-    const std::string names[] = {
-        "/vsimem/copied_test.amt", "/vsigzip/" + folder.file(isPacked ? "packed.gz" : "plain.gz"),
-        "/vsizip/" + folder.file("a.zip") + "/in/a.amt",
-        fmt::format("/vsisubfile/17_{},{}", bytes.size(), folder.file("behind.bin"))};
-    for (const std::string& name : names) {
-      SCOPED_TRACE(name);
-      const auto model = loadAmt(name);
-      ASSERT_TRUE(model) << model.error().describe();
-      expectSame(wanted, *model);
-      EXPECT_FALSE(*isSurfaceAmt(name));
-    }
-    // What is damaged is said as of a plain file.
-    put("/vsimem/copied_test.amt", bytes.substr(0, bytes.size() / 2));
-    const auto cut = loadAmt("/vsimem/copied_test.amt");
-    ASSERT_FALSE(cut);
-    EXPECT_EQ(cut.error().code, ErrorCode::corrupt);
-    EXPECT_NE(cut.error().message.find("cut short"), std::string::npos);
-    put("/vsimem/copied_test.amt", bytes + "x");
-    EXPECT_NE(loadAmt("/vsimem/copied_test.amt").error().message.find("1 byte more"), std::string::npos);
-    put("/vsimem/copied_test.amt",
-        "a text that is no model, but longer than a header of one, which has 64 bytes");
-    EXPECT_EQ(loadAmt("/vsimem/copied_test.amt").error().message, "is not an .amt file");
-    put("/vsimem/copied_test.amt", "");
-    EXPECT_EQ(loadAmt("/vsimem/copied_test.amt").error().message, "is empty");
-    VSIUnlink("/vsimem/copied_test.amt");
-    EXPECT_EQ(loadAmt("/vsimem/copied_test.amt").error().code, ErrorCode::notFound);
-    EXPECT_EQ(loadAmt("/vsizip/" + folder.file("a.zip") + "/in/none.amt").error().code, ErrorCode::notFound);
-    fs::remove(folder.file("a.zip"));
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/store/amt/surface_file.h"
+#include "io/query/surface/write_model.h"
 
 #include <gtest/gtest.h>
 
@@ -131,7 +132,7 @@ TEST_F(SurfaceAmt, GivesBackEveryBitOfAModel) {
       model->fileFaces = model->sourceFaces / 2;
       model->up = "y";
       ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model));
-      EXPECT_TRUE(*isSurfaceAmt(path("a.amt")));
+      EXPECT_TRUE(AmtContainer::open(path("a.amt"))->isOfSurface());
       const Result<SurfaceModel> read = loadSurfaceAmt(path("a.amt"));
       ASSERT_TRUE(read) << read.error().message;
       EXPECT_EQ(read->mt.vertices().places64.empty(), !hasDoubles);
@@ -198,8 +199,8 @@ TEST_F(SurfaceAmt, PackedGivesBackTheSameTrianglesInAnotherOrder) {
       ASSERT_TRUE(model) << model.error().message;
       ASSERT_TRUE(writeSurfaceAmt(path("plain.amt"), *model));
       ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model, {}, {.isPacked = true}));
-      EXPECT_TRUE(*isSurfaceAmt(path("a.amt")));
-      EXPECT_TRUE(*isPackedAmt(path("a.amt")));
+      EXPECT_TRUE(AmtContainer::open(path("a.amt"))->isOfSurface());
+      EXPECT_TRUE(AmtContainer::open(path("a.amt"))->isPacked());
       EXPECT_LT(2 * fs::file_size(path("a.amt")), fs::file_size(path("plain.amt")));
       const Result<SurfaceModel> read = loadSurfaceAmt(path("a.amt"));
       ASSERT_TRUE(read) << read.error().message;
@@ -241,7 +242,7 @@ TEST_F(SurfaceAmt, RoundedKeepsEveryLawAndSaysHowFarItsVerticesMoved) {
     const Result<SurfaceModel> model = displaced(SurfaceMesh(family.mesh));
     ASSERT_TRUE(model);
     for (const int bits : {8, 12, 16}) {
-      ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model, {}, {.isPacked = true, .positionBits = bits}));
+      ASSERT_TRUE(writeSurfaceModel(path("a.amt"), *model, {}, {.isPacked = true, .positionBits = bits}));
       const Result<SurfaceModel> read = loadSurfaceAmt(path("a.amt"));
       ASSERT_TRUE(read) << read.error().message;
       EXPECT_FALSE(read->displacement.isEmpty());
@@ -257,7 +258,7 @@ TEST_F(SurfaceAmt, RoundedKeepsEveryLawAndSaysHowFarItsVerticesMoved) {
       EXPECT_LE(read->positionError, moved * (1 + 1e-12));
       EXPECT_LE(moved, 2 * model->diagonal / std::ldexp(1, bits));
       // Rounding again moves nothing.
-      ASSERT_TRUE(writeSurfaceAmt(path("b.amt"), *read, {}, {.isPacked = true, .positionBits = bits}));
+      ASSERT_TRUE(writeSurfaceModel(path("b.amt"), *read, {}, {.isPacked = true, .positionBits = bits}));
       EXPECT_EQ(contentOf(path("a.amt")), contentOf(path("b.amt")));
     }
   }
@@ -349,6 +350,18 @@ TEST_F(SurfaceAmt, IsRefusedWhereItStatesFacesThatNothingInItCanHold) {
   EXPECT_EQ(read.error().code, ErrorCode::corrupt);
   EXPECT_NE(read.error().message.find("too few for hasObjects of 4294967294 faces"), std::string::npos)
       << read.error().message;
+}
+
+TEST_F(SurfaceAmt, OfDisplacementsIsNotWrittenWithPlacesThatRoundingMoves) {
+  const Result<SurfaceModel> model = displaced(SurfaceMesh(shapes::globe(12, 6)));
+  ASSERT_TRUE(model);
+  const Status written = writeSurfaceAmt(path("a.amt"), *model, {}, {.isPacked = true, .positionBits = 8});
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, ErrorCode::invalidData);
+  const Result<SurfaceModel> rounded = roundSurface(*model, 8);
+  ASSERT_TRUE(rounded);
+  EXPECT_TRUE(rounded->displacement.isEmpty());
+  EXPECT_GT(rounded->positionError, 0);
 }
 
 TEST_F(SurfaceAmt, IsRefusedWhereTerrainIsWantedAndTheOtherWay) {
