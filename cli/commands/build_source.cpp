@@ -10,7 +10,7 @@
 #include "io/formats/exchange/axes.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/geo/dem/point_reader.h"
-#include "io/geo/table/point_text.h"
+#include "io/geo/text/point_text.h"
 
 namespace arete {
 namespace {

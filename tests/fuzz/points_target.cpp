@@ -9,8 +9,8 @@
 #include "fuzz/harness.h"
 #include "io/geo/dem/gridded_points.h"
 #include "io/geo/dem/point_reader.h"
-#include "io/geo/table/point_attributes.h"
-#include "io/geo/table/point_text.h"
+#include "io/geo/text/point_attributes.h"
+#include "io/geo/text/point_text.h"
 
 namespace {
 

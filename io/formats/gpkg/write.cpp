@@ -11,7 +11,7 @@
 
 #include "io/formats/gpkg/gpkg.h"
 #include "io/formats/mesh/losses.h"
-#include "io/geo/table/geopackage.h"
+#include "io/geo/geopackage/geopackage.h"
 
 namespace arete {
 

@@ -33,7 +33,7 @@
 #include "io/geo/gdal/network_files.h"
 #include "io/geo/gdal/support.h"
 #include "io/geo/gdal/zipped_raster.h"
-#include "io/geo/table/point_text.h"
+#include "io/geo/text/point_text.h"
 #include "terrain/model/lone_heights.h"
 
 namespace arete {

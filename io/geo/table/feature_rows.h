@@ -11,7 +11,7 @@
 #include "engine/parallel/run_context.h"
 #include "io/geo/crs/transform.h"
 #include "io/geo/gdal/support.h"
-#include "io/geo/table/point_attributes.h"
+#include "io/geo/text/point_attributes.h"
 #include "terrain/model/georeference.h"
 
 namespace arete {

@@ -10,8 +10,8 @@
 #include "engine/base/caught_failure.h"
 #include "io/files/file_writer.h"
 #include "io/files/text_scan.h"
-#include "io/geo/table/geopackage.h"
-#include "io/geo/table/table_text.h"
+#include "io/geo/geopackage/geopackage.h"
+#include "io/geo/text/table_text.h"
 
 namespace arete {
 namespace {

@@ -11,7 +11,7 @@
 #include "engine/base/vec.h"
 #include "engine/parallel/run_context.h"
 #include "io/files/existing_file.h"
-#include "io/geo/table/point_attributes.h"
+#include "io/geo/text/point_attributes.h"
 
 namespace arete {
 

@@ -19,7 +19,7 @@
 #include "io/geo/gdal/vector_file.h"
 #include "io/geo/gdal/vector_layer.h"
 #include "io/geo/table/feature_rows.h"
-#include "io/geo/table/point_text.h"
+#include "io/geo/text/point_text.h"
 
 namespace arete {
 namespace {

@@ -8,7 +8,7 @@
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
 #include "engine/parallel/run_context.h"
-#include "io/geo/table/point_attributes.h"
+#include "io/geo/text/point_attributes.h"
 #include "terrain/model/georeference.h"
 
 namespace arete {

@@ -27,8 +27,8 @@
 #include "io/geo/gdal/support.h"
 #include "io/geo/gdal/vector_file.h"
 #include "io/geo/gdal/vector_layer.h"
-#include "io/geo/table/column_rules.h"
 #include "io/geo/table/feature_rows.h"
+#include "io/geo/text/column_rules.h"
 
 namespace arete {
 namespace {

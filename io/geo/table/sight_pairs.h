@@ -10,8 +10,8 @@
 #include "engine/base/vec.h"
 #include "engine/parallel/run_context.h"
 #include "io/geo/crs/position_argument.h"
-#include "io/geo/table/point_attributes.h"
 #include "io/geo/table/point_table.h"
+#include "io/geo/text/point_attributes.h"
 #include "terrain/model/georeference.h"
 
 namespace arete {
@@ -40,7 +40,7 @@ struct SightPairs {
 };
 
 /// Reads a layer of lines (their first and last vertices) or a table, CSV or any other that GDAL reads, with
-/// the columns x1, y1, x2, y2 (or lon1, lat1, from_x, to_lon, ...; io/geo/table/column_rules.h). Without a
+/// the columns x1, y1, x2, y2 (or lon1, lat1, from_x, to_lon, ...; io/geo/text/column_rules.h). Without a
 /// second position, as in a layer of points, the columns azimuth (degrees clockwise from north) and range
 /// (metres) give it, along the geodesic. The columns h1 and h2 (from_height, to_height, ...) hold heights:
 /// "30", "30agl", "120msl"; for points these are h, height or agl. The coordinates of a table are the DEM's,

@@ -9,7 +9,7 @@
 // GDAL's CSV driver is not used: it reads points at 0.2 of this speed (2 million rows with a header,
 // processor time), has no comments, and numbers features instead of lines. The rules for columns are shared:
 // column_rules.h.
-#include "io/geo/table/point_text.h"
+#include "io/geo/text/point_text.h"
 
 #include <cpl_vsi.h>
 #include <fmt/format.h>
@@ -31,9 +31,9 @@
 #include "io/files/text_decoder.h"
 #include "io/files/text_scan.h"
 #include "io/geo/gdal/support.h"
-#include "io/geo/table/cell_number.h"
-#include "io/geo/table/column_rules.h"
-#include "io/geo/table/separator.h"
+#include "io/geo/text/cell_number.h"
+#include "io/geo/text/column_rules.h"
+#include "io/geo/text/separator.h"
 
 namespace arete {
 namespace {

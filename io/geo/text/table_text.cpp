@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Suffixes are added until a name is unique among ours and among the names before it.
-#include "io/geo/table/table_text.h"
+#include "io/geo/text/table_text.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/geo/table/column_rules.h"
+#include "io/geo/text/column_rules.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/geo/table/geopackage.h"
+#include "io/geo/geopackage/geopackage.h"
 
 #include <gtest/gtest.h>
 #include <sqlite3.h>

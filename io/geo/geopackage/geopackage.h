@@ -13,8 +13,8 @@
 #include "engine/parallel/run_context.h"
 #include "io/files/existing_file.h"
 #include "io/geo/gdal/support.h"
-#include "io/geo/table/geopackage_copy.h"
-#include "io/geo/table/point_attributes.h"
+#include "io/geo/geopackage/geopackage_copy.h"
+#include "io/geo/text/point_attributes.h"
 
 namespace arete {
 

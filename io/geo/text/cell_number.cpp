@@ -2,7 +2,7 @@
 //
 // Plain numbers come first, since nearly all are. Others are rewritten as one, if only one reading makes
 // sense.
-#include "io/geo/table/cell_number.h"
+#include "io/geo/text/cell_number.h"
 
 #include <algorithm>
 #include <array>

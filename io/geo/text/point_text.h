@@ -6,8 +6,8 @@
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
-#include "io/geo/table/point_attributes.h"
-#include "io/geo/table/point_rows.h"
+#include "io/geo/text/point_attributes.h"
+#include "io/geo/text/point_rows.h"
 
 namespace arete {
 

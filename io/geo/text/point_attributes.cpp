@@ -2,7 +2,7 @@
 //
 // Every value of a column is tried as an integer, then as a double. A leading zero marks a code, such as a
 // postal code, that must stay a text.
-#include "io/geo/table/point_attributes.h"
+#include "io/geo/text/point_attributes.h"
 
 #include <algorithm>
 #include <charconv>

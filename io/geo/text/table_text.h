@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/geo/table/point_attributes.h"
+#include "io/geo/text/point_attributes.h"
 
 namespace arete {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/geo/table/cell_number.h"
+#include "io/geo/text/cell_number.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "io/geo/table/separator.h"
+#include "io/geo/text/separator.h"
 
 namespace arete {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/geo/table/separator.h"
+#include "io/geo/text/separator.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 
-#include "io/geo/table/cell_number.h"
+#include "io/geo/text/cell_number.h"
 
 namespace arete {
 

@@ -4,7 +4,7 @@
 // written replaces the layer of that name in the copy. SQLite's journal and its synchronization with the disk
 // are off: an unfinished file is never renamed. GDAL reports failures on closing only through its error
 // handler, so the file is renamed after it is closed and if the handler has collected no failure.
-#include "io/geo/table/geopackage.h"
+#include "io/geo/geopackage/geopackage.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -18,7 +18,7 @@
 
 #include "io/files/output_file.h"
 #include "io/geo/crs/reader.h"
-#include "io/geo/table/geopackage_copy.h"
+#include "io/geo/geopackage/geopackage_copy.h"
 
 namespace arete {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Lists of names in order of preference; the files that people have use few others.
-#include "io/geo/table/column_rules.h"
+#include "io/geo/text/column_rules.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 // transaction of its own. A file with a write-ahead log is set to a rollback journal first: this empties the
 // log, and fails as long as another program has the file open, whose next changes would go to a log that is
 // no longer the file's.
-#include "io/geo/table/geopackage_copy.h"
+#include "io/geo/geopackage/geopackage_copy.h"
 
 #include <fmt/format.h>
 #include <sqlite3.h>

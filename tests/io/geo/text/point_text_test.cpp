@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/geo/table/point_text.h"
+#include "io/geo/text/point_text.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
