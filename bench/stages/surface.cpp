@@ -25,12 +25,12 @@
 #include "engine/cut/cut.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/store/amt/surface_file.h"
+#include "measure/mesh_distance.h"
 #include "surface/builder/build.h"
 #include "surface/decimate/decimate.h"
 #include "surface/displacement/displaced_places.h"
 #include "surface/displacement/find_displacement.h"
 #include "surface/front/front.h"
-#include "terrain/measure/mesh_distance.h"
 
 namespace arete::bench {
 namespace {

@@ -21,8 +21,8 @@
 #include "io/query/extract/model_file.h"
 #include "io/query/extract/report_json.h"
 #include "io/store/amt/surface_file.h"
+#include "measure/mesh_distance.h"
 #include "surface/front/front.h"
-#include "terrain/measure/mesh_distance.h"
 #include "viewer/picture/color_ramp.h"
 
 namespace arete {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "terrain/measure/mesh_distance.h"
+#include "measure/mesh_distance.h"
 
 namespace arete {
 

@@ -25,13 +25,13 @@
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/query/surface/fit_front.h"
 #include "io/store/amt/surface_file.h"
+#include "measure/mesh_distance.h"
 #include "surface/diagnosis/diagnosis.h"
 #include "surface/displacement/displaced_places.h"
 #include "surface/front/face_map.h"
 #include "surface/front/front.h"
 #include "surface/front/model_components.h"
 #include "surface/model/labels.h"
-#include "terrain/measure/mesh_distance.h"
 
 namespace arete {
 namespace {

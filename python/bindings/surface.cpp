@@ -21,13 +21,13 @@
 #include "io/query/surface/write_model.h"
 #include "io/store/amt/container.h"
 #include "io/store/amt/surface_file.h"
+#include "measure/mesh_distance.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
 #include "python/bindings/tin.h"
 #include "surface/displacement/displaced_places.h"
 #include "surface/front/front.h"
 #include "surface/region/closed_mesh_region.h"
-#include "terrain/measure/mesh_distance.h"
 
 namespace arete::python {
 namespace {

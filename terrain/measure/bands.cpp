@@ -6,6 +6,7 @@
 // is the same to the last bit for any number of threads.
 #include "terrain/measure/bands.h"
 
+#include "engine/parallel/each_task.h"
 #include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <mutex>
 
 #include "terrain/measure/exact.h"
 
@@ -177,7 +177,7 @@ SampleRecorder::SampleRecorder(const Inputs& in, std::size_t samples)
 Result<MeasureReport> measureBands(const Inputs& in, const TriangleBands& bands,
                                    const std::function<BandTotals(std::size_t band)>& scan) {
   std::vector<BandTotals> totals(bands.count());
-  ARETE_CHECK(forEachBand(totals.size(), in.context, "measuring",
+  ARETE_CHECK(forEachTask(totals.size(), in.context, "measuring",
                           [&](std::size_t band) { totals[band] = scan(band); }));
 
   BandTotals all;
@@ -188,22 +188,6 @@ Result<MeasureReport> measureBands(const Inputs& in, const TriangleBands& bands,
   report.degenerateTriangles = bands.degenerate;
   report.tinAreaPixels = bands.areaPixels;
   return report;
-}
-
-Status forEachBand(std::size_t bands, const RunContext& context, const char* stage,
-                   const std::function<void(std::size_t band)>& task) {
-  std::mutex reporting;
-  std::size_t done = 0;
-  withThreads(context, [&] {
-    parallelForTasks(std::size_t{0}, bands, [&](std::size_t band) {
-      if (context.cancelled()) return;
-      task(band);
-      const std::lock_guard lock(reporting);
-      context.report(stage, static_cast<double>(++done) / static_cast<double>(bands));
-    });
-  });
-  if (context.cancelled()) return failure(ErrorCode::interrupted, "measuring was interrupted");
-  return {};
 }
 
 }  // namespace arete::measuring

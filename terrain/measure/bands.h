@@ -203,9 +203,4 @@ bool forTrianglesOf(std::size_t band, const TriangleBands& bands, const Inputs& 
 Result<MeasureReport> measureBands(const Inputs& in, const TriangleBands& bands,
                                    const std::function<BandTotals(std::size_t band)>& scan);
 
-/// Runs task(band) for every band on the context's threads; reports progress under `stage`. Errors:
-/// interrupted.
-Status forEachBand(std::size_t bands, const RunContext& context, const char* stage,
-                   const std::function<void(std::size_t band)>& task);
-
 }  // namespace arete::measuring

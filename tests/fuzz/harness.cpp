@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "measure/mesh_distance.h"
 #include "terrain/measure/measure.h"
-#include "terrain/measure/mesh_distance.h"
 
 namespace arete::fuzz {
 namespace {

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kRoot = ARETE_SOURCE_FOLDER;
-const std::vector<std::string> kLayers = {"engine", "surface", "terrain", "io",
+const std::vector<std::string> kLayers = {"engine", "measure", "surface", "terrain", "io",
                                           "gis",    "python",  "viewer",  "cli"};
 /// The layers inside io/, each with those below it.
 const std::map<std::string, std::set<std::string>> kBelow = {
@@ -135,6 +135,11 @@ TEST(Rooms, OfMeasureIncludeTheModelAndBasicsAlone) {
   ASSERT_TRUE(rooms.contains("terrain/measure"));
   for (const std::string& other : rooms.at("terrain/measure"))
     EXPECT_TRUE(allowed.contains(other)) << "terrain/measure declares " << other;
+}
+
+TEST(Rooms, OfDistancesIncludeNeitherTerrainNorSurfaces) {
+  for (const std::string& other : declaredRooms().at("measure"))
+    EXPECT_TRUE(other == "engine/base" || other == "engine/parallel") << "measure declares " << other;
 }
 
 class PlantedRooms : public ::testing::Test {

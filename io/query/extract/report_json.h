@@ -3,8 +3,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "measure/mesh_distance.h"
 #include "terrain/measure/measure.h"
-#include "terrain/measure/mesh_distance.h"
 
 namespace arete {
 

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <span>
 
+#include "measure/mesh_distance.h"
 #include "surface/model/charts.h"
-#include "terrain/measure/mesh_distance.h"
 
 namespace arete {
 namespace {

@@ -3,6 +3,8 @@
 // Bands against a test of every triangle with every band; totals of parts against those of the whole.
 #include "terrain/measure/bands.h"
 
+#include "engine/parallel/each_task.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -151,13 +153,13 @@ TEST(Bands, RunEachOnceAndStopWhenCancelled) {
     RunContext context;
     context.threads = threads;
     std::vector<std::atomic<int>> runs(100);
-    ASSERT_TRUE(forEachBand(runs.size(), context, "testing", [&](std::size_t band) { ++runs[band]; }));
+    ASSERT_TRUE(forEachTask(runs.size(), context, "testing", [&](std::size_t band) { ++runs[band]; }));
     EXPECT_TRUE(std::ranges::all_of(runs, [](const auto& count) { return count == 1; }));
   }
   const std::atomic<bool> cancel = true;
   RunContext context;
   context.cancel = &cancel;
-  const Status stopped = forEachBand(5, context, "testing", [](std::size_t) { FAIL(); });
+  const Status stopped = forEachTask(5, context, "testing", [](std::size_t) { FAIL(); });
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::interrupted);
 }

@@ -20,12 +20,12 @@
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/io_fixture.h"
 #include "io/store/packed/surface/rounded_surface.h"
+#include "measure/mesh_distance.h"
 #include "surface/builder/build.h"
 #include "surface/displacement/displaced_places.h"
 #include "surface/displacement/find_displacement.h"
 #include "surface/front/front.h"
 #include "surface/laws/validate_surface.h"
-#include "terrain/measure/mesh_distance.h"
 
 namespace arete {
 namespace {

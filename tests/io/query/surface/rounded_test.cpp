@@ -18,10 +18,10 @@
 #include "io/query/surface/fit_front.h"
 #include "io/query/surface/write_model.h"
 #include "io/store/amt/surface_file.h"
+#include "measure/mesh_distance.h"
 #include "surface/builder/build.h"
 #include "surface/families.h"
 #include "surface/front/front.h"
-#include "terrain/measure/mesh_distance.h"
 
 namespace arete {
 namespace {

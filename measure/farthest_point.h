@@ -6,7 +6,7 @@
 #include <span>
 
 #include "engine/base/triangle_mesh.h"
-#include "terrain/measure/nearest_on_mesh.h"
+#include "measure/nearest_on_mesh.h"
 
 namespace arete {
 

@@ -9,7 +9,7 @@
 //
 // A part that lies across an edge of the target is cut there rather than in the middle, so that each half has
 // a triangle of its own: where the meshes coincide, no number of halves in the middle would settle it.
-#include "terrain/measure/farthest_point.h"
+#include "measure/farthest_point.h"
 
 #include <algorithm>
 #include <array>

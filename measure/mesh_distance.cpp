@@ -6,10 +6,10 @@
 // tasks; their sums are added in order, so that no rounding depends on the number of threads.
 //
 // The largest of these distances is the start of the search for the farthest point
-// (terrain/measure/farthest_point.h). Most triangles are decided by their corners; the rest are bisected
+// (measure/farthest_point.h). Most triangles are decided by their corners; the rest are bisected
 // where a farther point is possible. Tasks of the search do not share what they find: the result would depend
 // on their timing.
-#include "terrain/measure/mesh_distance.h"
+#include "measure/mesh_distance.h"
 
 #include <fmt/format.h>
 
@@ -23,10 +23,10 @@
 #include <utility>
 
 #include "engine/base/caught_failure.h"
-#include "terrain/measure/bands.h"
-#include "terrain/measure/farthest_point.h"
-#include "terrain/measure/nearest_on_mesh.h"
-#include "terrain/measure/surface_samples.h"
+#include "engine/parallel/each_task.h"
+#include "measure/farthest_point.h"
+#include "measure/nearest_on_mesh.h"
+#include "measure/surface_samples.h"
 
 namespace arete {
 namespace {
@@ -149,7 +149,7 @@ class OneWay {
                                  bool takesSamples = true) {
     const std::size_t vertexRuns = runsOf(answers_.size(), kPerRun);
     std::vector<RunTotals> runs(vertexRuns + (takesSamples ? runsOf(samples_.count(), kPerRun) : 0));
-    Status done = measuring::forEachBand(runs.size(), context_, stage.c_str(), [&](std::size_t index) {
+    Status done = forEachTask(runs.size(), context_, stage.c_str(), [&](std::size_t index) {
       if (index < vertexRuns)
         takeVertices(index, vertexDistances != nullptr, runs[index]);
       else
@@ -174,8 +174,8 @@ class OneWay {
     found.atMost = std::numeric_limits<double>::infinity();
     if (std::isfinite(options_.accuracy)) {
       std::vector<FarthestPoint> searched(runsOf(from_.mesh.triangles.size(), kTrianglesPerRun));
-      done = measuring::forEachBand(searched.size(), context_, (stage + ", farthest").c_str(),
-                                    [&](std::size_t index) { searched[index] = search(index, all.maximum); });
+      done = forEachTask(searched.size(), context_, (stage + ", farthest").c_str(),
+                         [&](std::size_t index) { searched[index] = search(index, all.maximum); });
       if (!done) return tl::unexpected(done.error());
       found.atMost = all.maximum;
       for (const FarthestPoint& run : searched) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Nearest points of soups, sheets and spheres against the oracle of measure_meshes.h.
-#include "terrain/measure/nearest_on_mesh.h"
+#include "measure/nearest_on_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // (i + u) A / count, u from the seed, and a triangle gets as many samples as marks fall on it: its share,
 // rounded up or down. Within the triangle the samples follow the R2 sequence [Roberts2018], shifted by an
 // offset of the triangle's own and folded from the unit square into the triangle.
-#include "terrain/measure/surface_samples.h"
+#include "measure/surface_samples.h"
 
 #include <algorithm>
 #include <cmath>

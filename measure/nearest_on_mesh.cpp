@@ -3,7 +3,7 @@
 // A traversal of CGAL's AABB tree, the nearer child first; a box no nearer than the best triangle so far is
 // skipped. CGAL's own closest-point query is not used: it starts from a hint, visits the children in a fixed
 // order, and requires triangles that are not degenerate.
-#include "terrain/measure/nearest_on_mesh.h"
+#include "measure/nearest_on_mesh.h"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Distances between meshes against closed forms, and against the oracle of measure_meshes.h.
-#include "terrain/measure/mesh_distance.h"
+#include "measure/mesh_distance.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 #include <tuple>
 #include <vector>
 
-#include "terrain/measure/surface_samples.h"
+#include "measure/surface_samples.h"
 #include "terrain/measure_meshes.h"
 
 namespace arete {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The farthest point of a triangle against a dense grid of its points.
-#include "terrain/measure/farthest_point.h"
+#include "measure/farthest_point.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // How many samples each triangle gets, and their moments within a triangle against the integrals.
-#include "terrain/measure/surface_samples.h"
+#include "measure/surface_samples.h"
 
 #include <gtest/gtest.h>
 
