@@ -51,8 +51,8 @@ std::vector<std::string> entriesOf(const std::string& bibliography) {
 /// The sources, tests and pages, but for the bibliography and this test.
 std::vector<fs::path> citingFiles() {
   std::vector<fs::path> files = {kPagesRoot / "README.md", kPagesRoot / "ARCHITECTURE.md"};
-  for (const char* folder : {"engine", "surface", "terrain", "io", "gis", "python", "viewer", "cli",
-                             "datasets", "bench", "tests", "docs"})
+  for (const char* folder : {"engine", "measure", "surface", "terrain", "io", "gis", "python", "viewer",
+                             "cli", "datasets", "bench", "tests", "docs"})
     for (const auto& entry : fs::recursive_directory_iterator(kPagesRoot / folder)) {
       const fs::path& file = entry.path();
       const bool isText = file.extension() == ".h" || file.extension() == ".cpp" || file.extension() == ".md";
@@ -92,9 +92,9 @@ TEST(Bibliography, KeysAreFoundInCommentsAndNotInIndices) {
 }
 
 /// The folders of the repository that hold what people write: no builds, no inputs of the fuzzers.
-const std::vector<std::string> kFolders = {"engine", "surface", "terrain",  "io",    "gis",
-                                           "python", "viewer",  "cli",      "tests", "datasets",
-                                           "bench",  "cmake",   "examples", "docs"};
+const std::vector<std::string> kFolders = {"engine",   "measure", "surface", "terrain",  "io",
+                                           "gis",      "python",  "viewer",  "cli",      "tests",
+                                           "datasets", "bench",   "cmake",   "examples", "docs"};
 
 /// The names of all files, with and without their folders.
 std::set<std::string> fileNames() {

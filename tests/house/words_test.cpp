@@ -195,7 +195,8 @@ std::vector<std::string> optionsNamedIn(const Prose& strings) {
 }
 
 TEST(Words, OfTheLibraryNameNoOptionOfTheCommandLine) {
-  for (const fs::path& file : sourcesOf({"engine", "surface", "terrain", "io", "gis", "python", "viewer"})) {
+  for (const fs::path& file :
+       sourcesOf({"engine", "measure", "surface", "terrain", "io", "gis", "python", "viewer"})) {
     for (const std::string& match : optionsNamedIn(Lexer(textOf(file)).take(Kind::strings)))
       ADD_FAILURE() << nameOf(file) << ":" << match;
   }
@@ -203,7 +204,7 @@ TEST(Words, OfTheLibraryNameNoOptionOfTheCommandLine) {
 
 TEST(Words, OfSourcesLendDataNoMind) {
   for (const fs::path& file :
-       sourcesOf({"engine", "surface", "terrain", "io", "gis", "python", "viewer", "cli"})) {
+       sourcesOf({"engine", "measure", "surface", "terrain", "io", "gis", "python", "viewer", "cli"})) {
     for (const Kind kind : {Kind::comments, Kind::strings})
       for (const std::string& match : matchesIn(Lexer(textOf(file)).take(kind), wordPattern()))
         ADD_FAILURE() << nameOf(file) << ":" << match;
@@ -240,7 +241,7 @@ bool isOfMany(std::string_view match) {
 
 TEST(Words, AgreeWithTheirNumbers) {
   for (const fs::path& file :
-       sourcesOf({"engine", "surface", "terrain", "io", "gis", "python", "viewer", "cli"}))
+       sourcesOf({"engine", "measure", "surface", "terrain", "io", "gis", "python", "viewer", "cli"}))
     for (const std::string& match : matchesIn(Lexer(textOf(file)).take(Kind::strings), unagreedPattern()))
       if (!isOfMany(match)) ADD_FAILURE() << nameOf(file) << ":" << match;
 }
