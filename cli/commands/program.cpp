@@ -49,7 +49,8 @@ std::string wholeName(const CLI::App& command) {
 ExitCode runProgram(int argc, char** argv) {
   Session session;
   CLI::App app{
-      "Arete turns a digital elevation model into one multitriangulation and takes TINs of any\n"
+      "Arete turns a digital elevation model or a triangle mesh into one multitriangulation and takes meshes "
+      "of any\n"
       "tolerance from it, with an error that can be measured independently."};
   app.name("arete");
   app.set_version_flag("--version", "arete " ARETE_VERSION);
