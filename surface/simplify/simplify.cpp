@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The levels of [deBergDobrindt1995] with growing thresholds, as on terrain (terrain/simplify/simplify.h).
+// The levels of [deBergDobrindt1995] with growing thresholds (engine/simplify/level_schedule.h), as on
+// terrain (terrain/simplify/simplify.h).
 #include "surface/simplify/simplify.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "engine/memory/pages.h"
 #include "engine/parallel/loop_threads.h"
 #include "engine/parallel/shared_progress.h"
+#include "engine/simplify/level_schedule.h"
 #include "surface/simplify/level.h"
 
 namespace arete {
 namespace {
 
-constexpr double kLeastGrowth = 0.015, kFirstThreshold = 1e-14;
-constexpr double kLargest = std::numeric_limits<float>::max();
-/// A growth of the threshold in one step before which all costs are brought up to date.
+constexpr double kFirstThreshold = 1e-14;
+/// Of vertices whose neighbours went, costs are known late. Where costs have a gap (flat parts end, and what
+/// is bent begins), what became cheap goes before anything that is dearer.
 constexpr double kGap = 2;
 
 SurfaceRoot rootOf(const SurfaceState& s, std::uint32_t levels) {
@@ -125,38 +126,18 @@ Result<SurfaceRoot> simplifySurface(SurfaceState& s, const std::vector<std::uint
     }
   });
   s.thresholds.assign(s.mesh.verticesInOrder(), isFixed);
-  const std::size_t atStart = std::max<std::size_t>(s.thresholds.size(), 1);
-  SharedProgress progress(context, "simplify", atStart);
+  LevelSchedule schedule(s.thresholds, {.first = kFirstThreshold, .ratio = s.thresholdRatio, .gap = kGap});
+  SharedProgress progress(context, "simplify", schedule.sizeAtStart());
   SurfaceLevels levels(s);
   std::uint32_t number = 0;
-  double threshold = kFirstThreshold;
-  bool hasChanged = false;  // since makeChangedDue()
   while (!s.thresholds.empty() && s.liveTriangles > s.fewEnough) {
     s.thresholds.compact();
-    const std::size_t before = s.thresholds.size();
     ++number;
-    progress.add(levels.level(threshold, number, {number, 0}));
+    progress.add(levels.level(schedule.threshold(), number, {number, 0}));
     if (context.cancelled()) return failure(ErrorCode::interrupted, "the build was interrupted");
-    hasChanged = hasChanged || s.thresholds.size() < before;
-    const double last = threshold, growth = s.thresholdRatio - 1,
-                 left = double(s.thresholds.size()) / double(atStart);
-    threshold *= 1 + std::max(std::min(growth, kLeastGrowth), growth * left);
-    // The threshold at which a fiftieth of the vertices are due: hundreds of smaller steps would remove
-    // almost no vertex.
-    threshold = std::max(threshold, double(s.thresholds.quantile(0.02)));
-    if (s.thresholds.size() == before) {
-      const double pending = s.thresholds.least();
-      if (!(pending < std::numeric_limits<double>::infinity()) && !hasChanged) break;
-      threshold = std::max(threshold, pending);
-    }
-    // Of vertices whose neighbours went, costs are known late. Where costs have a gap (flat parts end, and
-    // what is bent begins), what became cheap goes before anything that is dearer.
-    if (hasChanged && threshold > kGap * last) {
-      makeChangedDue(s);
-      threshold = last;
-      hasChanged = false;
-    }
-    threshold = std::min(threshold, kLargest);
+    const LevelSchedule::Step step = schedule.advance();
+    if (step == LevelSchedule::Step::end) break;
+    if (step == LevelSchedule::Step::refresh) makeChangedDue(s);
     if (s.liveTriangles < s.mesh.triangles.size() / 2) compact(s);
   }
   context.report("simplify", 1);

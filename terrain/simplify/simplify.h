@@ -4,11 +4,8 @@
 // remove each; retriangulate its hole; record the modification } until no vertex can be removed. One
 // repetition is a level (level.h).
 //
-// A level admits the removals whose cost is under a threshold, and the threshold grows from level to level:
-// cheap removals come first everywhere, which keeps the cuts at any error small (without thresholds the same
-// bound takes 1.9 times as many triangles). The growth falls with the number of vertices that are left. Most
-// of the time goes into the first levels, which only the finest cuts depend on; levels among few vertices
-// take almost none, and all coarser cuts depend on their order (docs/decisions/0016 to 0018).
+// A level admits the removals whose cost is under a threshold, which grows from level to level
+// (engine/simplify/level_schedule.h).
 //
 // A level visits one vertex in ten, and so nearly all of the memory. Therefore a large mesh is divided into
 // tiles that fit a processor's cache: a thread takes one tile through several levels by itself (tile.h), then
@@ -23,7 +20,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -32,6 +28,7 @@
 #include "engine/parallel/per_thread.h"
 #include "engine/parallel/run_context.h"
 #include "engine/parallel/shared_progress.h"
+#include "engine/simplify/level_schedule.h"
 #include "terrain/simplify/level.h"
 #include "terrain/simplify/state.h"
 #include "terrain/simplify/tile.h"
@@ -58,21 +55,12 @@ class Simplifier {
   /// @param isFixed per vertex, not 0 = it is never removed.
   Result<SimplifiedRoot> run(const std::vector<std::uint8_t>& isFixed) {
     start(isFixed);
-    // Errors below a ten-millionth of the relief count as equal: rounding noise must not make levels.
-    double threshold = s_.heightRange * 1e-7;
     while (!s_.thresholds.empty()) {
       s_.thresholds.compact();
-      const std::size_t before = s_.thresholds.size();
       const std::uint32_t tiles = tileCount();
-      const double next = tiles > 1 ? levelsInTiles(threshold, tiles) : levelOfAll(threshold);
+      const LevelSchedule::Step step = tiles > 1 ? levelsInTiles(tiles) : levelOfAll();
       if (context_.cancelled()) return failure(ErrorCode::interrupted, "the build was interrupted");
-      threshold = std::max(next, leastUseful());
-      if (s_.thresholds.size() == before) {
-        const double pending = s_.thresholds.least();
-        if (!(pending < std::numeric_limits<double>::infinity())) break;
-        threshold = std::max(threshold, pending);
-      }
-      threshold = std::min(threshold, kLargest);
+      if (step == LevelSchedule::Step::end) break;
       if (double(s_.liveTriangles) < Errors::kLeastLive * double(s_.mesh.triangles.size()))
         s_.errors.compact(s_.mesh.compact(s_.thresholds.vertices()));
     }
@@ -90,9 +78,11 @@ class Simplifier {
     s_.records.resize(vertexCount);
     // Vertices are visited in the order of their triangles in memory, which is that of the ground.
     s_.thresholds.assign(s_.mesh.verticesInOrder(), isFixed);
-    removableAtStart_ = std::max<std::size_t>(s_.thresholds.size(), 1);
+    // Errors below a ten-millionth of the relief count as equal: rounding noise must not make levels.
+    schedule_.emplace(s_.thresholds, LevelSchedule::Options{.first = s_.heightRange * 1e-7,
+                                                            .ratio = s_.options.thresholdRatioOrDefault()});
     // Progress counts vertices, not levels: most levels are late and short.
-    progress_.emplace(context_, "simplify", removableAtStart_);
+    progress_.emplace(context_, "simplify", schedule_->sizeAtStart());
 
     const StageClock::Scope stage(context_.clock, "simplify: evaluate");
     const RemovalCost<Plan, Errors> cost(s_);
@@ -119,31 +109,16 @@ class Simplifier {
     return tiles < tiles_.fewest || s_.rim != nullptr ? 1 : tiles;
   }
 
-  /// The growth of the threshold from this level to the next; it falls with the vertices that are left.
-  double ratio() const {
-    const double growth = s_.options.thresholdRatioOrDefault() - 1,
-                 left = double(s_.thresholds.size()) / double(removableAtStart_);
-    return 1 + std::max(std::min(growth, kLeastGrowth), growth * left);
-  }
-
-  /// The threshold at which a fiftieth of the vertices are due: where costs are spread over many orders of
-  /// magnitude, hundreds of smaller steps would remove almost no vertex.
-  double leastUseful() const { return s_.thresholds.quantile(0.02); }
-
-  /// One level. Returns the threshold of the next.
-  double levelOfAll(double threshold) {
+  /// One level.
+  LevelSchedule::Step levelOfAll() {
     ++levels_;
-    progress_->add(together_.levelOfAll(threshold, ++numbers_, {++groups_, 0}));
-    return threshold * ratio();
+    progress_->add(together_.levelOfAll(schedule_->threshold(), ++numbers_, {++groups_, 0}));
+    return schedule_->advance();
   }
 
-  /// The levels of one pass over the tiles. Returns the threshold of the next.
-  double levelsInTiles(double threshold, std::uint32_t tiles) {
-    std::vector<double> thresholds = {threshold};
-    const double step = ratio(), end = threshold * tiles_.span;
-    do  // once at least: on flat ground all thresholds are 0
-      thresholds.push_back(std::min(thresholds.back() * step, kLargest));
-    while (thresholds.size() <= kMostLevels && thresholds.back() < end);
+  /// The levels of one pass over the tiles.
+  LevelSchedule::Step levelsInTiles(std::uint32_t tiles) {
+    const std::vector<double> thresholds = schedule_->pass(tiles_.span);
     const auto levels = static_cast<std::uint32_t>(thresholds.size()) - 1;
     ++groups_;
     const Tile everything = s_.thresholds.all();
@@ -171,7 +146,7 @@ class Simplifier {
     for (const VertexId v : some) s_.thresholds.set(v, ThresholdList::kNow);
     for (std::uint32_t k = 0; k < levels && !context_.cancelled(); ++k)
       progress_->add(together_.levelOf(some, thresholds[k], ++numbers_, {groups_, tiles}));
-    return thresholds.back();
+    return schedule_->advanceTo(thresholds.back());
   }
 
   SimplifiedRoot root() const {
@@ -188,10 +163,6 @@ class Simplifier {
     return root;
   }
 
-  static constexpr double kLeastGrowth = 0.015;
-  static constexpr double kLargest = std::numeric_limits<float>::max();  // below ThresholdList::kNever
-  static constexpr std::size_t kMostLevels = 16;                         // of one pass over the tiles
-
   SimplifyState<Plan, Errors>& s_;
   TileOptions tiles_;
   const RunContext& context_;
@@ -200,7 +171,7 @@ class Simplifier {
   std::uint32_t levels_ = 0;   // thresholds
   std::uint32_t numbers_ = 0;  // of levels, with those of held vertices
   std::uint32_t groups_ = 0;   // of batches
-  std::size_t removableAtStart_ = 1;
+  std::optional<LevelSchedule> schedule_;
   std::optional<SharedProgress> progress_;
 };
 
