@@ -20,19 +20,10 @@ constexpr double kFirstThreshold = 1e-14;
 /// is bent begins), what became cheap goes before anything that is dearer.
 constexpr double kGap = 2;
 
-SurfaceRoot rootOf(const SurfaceState& s, std::uint32_t levels) {
-  SurfaceRoot root;
-  root.levels = levels;
-  IdArray<VertexId, std::vector<std::uint8_t>> seen(s.mesh.vertexCount(), std::uint8_t(0));
-  for (std::uint32_t i = 0; i < s.mesh.triangles.size(); ++i) {
-    const LiveMesh::Triangle& triangle = s.mesh.triangles[SlotId(i)];
-    if (triangle.isDead()) continue;
-    root.triangles.push_back({triangle.recorderId, triangle.corners});
-    root.labels.push_back(s.labelsOf(SlotId(i)));
-    for (const VertexId v : triangle.corners) seen[v] = 1;
-  }
-  for (std::uint32_t v = 0; v < seen.size(); ++v)
-    if (seen[VertexId(v)] != 0) root.vertices.push_back(VertexId(v));
+SurfaceRoot labelledRootOf(const SurfaceState& s, std::uint32_t levels) {
+  SurfaceRoot root{rootOf(s.mesh, levels), {}};
+  for (std::uint32_t i = 0; i < s.mesh.triangles.size(); ++i)
+    if (!s.mesh.triangles[SlotId(i)].isDead()) root.labels.push_back(s.labelsOf(SlotId(i)));
   return root;
 }
 
@@ -141,7 +132,7 @@ Result<SurfaceRoot> simplifySurface(SurfaceState& s, const std::vector<std::uint
     if (s.liveTriangles < s.mesh.triangles.size() / 2) compact(s);
   }
   context.report("simplify", 1);
-  return rootOf(s, number);
+  return labelledRootOf(s, number);
 }
 
 }  // namespace arete

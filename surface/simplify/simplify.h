@@ -6,16 +6,14 @@
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
+#include "engine/simplify/simplified_root.h"
 #include "surface/simplify/state.h"
 
 namespace arete {
 
-/// What the levels leave over: the root of the MT.
-struct SurfaceRoot {
-  std::vector<VertexId> vertices;
-  std::vector<SurvivingTriangle> triangles;
-  std::vector<TriangleLabels> labels;  ///< of the triangles
-  std::uint32_t levels = 0;
+/// What the levels leave over, with the labels of its triangles.
+struct SurfaceRoot : SimplifiedRoot {
+  std::vector<TriangleLabels> labels;
 };
 
 /// Removes every vertex that can be removed, or until no more than state.fewEnough triangles are left.

@@ -29,19 +29,13 @@
 #include "engine/parallel/run_context.h"
 #include "engine/parallel/shared_progress.h"
 #include "engine/simplify/level_schedule.h"
+#include "engine/simplify/simplified_root.h"
 #include "terrain/simplify/level.h"
 #include "terrain/simplify/state.h"
 #include "terrain/simplify/tile.h"
 #include "terrain/simplify/tile_options.h"
 
 namespace arete {
-
-/// What the levels leave over: the root of the MT.
-struct SimplifiedRoot {
-  std::vector<VertexId> vertices;
-  std::vector<SurvivingTriangle> triangles;
-  std::uint32_t levels = 0;
-};
 
 /// Runs all levels of a build. `state`, `context` and what they refer to must outlive the Simplifier; it runs
 /// once.
@@ -65,7 +59,7 @@ class Simplifier {
         s_.errors.compact(s_.mesh.compact(s_.thresholds.vertices()));
     }
     context_.report("simplify", 1);
-    return root();
+    return rootOf(s_.mesh, levels_);
   }
 
  private:
@@ -147,20 +141,6 @@ class Simplifier {
     for (std::uint32_t k = 0; k < levels && !context_.cancelled(); ++k)
       progress_->add(together_.levelOf(some, thresholds[k], ++numbers_, {groups_, tiles}));
     return schedule_->advanceTo(thresholds.back());
-  }
-
-  SimplifiedRoot root() const {
-    SimplifiedRoot root;
-    root.levels = levels_;
-    IdArray<VertexId, std::vector<std::uint8_t>> seen(s_.mesh.vertexCount(), std::uint8_t(0));
-    for (const LiveMesh::Triangle& triangle : s_.mesh.triangles) {
-      if (triangle.isDead()) continue;
-      root.triangles.push_back({triangle.recorderId, triangle.corners});
-      for (const VertexId v : triangle.corners) seen[v] = 1;
-    }
-    for (std::uint32_t v = 0; v < seen.size(); ++v)
-      if (seen[VertexId(v)] != 0) root.vertices.push_back(VertexId(v));
-    return root;
   }
 
   SimplifyState<Plan, Errors>& s_;
