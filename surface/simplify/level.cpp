@@ -98,35 +98,17 @@ void SurfaceLevels::claim() {
 
 void SurfaceLevels::remove(MtRecorder::BatchOrder order) {
   linkSizes_.resize(chosen_.size());
-  isOpen_.resize(chosen_.size());
   for (std::size_t i = 0; i < chosen_.size(); ++i) linkSizes_[i] = s_.records[chosen_[i]].linkSize;
-  const RemovalId first = s_.recorder.beginBatch(order, linkSizes_);
-  const auto removal = [&](std::size_t i) {
-    return RemovalId(first.index() + static_cast<std::uint32_t>(i));
-  };
-  const auto slotOf = [&](std::size_t i) {
-    return s_.recorder.firstSlot(removal(i)) - s_.recorder.firstSlot(first);
-  };
-  const auto seamsOf = [&](std::size_t i) {
-    return std::span(seams_).subspan(slotOf(i), slotOf(i + 1) - slotOf(i));
-  };
-  seams_.resize(slotOf(chosen_.size()));
-  s_.starLabels.resize(s_.recorder.firstSlot(removal(chosen_.size())));
+  batch_.begin(order, linkSizes_);
+  s_.starLabels.resize(s_.recorder.firstSlot(batch_.removal(chosen_.size())));
   PerThread<SurfaceRemover> removers([&] { return SurfaceRemover(s_); });
   forRanges(LoopThreads::all, chosen_.size(), shareOf(chosen_.size(), 64),
             [&](std::size_t begin, std::size_t end) {
               SurfaceRemover& remover = removers.local();
               for (std::size_t i = begin; i != end; ++i)
-                isOpen_[i] = remover.remove(chosen_[i], removal(i), seamsOf(i));
+                batch_.setOpen(i, remover.remove(chosen_[i], batch_.removal(i), batch_.seams(i)));
             });
-  forRanges(LoopThreads::all, seams_.size(), 2048, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i != end; ++i)
-      sew(s_.mesh, seams_[i], first, [&](RemovalId r) { return seamsOf(r.index() - first.index()); });
-  });
-  s_.thresholds.remove(chosen_, LoopThreads::all);
-  std::size_t dead = 0;
-  for (const std::uint8_t isOpen : isOpen_) dead += Star::slotsLeftDead(isOpen != 0);
-  s_.liveTriangles -= dead;
+  batch_.end(chosen_);
 }
 
 }  // namespace arete

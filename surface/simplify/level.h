@@ -8,6 +8,7 @@
 
 #include "engine/parallel/parallel_filter.h"
 #include "engine/simplify/independent_set.h"
+#include "engine/simplify/removal_batch.h"
 #include "surface/simplify/state.h"
 
 namespace arete {
@@ -17,7 +18,10 @@ namespace arete {
 /// chosen vertices claim the edges that their fans will make, since two holes may ask for the same one.
 class SurfaceLevels {
  public:
-  explicit SurfaceLevels(SurfaceState& state) : s_(state), set_(state.mesh, state.records) {}
+  explicit SurfaceLevels(SurfaceState& state)
+      : s_(state),
+        set_(state.mesh, state.records),
+        batch_(state.mesh, state.recorder, state.thresholds, state.liveTriangles, nullptr) {}
 
   /// @param number of the level; different for all levels.
   /// @return how many vertices were removed.
@@ -30,10 +34,10 @@ class SurfaceLevels {
 
   SurfaceState& s_;
   IndependentSet set_;
+  RemovalBatch batch_;
   ParallelFilter<VertexId> filter_;
   std::vector<VertexId> due_, chosen_;
-  std::vector<std::uint8_t> linkSizes_, isOpen_;
-  std::vector<Seam> seams_;
+  std::vector<std::uint8_t> linkSizes_;
   std::unordered_set<std::uint64_t> claimed_;  // edges, of a level
 };
 

@@ -8,7 +8,7 @@
 //             Those that cost at most the threshold are the candidates.
 //   choose    Take an independent set of the candidates, in the order of their costs (independent_set.h).
 //   remove    Rewrite each chosen star, record the modification, update the records of the link (removal.h).
-//   sew       Join the new triangles to their neighbours (batch.h).
+//   sew       Join the new triangles to their neighbours (engine/simplify/removal_batch.h).
 #pragma once
 
 #include <algorithm>
@@ -21,13 +21,14 @@
 #include "engine/parallel/parallel_filter.h"
 #include "engine/parallel/stage_clock.h"
 #include "engine/simplify/independent_set.h"
-#include "terrain/simplify/batch.h"
+#include "engine/simplify/removal_batch.h"
 #include "terrain/simplify/cost.h"
 #include "terrain/simplify/evaluation_prefetch.h"
 #include "terrain/simplify/floor_cache.h"
 #include "terrain/simplify/measured_floor.h"
 #include "terrain/simplify/removal.h"
 #include "terrain/simplify/state.h"
+#include "terrain/triangulation/rim.h"
 
 namespace arete {
 
@@ -39,7 +40,11 @@ class LevelWorkers {
 
   /// `clock` may be null.
   LevelWorkers(State& state, StageClock* clock)
-      : s_(state), cost_(state), set_(state.mesh, state.records), batch_(state, clock), clock_(clock) {}
+      : s_(state),
+        cost_(state),
+        set_(state.mesh, state.records),
+        batch_(state.mesh, state.recorder, state.thresholds, state.liveTriangles, clock),
+        clock_(clock) {}
 
   /// A level of all vertices that may be removed.
   /// @param number of the level; different for all levels of a vertex.
@@ -71,6 +76,7 @@ class LevelWorkers {
     if (chosen_.empty()) return 0;
     remove(order);
     batch_.end(chosen_);
+    if (s_.rim != nullptr) closeVoids();
     return chosen_.size();
   }
 
@@ -154,6 +160,11 @@ class LevelWorkers {
     });
   }
 
+  void closeVoids() {
+    for (std::size_t i = 0; i < chosen_.size(); ++i)
+      if (batch_.isOpen(i)) Rim::closeVoid(s_.mesh, batch_.seams(i).back().movedTo);
+  }
+
   /// The grain of a parallel loop over `size` vertices, at most `most`: late levels have few vertices with
   /// wide holes, which all threads share.
   static std::size_t shareOf(std::size_t size, std::size_t most) {
@@ -166,7 +177,7 @@ class LevelWorkers {
   RemovalCost<Plan, Errors> cost_;
   FloorCache floors_;
   IndependentSet set_;
-  RemovalBatch<Plan, Errors> batch_;
+  RemovalBatch batch_;
   StageClock* clock_;
 
   ParallelFilter<VertexId> filter_;

@@ -18,7 +18,7 @@
 namespace arete {
 
 /// The data that all steps of a simplification share. Different threads may work on different stars at once;
-/// simplify.h and batch.h say on which.
+/// simplify.h and engine/simplify/removal_batch.h say on which.
 ///
 /// Plan: LatticePlan or PointPlan. Errors: RasterError or PointError, with the interface:
 ///   Hole hole(star, apex)                        the hole that the removal of apex leaves

@@ -6,85 +6,24 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
-#include <random>
 #include <set>
-#include <utility>
 #include <vector>
 
+#include "engine/grid_meshes.h"
 #include "engine/ids_of.h"
 
 namespace arete {
 namespace {
 
 using test::after;
+using test::edgesOf;
+using test::expectConsistent;
+using test::fan;
 using test::idsBelow;
-
-using Edge = std::pair<VertexId, VertexId>;
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
-
-/// A grid of squares, each split by one of its diagonals; some squares are left out.
-Triangles someTriangles(std::uint32_t columns, std::uint32_t rows, unsigned holes, unsigned seed) {
-  std::mt19937 random(seed);
-  Triangles triangles;
-  for (std::uint32_t row = 0; row + 1 < rows; ++row)
-    for (std::uint32_t column = 0; column + 1 < columns; ++column) {
-      if (random() % 100 < holes) continue;
-      const std::uint32_t ul = row * columns + column, ur = ul + 1, ll = ul + columns, lr = ll + 1;
-      if (random() % 2 == 0) {
-        triangles.push_back({ul, ur, lr});
-        triangles.push_back({ul, lr, ll});
-      } else {
-        triangles.push_back({ul, ur, ll});
-        triangles.push_back({ur, lr, ll});
-      }
-    }
-  std::shuffle(triangles.begin(), triangles.end(), random);
-  return triangles;
-}
-
-/// By directed edge: the slot of the live triangle on its left.
-std::map<Edge, SlotId> edgesOf(const LiveMesh& mesh) {
-  std::map<Edge, SlotId> edges;
-  for (const SlotId t : idsBelow<SlotId>(mesh.triangles.size())) {
-    if (mesh.triangles[t].isDead()) continue;
-    const auto& c = mesh.triangles[t].corners;
-    for (int i = 0; i < 3; ++i) EXPECT_TRUE(edges.insert({{c[i], c[(i + 1) % 3]}, t}).second);
-  }
-  return edges;
-}
-
-/// Every twin is the reverse edge of the neighbour; every vertex refers to a half-edge that leaves it, and to
-/// one of its border half-edges if it has any.
-void expectConsistent(const LiveMesh& mesh) {
-  const auto edges = edgesOf(mesh);
-  std::set<VertexId> used, onBorder;
-  for (const auto& [edge, t] : edges) {
-    used.insert(edge.first);
-    for (std::uint32_t side = 0; side < 3; ++side) {
-      const HalfedgeId h = LiveMesh::halfedge(t, side);
-      if (mesh.origin(h) != edge.first) continue;
-      ASSERT_EQ(mesh.origin(LiveMesh::nextInTriangle(h)), edge.second);
-      ASSERT_EQ(LiveMesh::previousInTriangle(LiveMesh::nextInTriangle(h)), h);
-      const auto reverse = edges.find({edge.second, edge.first});
-      ASSERT_EQ(mesh.twinOf(h).isValid(), reverse != edges.end());
-      if (reverse == edges.end()) {
-        onBorder.insert(edge.first);
-        continue;
-      }
-      ASSERT_EQ(LiveMesh::slotOf(mesh.twinOf(h)), reverse->second);
-      ASSERT_EQ(mesh.origin(mesh.twinOf(h)), edge.second);
-    }
-  }
-  for (const VertexId v : idsBelow<VertexId>(mesh.vertexCount())) {
-    ASSERT_EQ(mesh.isInTriangle(v), used.contains(v)) << v.index();
-    if (!mesh.isInTriangle(v)) continue;
-    const HalfedgeId h = mesh.vertexHalfedge[v];
-    ASSERT_EQ(mesh.origin(h), v);
-    ASSERT_EQ(mesh.twinOf(h).isValid(), !onBorder.contains(v)) << v.index();
-  }
-}
+using test::someIndependent;
+using test::someTriangles;
+using test::Triangles;
 
 TEST(LiveMesh, FindsTwinsAndBordersAsASearchThroughAllTrianglesDoes) {
   for (const unsigned holes : {0u, 10u, 50u})
@@ -142,39 +81,6 @@ TEST(LiveMesh, GathersTheStarOfEveryVertexThatIsNotPinched) {
   }
 }
 
-/// A fan from the first corner: any triangulation will do, as nothing here depends on coordinates.
-HoleTriangulation fan(int corners) {
-  HoleTriangulation floor;
-  for (int m = 1; m + 1 < corners; ++m) floor.add(0, m, m + 1);
-  return floor;
-}
-
-/// Vertices whose stars share no triangle, in the interior of the grid.
-std::vector<VertexId> someIndependent(const LiveMesh& mesh, std::uint32_t columns, unsigned seed) {
-  std::mt19937 random(seed);
-  const auto all = idsBelow<VertexId>(mesh.vertexCount());
-  std::vector<VertexId> order(all.begin(), all.end());
-  std::shuffle(order.begin(), order.end(), random);
-  std::set<VertexId> blocked;
-  std::vector<VertexId> chosen;
-  Star star;
-  for (const VertexId v : order) {
-    const std::uint32_t column = v.index() % columns;
-    if (column == 0 || column + 1 == columns || blocked.contains(v)) continue;
-    if (!star.gather(mesh, v, kMaxHoleCorners) || star.isOpen || star.linkSize < 3) continue;
-    const auto edges = edgesOf(mesh);
-    bool isFree = true;  // a fan must not repeat an edge that exists elsewhere
-    for (int m = 2; m + 1 < star.linkSize; ++m)
-      isFree = isFree && !edges.contains({star.link[0], star.link[m]}) &&
-               !edges.contains({star.link[m], star.link[0]});
-    if (!isFree) continue;
-    chosen.push_back(v);
-    for (const VertexId u : star.linkView()) blocked.insert(u);
-    if (chosen.size() == 6) break;
-  }
-  return chosen;
-}
-
 TEST(LiveMesh, IsConsistentAfterABatchOfRemovalsHoweverItIsSewn) {
   for (const bool isBatch : {false, true})
     for (const unsigned seed : {1u, 2u, 3u, 4u}) {
@@ -182,7 +88,7 @@ TEST(LiveMesh, IsConsistentAfterABatchOfRemovalsHoweverItIsSewn) {
       std::vector<VertexId> pinched;
       LiveMesh mesh = LiveMesh::fromTriangles(someTriangles(12, 8, 0, seed), 12 * 8, pinched);
       const std::size_t before = mesh.triangles.size();
-      const std::vector<VertexId> chosen = someIndependent(mesh, 12, seed);
+      const std::vector<VertexId> chosen = someIndependent(mesh, false, 6, seed);
       ASSERT_GE(chosen.size(), 2u);
       const RemovalId first(7);
       std::vector<std::vector<Seam>> seams(chosen.size());
