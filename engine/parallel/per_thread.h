@@ -6,8 +6,8 @@
 
 namespace arete {
 
-/// A value for each thread that asks for one: local() is the caller's, made when it is first asked for.
-/// Iterating visits all, in no certain order.
+/// A value for each thread that uses one: local() is the caller's, made at its first use. Iterating visits
+/// all, in no certain order.
 template <class Value>
 using PerThread = tbb::enumerable_thread_specific<Value>;
 
