@@ -192,7 +192,7 @@ std::vector<std::string> DemArguments::files() const {
 }
 
 void DemArguments::addTo(CLI::App& command) {
-  const std::string group = "Reading the DEM";
+  const std::string group = kGroup;
   command.add_option("--band", reading.band, "Band of a raster (default: the first)")
       ->check(wholeNumber(1, 65535))
       ->type_name("N")

@@ -57,6 +57,8 @@ Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model);
 
 /// The options of every command that reads a DEM.
 struct DemArguments {
+  static constexpr const char* kGroup = "Reading the DEM";  ///< of the options in the help
+
   std::string path;
   SourceReading reading;
 

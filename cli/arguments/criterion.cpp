@@ -36,7 +36,7 @@ CLI::Validator triangleBudgets() {
       "");
 }
 
-void CriterionArguments::addTo(CLI::App& command) {
+void CriterionArguments::addTo(CLI::App& command, OptionKinds& kinds) {
   CLI::Option* errors =
       command
           .add_option(
@@ -61,13 +61,16 @@ void CriterionArguments::addTo(CLI::App& command) {
       ->check(oneOf({"minimal", "saturated"}))
       ->type_name("NAME");
 
-  command
-      .add_option("--fit", fit_,
-                  "Adjust the heights of the vertices. triangles: about a third fewer triangles within "
-                  "--max-error; error: a smaller error with the same triangles; of a surface rms: move\n"
-                  "vertices to where the mean square distance is small")
-      ->check(oneOf({"triangles", "error", "rms"}))
-      ->type_name("WHAT");
+  const CLI::Option* fit =
+      command
+          .add_option("--fit", fit_,
+                      "Adjust the vertices. Of terrain triangles: about a third fewer triangles within "
+                      "--max-error; error: a smaller error with the same triangles. Of a surface rms: move\n"
+                      "vertices to where the mean square distance is small")
+          ->check(oneOf({"triangles", "error", "rms"}))
+          ->type_name("WHAT");
+  kinds.valuesOf(ModelKind::terrain, fit, {"triangles", "error"});
+  kinds.valuesOf(ModelKind::surface, fit, {"rms"});
 
   const std::string where = "Resolution that varies";
   CLI::Option* region =
@@ -78,27 +81,31 @@ void CriterionArguments::addTo(CLI::App& command) {
                       "a ball x,y,z,r")
           ->type_name("FILE|BOX")
           ->group(where);
-  command
-      .add_option("--region-crs", regionCrs_,
-                  "CRS of the region, where its file has none or a wrong one, or of the box (EPSG:4326, ...)")
-      ->needs(region)
-      ->type_name("CRS")
-      ->group(where);
-  command
-      .add_option("--distance", distance_,
-                  "Metres along the ground by which the region is extended (without a CRS: the DEM's units)")
-      ->check(finiteAbove(0))
-      ->needs(region)
-      ->type_name("D")
-      ->group(where);
-  CLI::Option* focus =
+  kinds.ofTerrain(
+      command
+          .add_option(
+              "--region-crs", regionCrs_,
+              "CRS of the region, where its file has none or a wrong one, or of the box (EPSG:4326, ...)")
+          ->needs(region)
+          ->type_name("CRS")
+          ->group(where));
+  kinds.ofTerrain(
+      command
+          .add_option(
+              "--distance", distance_,
+              "Metres along the ground by which the region is extended (without a CRS: the DEM's units)")
+          ->check(finiteAbove(0))
+          ->needs(region)
+          ->type_name("D")
+          ->group(where));
+  CLI::Option* focus = kinds.ofTerrain(
       command
           .add_option("--focus", focus_,
                       "Place where --max-error holds; the error grows from there by --error-growth")
           ->type_name("X,Y")
           ->group(where)
-          ->excludes(region);
-  CLI::Option* growth =
+          ->excludes(region));
+  CLI::Option* growth = kinds.ofTerrain(
       command
           .add_option(
               "--error-growth", growth_,
@@ -107,7 +114,7 @@ void CriterionArguments::addTo(CLI::App& command) {
           ->check(finiteAtLeast(0))
           ->needs(focus)
           ->type_name("G")
-          ->group(where);
+          ->group(where));
   focus->needs(growth);
   CLI::Option* camera = command
                             .add_option("--camera", camera_,
@@ -120,13 +127,14 @@ void CriterionArguments::addTo(CLI::App& command) {
                             ->excludes(region)
                             ->excludes(focus)
                             ->excludes(errors);
-  command
-      .add_option(
-          "--look", look_,
-          "Direction of the camera in degrees, clockwise from north and above the horizon (default 0,0)")
-      ->needs(camera)
-      ->type_name("AZIMUTH,PITCH")
-      ->group(where);
+  kinds.ofTerrain(
+      command
+          .add_option(
+              "--look", look_,
+              "Direction of the camera in degrees, clockwise from north and above the horizon (default 0,0)")
+          ->needs(camera)
+          ->type_name("AZIMUTH,PITCH")
+          ->group(where));
   command.add_option("--fov", fieldOfView_, "Vertical field of view of the camera in degrees (default 60)")
       ->check(finiteBetween(0.01, 179))
       ->needs(camera)
@@ -149,22 +157,25 @@ void CriterionArguments::addTo(CLI::App& command) {
       ->check(tolerances())
       ->type_name("E")
       ->group(where);
-  command.add_flag("--lonlat", isLonLat_, "X,Y of --focus and --camera are longitude and latitude")
-      ->group(where);
+  kinds.ofTerrain(
+      command.add_flag("--lonlat", isLonLat_, "X,Y of --focus and --camera are longitude and latitude")
+          ->group(where));
 
   const std::string stop = "Limited time or size";
-  command
-      .add_option("--deadline", deadline_, "Longest time of refinement; the TIN conforms whenever it ends")
-      ->check(finiteAbove(0))
-      ->type_name("MS")
-      ->group(stop);
-  command
-      .add_option("--order", order_,
-                  "Order of refinement under a budget or deadline: worst (default), breadth, depth, or "
-                  "two-queues (what the camera sees first)")
-      ->check(oneOf({"worst", "breadth", "depth", "two-queues"}))
-      ->type_name("NAME")
-      ->group(stop);
+  kinds.ofTerrain(command
+                      .add_option("--deadline", deadline_,
+                                  "Longest time of refinement; the TIN conforms whenever it ends")
+                      ->check(finiteAbove(0))
+                      ->type_name("MS")
+                      ->group(stop));
+  kinds.ofTerrain(
+      command
+          .add_option("--order", order_,
+                      "Order of refinement under a budget or deadline: worst (default), breadth, depth, or "
+                      "two-queues (what the camera sees first)")
+          ->check(oneOf({"worst", "breadth", "depth", "two-queues"}))
+          ->type_name("NAME")
+          ->group(stop));
 }
 
 Status CriterionArguments::check() const {
@@ -184,18 +195,7 @@ Status CriterionArguments::check() const {
   return checkFit();
 }
 
-Result<CriterionArguments::OfSurface> CriterionArguments::ofSurface() const {
-  const auto refuse = [](const char* option) {
-    return failure(ErrorCode::usage, "is for terrain, and the file is of a surface", option);
-  };
-  if (!regionCrs_.empty()) return refuse("--region-crs");
-  if (distance_ > 0) return refuse("--distance");
-  if (!focus_.empty()) return refuse("--focus");
-  if (!look_.empty()) return refuse("--look");
-  if (isLonLat_) return refuse("--lonlat");
-  if (deadline_ > 0) return refuse("--deadline");
-  if (fit_ != "none" && fit_ != "rms") return refuse("--fit");
-  if (order_ != "worst") return refuse("--order");
+CriterionArguments::OfSurface CriterionArguments::ofSurface() const {
   OfSurface asked;
   asked.isFitted = fit_ == "rms";
   asked.maxErrors = maxErrors_;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/arguments/option_kinds.h"
 #include "engine/base/result.h"
 #include "io/query/extract/criterion.h"
 #include "io/query/extract/region_argument.h"
@@ -30,7 +31,7 @@ CLI::Validator triangleBudgets();
 /// The options that set the resolution of a TIN: everywhere, in a region, around a place or in a camera's
 /// view, under a budget or a deadline.
 struct CriterionArguments {
-  void addTo(CLI::App& command);
+  void addTo(CLI::App& command, OptionKinds& kinds);
 
   /// Checks what does not depend on the model: options that contradict each other or have no effect. Errors:
   /// usage.
@@ -52,7 +53,7 @@ struct CriterionArguments {
   /// Precondition: check(). Errors: usage, naming the option; invalidData: no terrain below the camera.
   Result<std::vector<OfTerrain>> criteria(const TerrainModel& model) const;
 
-  /// What a surface can be cut by. Errors: usage, naming an option that is stated and is for terrain.
+  /// What a surface can be cut by.
   struct OfSurface {
     std::string maxErrors;     ///< empty: not stated
     std::string maxTriangles;  ///< empty: not stated
@@ -64,15 +65,14 @@ struct CriterionArguments {
     std::optional<double> pixelError, fieldOfView;
     bool isFitted = false;  ///< --fit rms
   };
-  Result<OfSurface> ofSurface() const;
+  /// Precondition: no option is stated that is for terrain.
+  OfSurface ofSurface() const;
 
   const std::string& region() const { return region_; }
   RegionText regionText() const { return {region_, distance_, regionCrs_}; }
   bool hasDeadline() const { return deadline_ > 0; }
   /// Whether an error or a number of triangles is stated in percent of the whole.
   bool statesShares() const;
-  /// Whether it states what terrain does not have.
-  bool isForSurfaces() const { return fit_ == "rms"; }
 
  private:
   bool hasBudget() const { return !maxTriangles_.empty(); }

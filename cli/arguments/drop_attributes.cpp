@@ -28,10 +28,10 @@ bool hasSeveralValues(const Attribute& attribute) {
 
 }  // namespace
 
-void addDropAttributesTo(CLI::App& command, std::vector<std::string>& names, const std::string& ofWhat) {
-  command
+CLI::Option* addDropAttributesTo(CLI::App& command, std::vector<std::string>& names) {
+  return command
       .add_option("--drop-attributes", names,
-                  ofWhat + "attributes to leave out, by their names, and objects, groups, materials")
+                  "Attributes to leave out, by their names, and objects, groups, materials")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAME[,NAME]");

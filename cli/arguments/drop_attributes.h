@@ -10,7 +10,7 @@
 namespace arete {
 
 /// The option --drop-attributes NAME[,NAME].
-void addDropAttributesTo(CLI::App& command, std::vector<std::string>& names, const std::string& ofWhat);
+CLI::Option* addDropAttributesTo(CLI::App& command, std::vector<std::string>& names);
 
 /// dropAttributes(), whose errors name the option and the name.
 Status dropNamed(SurfaceMesh& mesh, const std::vector<std::string>& names);

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -20,6 +19,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/drop_attributes.h"
+#include "cli/arguments/option_kinds.h"
 #include "cli/commands/build_source.h"
 #include "cli/surface/build.h"
 #include "cli/surface/convert.h"
@@ -55,6 +55,7 @@ struct BuildArguments {
   bool keepsBorders = false, isDisplaced = false;
   const CLI::App* command = nullptr;
   std::vector<std::string> dropAttributes;
+  OptionKinds kinds;
 };
 
 /// What a build needs at the least; rough terrain takes up to twice as much (terrain/builder/build.h).
@@ -198,27 +199,10 @@ Status buildFrom(BuildArguments& arguments, const FixedVertexOptions& fixedChoic
   return {};
 }
 
-/// The first option stated that is not among those named; empty if none is.
-std::string otherOption(const CLI::App& command, std::initializer_list<std::string_view> names) {
-  for (const CLI::Option* option : command.get_options())
-    if (option->count() > 0 && !option->get_lnames().empty() &&
-        std::ranges::find(names, option->get_lnames().front()) == names.end())
-      return "--" + option->get_lnames().front();
-  return {};
-}
-
 Status runSurfaceBuild(const BuildArguments& arguments, MeshInput input, double secondsToRead,
                        Session& session) {
-  if (const std::string other =
-          otherOption(*arguments.command,
-                      {"output", "as", "ratio", "max-degree", "keep-borders", "packed", "position-bits",
-                       "displacement", "drop-attributes", "json", "quiet", "threads"});
-      !other.empty())
-    return failure(ErrorCode::usage,
-                   fmt::format("is for terrain, and {} is a surface (--as terrain takes its vertices as "
-                               "samples of a terrain)",
-                               arguments.dem.path),
-                   other);
+  ARETE_CHECK(arguments.kinds.refuseOther(ModelKind::surface,
+                                          "--as terrain takes its vertices as samples of a terrain"));
   SurfaceBuildArguments surface{arguments.dem.path, arguments.output, {}};
   surface.options.build.keepsBorders = arguments.keepsBorders;
   surface.isPacked = arguments.isPacked;
@@ -252,13 +236,7 @@ Status runBuild(BuildArguments& arguments, Session& session) {
     if (input && !input->file.mesh.triangles.empty())
       return runSurfaceBuild(arguments, std::move(*input), reading.seconds(), session);
   }
-  for (const auto& [option, isStated] : {std::pair{"--keep-borders", arguments.keepsBorders},
-                                         std::pair{"--position-bits", arguments.positionBits != 0},
-                                         std::pair{"--displacement", arguments.isDisplaced},
-                                         std::pair{"--drop-attributes", !arguments.dropAttributes.empty()}})
-    if (isStated)
-      return failure(ErrorCode::usage, fmt::format("is for surfaces, and {} is terrain", arguments.dem.path),
-                     option);
+  ARETE_CHECK(arguments.kinds.refuseOther(ModelKind::terrain));
   Seconds seconds;
   Stopwatch reading;
   ARETE_TRY(DemRead dem, readSource(arguments.dem, arguments.kind, session));
@@ -311,14 +289,16 @@ void addBuildCommand(CLI::App& app, Session& session) {
   command->add_flag("--packed", arguments->isPacked,
                     "Write the compressed form: a ninth to a fifteenth of the size (of a surface a fifth);\n"
                     "it is unpacked when read");
-  addPositionBitsTo(*command, arguments->positionBits);
-  addDropAttributesTo(*command, arguments->dropAttributes, "Of a surface: ");
-  command
-      ->add_option(
-          "--shape", arguments->shape,
-          "delaunay: well-shaped triangles (default); fidelity: far fewer triangles at the same error")
-      ->check(oneOf({"delaunay", "fidelity"}))
-      ->type_name("NAME");
+  OptionKinds& kinds = arguments->kinds;
+  kinds.ofSurfaces(addPositionBitsTo(*command, arguments->positionBits));
+  kinds.ofSurfaces(addDropAttributesTo(*command, arguments->dropAttributes));
+  kinds.ofTerrain(
+      command
+          ->add_option(
+              "--shape", arguments->shape,
+              "delaunay: well-shaped triangles (default); fidelity: far fewer triangles at the same error")
+          ->check(oneOf({"delaunay", "fidelity"}))
+          ->type_name("NAME"));
   command
       ->add_option("--ratio", arguments->options.thresholdRatio,
                    "Growth of the error threshold from the first level to the second; it decreases as\n"
@@ -330,53 +310,60 @@ void addBuildCommand(CLI::App& app, Session& session) {
                    "Largest number of neighbours of a vertex that is removed (default 14)")
       ->check(wholeNumber(6, 32))
       ->type_name("D");
-  command
-      ->add_option("--min-aspect", arguments->minimumAspect,
-                   "For fidelity: smallest ratio of a triangle's altitude to its longest edge (default 0.02)")
-      ->check(finiteAtLeast(0))
-      ->type_name("A");
-  command
-      ->add_option("--rim-tolerance", arguments->options.rimTolerance,
-                   "Distance in samples by which rims of NODATA may be simplified (default 0: exact)")
-      ->check(finiteAtLeast(0))
-      ->type_name("SAMPLES");
+  kinds.ofTerrain(
+      command
+          ->add_option(
+              "--min-aspect", arguments->minimumAspect,
+              "For fidelity: smallest ratio of a triangle's altitude to its longest edge (default 0.02)")
+          ->check(finiteAtLeast(0))
+          ->type_name("A"));
+  kinds.ofTerrain(
+      command
+          ->add_option("--rim-tolerance", arguments->options.rimTolerance,
+                       "Distance in samples by which rims of NODATA may be simplified (default 0: exact)")
+          ->check(finiteAtLeast(0))
+          ->type_name("SAMPLES"));
   const std::string keeping = "Vertices kept at every tolerance";
-  CLI::Option* count = command
-                           ->add_option("--features", arguments->featureCount,
-                                        "Number of the most persistent peaks, pits and passes (default 64)")
-                           ->check(wholeNumber(0, 100'000'000))
-                           ->type_name("N")
-                           ->group(keeping);
-  CLI::Option* persistence = command
-                                 ->add_option("--feature-persistence", arguments->featurePersistence,
-                                              "All peaks, pits and passes of at least this persistence, or "
-                                              "P% of the relief")
-                                 ->check(shareOrTolerance(false))
-                                 ->type_name("P")
-                                 ->group(keeping);
-  CLI::Option* none =
-      command->add_flag("--no-features", arguments->noFeatures, "No peaks, pits and passes")->group(keeping);
+  CLI::Option* count =
+      kinds.ofTerrain(command
+                          ->add_option("--features", arguments->featureCount,
+                                       "Number of the most persistent peaks, pits and passes (default 64)")
+                          ->check(wholeNumber(0, 100'000'000))
+                          ->type_name("N")
+                          ->group(keeping));
+  CLI::Option* persistence =
+      kinds.ofTerrain(command
+                          ->add_option("--feature-persistence", arguments->featurePersistence,
+                                       "All peaks, pits and passes of at least this persistence, or "
+                                       "P% of the relief")
+                          ->check(shareOrTolerance(false))
+                          ->type_name("P")
+                          ->group(keeping));
+  CLI::Option* none = kinds.ofTerrain(
+      command->add_flag("--no-features", arguments->noFeatures, "No peaks, pits and passes")->group(keeping));
   count->excludes(persistence)->excludes(none);
   persistence->excludes(none);
-  command
-      ->add_option("--fixed", arguments->fixedPath,
-                   "Points (GeoPackage, CSV, ...): the sample nearest to each is kept")
-      ->type_name("FILE")
-      ->group(keeping);
-  command
-      ->add_option("--crease-angle", arguments->creaseAngleDegrees,
-                   "Vertices on creases sharper than this (classes corner and interior edge)")
-      ->check(finiteBetween(0, 180))
-      ->type_name("DEGREES")
-      ->group(keeping);
-  command
-      ->add_flag("--keep-borders", arguments->keepsBorders,
-                 "Of a surface: all border vertices, so that parts meet at every tolerance")
-      ->group(keeping);
-  command->add_flag("--displacement", arguments->isDisplaced,
-                    "Of a surface: also find where coarse cuts are drawn nearer to it, at the same errors\n"
-                    "(8 bytes a vertex more, packed 4)");
+  kinds.ofTerrain(command
+                      ->add_option("--fixed", arguments->fixedPath,
+                                   "Points (GeoPackage, CSV, ...): the sample nearest to each is kept")
+                      ->type_name("FILE")
+                      ->group(keeping));
+  kinds.ofTerrain(command
+                      ->add_option("--crease-angle", arguments->creaseAngleDegrees,
+                                   "Vertices on creases sharper than this (classes corner and interior edge)")
+                      ->check(finiteBetween(0, 180))
+                      ->type_name("DEGREES")
+                      ->group(keeping));
+  kinds.ofSurfaces(command
+                       ->add_flag("--keep-borders", arguments->keepsBorders,
+                                  "All border vertices, so that parts meet at every tolerance")
+                       ->group(keeping));
+  kinds.ofSurfaces(
+      command->add_flag("--displacement", arguments->isDisplaced,
+                        "Also find where coarse cuts are drawn nearer to it, at the same errors\n"
+                        "(8 bytes a vertex more, packed 4)"));
   arguments->dem.addTo(*command);
+  kinds.groupOfTerrain(*command, DemArguments::kGroup);
   arguments->command = command;
 }
 

@@ -14,6 +14,7 @@
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/drop_attributes.h"
 #include "cli/arguments/mesh_options.h"
+#include "cli/arguments/option_kinds.h"
 #include "cli/surface/convert.h"
 #include "io/files/text_scan.h"
 #include "io/formats/exchange/convert.h"
@@ -32,6 +33,7 @@ struct ConvertArguments {
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   MeshPlacing placing;
   std::vector<std::string> dropAttributes;
+  OptionKinds kinds;
 };
 
 bool isAmt(const std::string& path) {
@@ -58,11 +60,9 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
                    arguments.placing.unit.empty() ? "--up" : "--unit");
   ARETE_CHECK(checkOutput("--output", output, {arguments.input}));
   ARETE_TRY(AmtContainer file, openModelFile(arguments.input));
+  ARETE_CHECK(arguments.kinds.refuseOther(kindOf(file)));
   if (file.isOfSurface())
     return convertSurfaceFile({output, arguments.isPacked, arguments.positionBits}, file, session);
-  if (arguments.positionBits != 0)
-    return failure(ErrorCode::usage, fmt::format("is for surfaces, and {} is terrain", arguments.input),
-                   "--position-bits");
   ARETE_TRY(const AmtFile terrain, openAmt(std::move(file)));
   ARETE_TRY(const TerrainModel model, terrain.read({}, session.context()));
   const AmtWriteOptions options{.isPacked = arguments.isPacked};
@@ -128,12 +128,12 @@ void addConvertCommand(CLI::App& app, Session& session) {
   addOverwriteTo(*command, arguments->existing);
   command->add_flag("--packed", arguments->isPacked,
                     "Write an .amt in the compressed form (default: the plain one)");
-  addPositionBitsTo(*command, arguments->positionBits);
+  arguments->kinds.ofSurfaces(addPositionBitsTo(*command, arguments->positionBits));
   command
       ->add_option("--crs", arguments->crs,
                    "CRS of the coordinates, where the file has none; nothing is reprojected")
       ->type_name("CRS");
-  addDropAttributesTo(*command, arguments->dropAttributes, "");
+  addDropAttributesTo(*command, arguments->dropAttributes);
   addPlacingTo(*command, arguments->placing);
 }
 

@@ -19,6 +19,7 @@
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/criterion.h"
 #include "cli/arguments/drop_attributes.h"
+#include "cli/arguments/option_kinds.h"
 #include "cli/commands/check_command.h"
 #include "cli/session/model_file.h"
 #include "cli/surface/extract.h"
@@ -60,6 +61,7 @@ struct ExtractArguments {
   bool isBothWays = false, isUndisplaced = false;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   CLI::Option* certificateOption = nullptr;
+  OptionKinds kinds;
 };
 
 std::string certificateBeside(const std::string& output) {
@@ -264,14 +266,10 @@ void warnOfMapMetres(const std::vector<ExtractRequest>& requests, const TerrainM
 }
 
 Status runSurfaceExtract(const ExtractArguments& arguments, const AmtContainer& file, Session& session) {
-  ARETE_TRY(const auto asked, arguments.criterion.ofSurface());
-  for (const auto& [option, isStated] : {std::pair{"--certificate", arguments.certificateOption->count() > 0},
-                                         std::pair{"--error-raster", !arguments.errorRaster.empty()}})
-    if (isStated) return failure(ErrorCode::usage, "is for terrain, and the file is of a surface", option);
   return extractSurface({.model = arguments.model,
                          .output = arguments.output.open(session),
                          .format = arguments.output.format,
-                         .asked = asked,
+                         .asked = arguments.criterion.ofSurface(),
                          .map = arguments.map,
                          .dropParts = arguments.dropParts,
                          .dropAttributes = arguments.dropAttributes,
@@ -284,15 +282,8 @@ Status runSurfaceExtract(const ExtractArguments& arguments, const AmtContainer& 
 Status runExtract(const ExtractArguments& arguments, Session& session) {
   ARETE_CHECK(arguments.criterion.check());
   ARETE_TRY(AmtContainer container, openModelFile(arguments.model));
+  ARETE_CHECK(arguments.kinds.refuseOther(kindOf(container)));
   if (container.isOfSurface()) return runSurfaceExtract(arguments, container, session);
-  for (const auto& [option, isStated] :
-       {std::pair{"--map", !arguments.map.empty()}, std::pair{"--drop-parts", !arguments.dropParts.empty()},
-        std::pair{"--drop-attributes", !arguments.dropAttributes.empty()},
-        std::pair{"--both-ways", arguments.isBothWays},
-        std::pair{"--no-displacement", arguments.isUndisplaced}})
-    if (isStated) return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", option);
-  if (arguments.criterion.isForSurfaces())
-    return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", "--fit rms");
   ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
   // The relief is that of all samples.
   const bool statesShares = arguments.criterion.statesShares();
@@ -363,36 +354,38 @@ void addExtractCommand(CLI::App& app, Session& session) {
       ", or .tif (the TIN sampled on the source grid). {} in the name becomes the tolerance; "
       "with several tolerances and no {}, _E is put before the extension");
   addOverwriteTo(*command, arguments->existing);
-  arguments->criterion.addTo(*command);
-  arguments->certificateOption =
+  OptionKinds& kinds = arguments->kinds;
+  arguments->criterion.addTo(*command, kinds);
+  arguments->certificateOption = kinds.ofTerrain(
       command
           ->add_option("--certificate", arguments->certificate,
                        "Measure the TIN and write a certificate as JSON: promised error, measured error, and "
                        "how to check them (default: the output's name with .certificate.json)")
           ->expected(0, 1)
           ->check(notTheModel())
-          ->type_name("[FILE]");
-  command
-      ->add_option("--error-raster", arguments->errorRaster,
-                   "GeoTIFF to write on the source grid: TIN height minus DEM height")
-      ->type_name("FILE");
-  command
-      ->add_option("--map", arguments->map,
-                   "Of a surface: CSV to write, with the input vertex of each output vertex and the output\n"
-                   "face of each input face, all from 0")
-      ->type_name("FILE");
-  command
-      ->add_option(
-          "--drop-parts", arguments->dropParts,
-          "Of a surface: leave out the components whose box has a diagonal below D, in the file's unit "
-          "or in % of the whole diagonal")
-      ->type_name("D");
-  addDropAttributesTo(*command, arguments->dropAttributes, "Of a surface: ");
-  command->add_flag("--both-ways", arguments->isBothWays,
-                    "Of a surface: also measure how far the result is from the source");
-  command->add_flag(
+          ->type_name("[FILE]"));
+  kinds.ofTerrain(command
+                      ->add_option("--error-raster", arguments->errorRaster,
+                                   "GeoTIFF to write on the source grid: TIN height minus DEM height")
+                      ->type_name("FILE"));
+  kinds.ofSurfaces(
+      command
+          ->add_option("--map", arguments->map,
+                       "CSV to write, with the input vertex of each output vertex and the output\n"
+                       "face of each input face, all from 0")
+          ->type_name("FILE"));
+  kinds.ofSurfaces(
+      command
+          ->add_option("--drop-parts", arguments->dropParts,
+                       "Leave out the components whose box has a diagonal below D, in the file's unit "
+                       "or in % of the whole diagonal")
+          ->type_name("D"));
+  kinds.ofSurfaces(addDropAttributesTo(*command, arguments->dropAttributes));
+  kinds.ofSurfaces(command->add_flag("--both-ways", arguments->isBothWays,
+                                     "Also measure how far the result is from the source"));
+  kinds.ofSurfaces(command->add_flag(
       "--no-displacement", arguments->isUndisplaced,
-      "Of a surface that was built with --displacement: vertices stay where they are in the source");
+      "Vertices stay where they are in the source, though it was built with --displacement"));
 }
 
 }  // namespace arete

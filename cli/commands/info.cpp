@@ -163,7 +163,8 @@ Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const 
 
 Status runInfo(const InfoArguments& arguments, Session& session) {
   ARETE_TRY(AmtContainer container, openModelFile(arguments.model));
-  if (container.isOfSurface()) return sayAboutSurface(container, arguments.at, session);
+  if (container.isOfSurface())
+    return sayAboutSurface(container, arguments.at, arguments.curvePoints, session);
   ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
   ARETE_TRY(const TerrainModel model, file.read({}, session.context()));
   Facts facts;
@@ -196,12 +197,13 @@ void addInfoCommand(CLI::App& app, Session& session) {
       "  arete info dem.amt --json | jq '.curve'",
       [arguments](Session& s) { return runInfo(*arguments, s); });
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
-  CLI::Option* points =
-      command
-          ->add_option("--curve", arguments->curvePoints,
-                       "Number of steps 1, 2, 5, 10 ... of the curve, from the coarsest (default 12)")
-          ->check(wholeNumber(0, 1000))
-          ->type_name("N");
+  CLI::Option* points = command
+                            ->add_option("--curve", arguments->curvePoints,
+                                         "Number of steps 1, 2, 5, 10 ... of the curve, from the coarsest "
+                                         "(default 12; of a surface at most "
+                                         "12, in % of its diagonal)")
+                            ->check(wholeNumber(0, 1000))
+                            ->type_name("N");
   command
       ->add_option("--at", arguments->at,
                    "Errors at which the curve is computed; E% is a share of the relief, or of a surface's "

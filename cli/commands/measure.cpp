@@ -14,6 +14,7 @@
 #include <variant>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/option_kinds.h"
 #include "cli/commands/measure_meshes.h"
 #include "cli/commands/measure_report_text.h"
 #include "io/files/text/address_text.h"
@@ -41,35 +42,21 @@ struct MeasureArguments {
   std::string region, regionCrs, errorRaster;
   double distance = 0;
   bool allowCoveredNodata = false, isBothWays = false;
-  std::int64_t samples = 0, seed = -1;  // of another mesh; not stated
+  std::int64_t samples = 0, seed = -1;  // not stated
   std::string errorMesh;
+  OptionKinds kinds{"Against a DEM", "Against a mesh"};
 };
 
 /// Refuses options for a DEM that are given with a mesh, and the other way round.
 Status checkKind(const MeasureArguments& arguments, bool isMesh) {
-  const SourceReading& reading = arguments.dem.reading;
-  const auto check = [&](const char* option, bool isGiven, bool isForMesh) -> Status {
-    if (!isGiven || isForMesh == isMesh) return {};
+  const ModelKind kind = isMesh ? ModelKind::surface : ModelKind::terrain;
+  std::optional<std::string> other = arguments.kinds.statedForOther(kind);
+  if (!other && isMesh && !arguments.dem.reading.otherFiles.empty()) other = "more than one file";
+  if (other)
     return failure(ErrorCode::usage,
                    isMesh ? fmt::format("requires a DEM, and {} is a mesh", arguments.dem.path)
                           : fmt::format("requires another mesh, and {} is a DEM", arguments.dem.path),
-                   option);
-  };
-  for (const Status& ok :
-       {check("--region", !arguments.region.empty(), false),
-        check("--error-raster", !arguments.errorRaster.empty(), false),
-        check("--allow-covered-nodata", arguments.allowCoveredNodata, false),
-        check("--band", reading.band.has_value(), false), check("--layer", !reading.layer.empty(), false),
-        check("--z-field", !reading.zField.empty(), false),
-        check("--same-place", !reading.samePlace.empty(), false),
-        check("--nodata", reading.nodata.has_value(), false), check("--crs", !reading.crs.empty(), false),
-        check("--vertical-unit", !reading.verticalUnit.empty(), false),
-        check("--positive", reading.isDepth.has_value(), false),
-        check("more than one file", !reading.otherFiles.empty(), false),
-        check("--both-ways", arguments.isBothWays, true), check("--samples", arguments.samples != 0, true),
-        check("--seed", arguments.seed >= 0, true),
-        check("--error-mesh", !arguments.errorMesh.empty(), true)})
-    if (!ok) return ok;
+                   *other);
   return {};
 }
 
@@ -213,6 +200,7 @@ void addMeasureCommand(CLI::App& app, Session& session) {
       "ways\n"
       "  arete measure small.ply original.obj --error-mesh distances.ply",
       [arguments](Session& s) { return runMeasure(*arguments, s); });
+  OptionKinds& kinds = arguments->kinds;
   command->add_option("TIN", arguments->tin, "Triangle mesh: " + readableMeshExtensions())
       ->required()
       ->type_name("");
@@ -226,53 +214,54 @@ void addMeasureCommand(CLI::App& app, Session& session) {
           "the first. E% is a share of the DEM's relief, or of the second mesh's diagonal")
       ->check(shareOrTolerance())
       ->type_name("E");
-  command->add_flag("--allow-covered-nodata", arguments->allowCoveredNodata,
-                    "Accept covered NODATA (of a build with --rim-tolerance)");
-  CLI::Option* region =
+  kinds.ofTerrain(command->add_flag("--allow-covered-nodata", arguments->allowCoveredNodata,
+                                    "Accept covered NODATA (of a build with --rim-tolerance)"));
+  CLI::Option* region = kinds.ofTerrain(
       command
           ->add_option(
               "--region", arguments->region,
               "Region whose samples are compared: polygons, with --distance lines and points too, or "
               "xmin,ymin,xmax,ymax in the DEM's CRS")
-          ->type_name("FILE|BOX");
-  command
-      ->add_option(
-          "--region-crs", arguments->regionCrs,
-          "CRS of the region, where its file has none or a wrong one, or of the box (EPSG:4326, ...)")
-      ->needs(region)
-      ->type_name("CRS");
-  command
-      ->add_option("--distance", arguments->distance,
-                   "Metres along the ground by which the region is extended (without a CRS: the DEM's units)")
-      ->check(finiteAbove(0))
-      ->needs(region)
-      ->type_name("D");
-  command
-      ->add_option("--error-raster", arguments->errorRaster,
-                   "GeoTIFF to write on the DEM's grid: TIN height minus DEM height")
-      ->type_name("FILE");
-  const std::string group = "Against another mesh";
-  command
-      ->add_flag("--both-ways", arguments->isBothWays,
-                 "--expect of the points of the first mesh too, not of the second's alone")
-      ->group(group);
-  command
-      ->add_option(
-          "--samples", arguments->samples,
-          "Number of samples on each mesh (default: 10 per triangle of the larger, at least 1 000 000)")
-      ->check(wholeNumber(1, 100'000'000'000))
-      ->type_name("N")
-      ->group(group);
-  command->add_option("--seed", arguments->seed, "Seed of the samples (default 1)")
-      ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()))
-      ->type_name("S")
-      ->group(group);
-  command
-      ->add_option("--error-mesh", arguments->errorMesh,
-                   "PLY to write: the first mesh, each vertex with its distance as 'quality' and colour")
-      ->type_name("FILE")
-      ->group(group);
+          ->type_name("FILE|BOX"));
+  kinds.ofTerrain(
+      command
+          ->add_option(
+              "--region-crs", arguments->regionCrs,
+              "CRS of the region, where its file has none or a wrong one, or of the box (EPSG:4326, ...)")
+          ->needs(region)
+          ->type_name("CRS"));
+  kinds.ofTerrain(
+      command
+          ->add_option(
+              "--distance", arguments->distance,
+              "Metres along the ground by which the region is extended (without a CRS: the DEM's units)")
+          ->check(finiteAbove(0))
+          ->needs(region)
+          ->type_name("D"));
+  kinds.ofTerrain(command
+                      ->add_option("--error-raster", arguments->errorRaster,
+                                   "GeoTIFF to write on the DEM's grid: TIN height minus DEM height")
+                      ->type_name("FILE"));
+  kinds.ofSurfaces(
+      command->add_flag("--both-ways", arguments->isBothWays,
+                        "--expect of the points of the first mesh too, not of the second's alone"));
+  kinds.ofSurfaces(
+      command
+          ->add_option(
+              "--samples", arguments->samples,
+              "Number of samples on each mesh (default: 10 per triangle of the larger, at least 1 000 000)")
+          ->check(wholeNumber(1, 100'000'000'000))
+          ->type_name("N"));
+  kinds.ofSurfaces(command->add_option("--seed", arguments->seed, "Seed of the samples (default 1)")
+                       ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()))
+                       ->type_name("S"));
+  kinds.ofSurfaces(
+      command
+          ->add_option("--error-mesh", arguments->errorMesh,
+                       "PLY to write: the first mesh, each vertex with its distance as 'quality' and colour")
+          ->type_name("FILE"));
   arguments->dem.addTo(*command);
+  kinds.groupOfTerrain(*command, DemArguments::kGroup);
 }
 
 }  // namespace arete

@@ -46,12 +46,11 @@ std::string wholeName(const CLI::App& command) {
 
 }  // namespace
 
-ExitCode runProgram(int argc, char** argv) {
-  Session session;
-  CLI::App app{
-      "Arete turns a digital elevation model or a triangle mesh into one multitriangulation and takes meshes "
-      "of any\n"
-      "tolerance from it, with an error that can be measured independently."};
+void declareProgram(CLI::App& app, Session& session) {
+  app.description(
+      "Arete turns a digital elevation model or a triangle mesh into one multitriangulation and
+"
+      "takes meshes of any tolerance from it, with an error that can be measured independently.");
   app.name("arete");
   app.set_version_flag("--version", "arete " ARETE_VERSION);
   app.require_subcommand(1);
@@ -79,6 +78,12 @@ ExitCode runProgram(int argc, char** argv) {
   addMeshCommand(app, session);
   addDemoCommand(app, session);
   addManualCommand(app, session);
+}
+
+ExitCode runProgram(int argc, char** argv) {
+  Session session;
+  CLI::App app;
+  declareProgram(app, session);
 
   if (argc < 2) {
     std::fputs(app.help().c_str(), stderr);

@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/option_kinds.h"
 #include "cli/surface/validate.h"
 #include "engine/base/counted.h"
 #include "engine/laws/law.h"
@@ -27,6 +28,7 @@ struct ValidateArguments {
   std::string model;
   DemArguments source;
   ValidateModelOptions options;
+  OptionKinds kinds;
 };
 
 /// Whether the model claims the law: law 9 holds for the Delaunay shape with exact rims only.
@@ -65,11 +67,9 @@ std::string scopeOf(const Law& law, const ErrorsChecked& checked) {
 
 Status runValidate(const ValidateArguments& arguments, Session& session) {
   ARETE_TRY(AmtContainer container, openModelFile(arguments.model));
-  if (container.isOfSurface()) {
-    if (!arguments.source.path.empty())
-      return failure(ErrorCode::usage, "is for terrain, and the file is of a surface", "--against");
+  ARETE_CHECK(arguments.kinds.refuseOther(kindOf(container)));
+  if (container.isOfSurface())
     return validateSurfaceFile(container, {.everySample = arguments.options.everyTriangle}, session);
-  }
   ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
   ARETE_TRY(const TerrainModel model, file.read({}, session.context()));
   ErrorsChecked checked;
@@ -128,24 +128,32 @@ void addValidateCommand(CLI::App& app, Session& session) {
                                          "  arete validate dem.amt --full --against dem.tif\n"
                                          "  arete validate dem.amt --fronts 100 --seed 7",
                                          [arguments](Session& s) { return runValidate(*arguments, s); });
+  OptionKinds& kinds = arguments->kinds;
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
-  command
-      ->add_option("--fronts", arguments->options.randomFronts,
-                   "Number of random fronts to check, beside the uniform ones (default 8)")
-      ->check(wholeNumber(0, 1'000'000))
-      ->type_name("N");
-  command
-      ->add_option("--seed", arguments->options.seed,
-                   "Seed of the random fronts and of the triangles of law 10 (default 1)")
-      ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()))
-      ->type_name("N");
-  command->add_flag("--full", arguments->options.everyTriangle,
-                    "Check law 10 on every triangle (default: on 65 536 where there are more)");
-  command
-      ->add_option("--against", arguments->source.path,
-                   "DEM that the model was built from: every height is compared")
-      ->type_name("DEM");
+  kinds.ofTerrain(command
+                      ->add_option("--fronts", arguments->options.randomFronts,
+                                   "Number of random fronts to check, beside the uniform ones (default 8)")
+                      ->check(wholeNumber(0, 1'000'000))
+                      ->type_name("N"));
+  kinds.ofTerrain(command
+                      ->add_option("--seed", arguments->options.seed,
+                                   "Seed of the random fronts and of the triangles of law 10 (default 1)")
+                      ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()))
+                      ->type_name("N"));
+  command->add_flag(
+      "--full", arguments->options.everyTriangle,
+      "Check law 10 on every triangle (default: on 65 536 where there are more); of a surface by more\n"
+      "samples");
+  CLI::Option* against =
+      kinds.ofTerrain(command
+                          ->add_option("--against", arguments->source.path,
+                                       "DEM that the model was built from: every height is compared")
+                          ->type_name("DEM"));
   arguments->source.addTo(*command);
+  kinds.groupOfTerrain(*command, DemArguments::kGroup);
+  for (CLI::Option* reading : command->get_options(
+           [](const CLI::Option* option) { return option->get_group() == DemArguments::kGroup; }))
+    reading->needs(against);
 }
 
 }  // namespace arete

@@ -399,7 +399,7 @@ void addMeshDecimateCommand(CLI::App& mesh, Session& session) {
                    "CSV to write: of each output vertex the input's, and of each input face the output's "
                    "that\nstands for it")
       ->type_name("FILE");
-  addDropAttributesTo(*command, arguments->dropAttributes, "");
+  addDropAttributesTo(*command, arguments->dropAttributes);
   addPlacingTo(*command, arguments->placing);
 }
 

@@ -33,11 +33,11 @@ Status convertSurfaceFile(const SurfaceConvertArguments& arguments, const AmtCon
   return {};
 }
 
-void addPositionBitsTo(CLI::App& command, int& positionBits) {
-  command
+CLI::Option* addPositionBitsTo(CLI::App& command, int& positionBits) {
+  return command
       .add_option(
           "--position-bits", positionBits,
-          "Of a packed surface: round coordinates to a grid of at most 2^N steps along its longest side\n"
+          "With --packed: round coordinates to a grid of at most 2^N steps along the longest side\n"
           "(8 to 24); every error grows by twice the largest move (default: vertices stay to the bit)")
       ->check(CLI::Range(8, 24))
       ->type_name("N");

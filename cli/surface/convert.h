@@ -21,6 +21,6 @@ Status convertSurfaceFile(const SurfaceConvertArguments& arguments, const AmtCon
                           Session& session);
 
 /// The option --position-bits of the commands that write packed surfaces; 0: the vertices stay.
-void addPositionBitsTo(CLI::App& command, int& positionBits);
+CLI::Option* addPositionBitsTo(CLI::App& command, int& positionBits);
 
 }  // namespace arete

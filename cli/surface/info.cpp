@@ -23,8 +23,9 @@ struct CurvePoint {
   std::uint64_t minimal, saturated;
 };
 
-/// The errors that are stated, or round shares of the diagonal below that of the root.
-Result<std::vector<double>> errorsOf(const std::string& at, const SurfaceModel& model) {
+/// The errors that are stated, or round shares of the diagonal below that of the root, the largest of them.
+Result<std::vector<double>> errorsOf(const std::string& at, std::size_t mostPoints,
+                                     const SurfaceModel& model) {
   std::vector<double> errors;
   if (!at.empty()) {
     ARETE_TRY(const auto stated, parseSurfaceTolerances("--at", at, model.diagonal));
@@ -34,13 +35,14 @@ Result<std::vector<double>> errorsOf(const std::string& at, const SurfaceModel& 
   for (const double percent : {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0})
     if (const double error = percent / 100 * model.diagonal; error < model.mt.largestError())
       errors.push_back(error);
+  if (errors.size() > mostPoints) errors.erase(errors.begin(), errors.end() - std::ptrdiff_t(mostPoints));
   return errors;
 }
 
 /// Triangles of cuts.
-Result<std::vector<CurvePoint>> curveOf(const std::string& at, const SurfaceModel& model,
-                                        const RunContext& context) {
-  ARETE_TRY(const std::vector<double> errors, errorsOf(at, model));
+Result<std::vector<CurvePoint>> curveOf(const std::string& at, std::size_t mostPoints,
+                                        const SurfaceModel& model, const RunContext& context) {
+  ARETE_TRY(const std::vector<double> errors, errorsOf(at, mostPoints, model));
   std::vector<CurvePoint> curve;
   for (const double error : errors) {
     ARETE_TRY(const Cut cut, takeCut(model.mt, UniformError(error), {}, context));
@@ -51,9 +53,10 @@ Result<std::vector<CurvePoint>> curveOf(const std::string& at, const SurfaceMode
 
 }  // namespace
 
-Status sayAboutSurface(const AmtContainer& file, const std::string& at, Session& session) {
+Status sayAboutSurface(const AmtContainer& file, const std::string& at, std::size_t mostPoints,
+                       Session& session) {
   ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(file, AmtVerify::all, session.context()));
-  ARETE_TRY(const std::vector<CurvePoint> curve, curveOf(at, model, session.context()));
+  ARETE_TRY(const std::vector<CurvePoint> curve, curveOf(at, mostPoints, model, session.context()));
   const MultiTriangulation& mt = model.mt;
   const std::uint64_t bytes = file.bytes().size();
   const MeshAttributes& a = model.attributes;

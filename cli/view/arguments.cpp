@@ -39,7 +39,7 @@ Result<std::pair<double, double>> anglesOfSun(const std::string& sun) {
 
 }  // namespace
 
-void ViewpointArguments::addTo(CLI::App& command) {
+void ViewpointArguments::addTo(CLI::App& command, OptionKinds& kinds) {
   const std::string group = "Viewpoint";
   CLI::Option* place =
       command
@@ -49,25 +49,25 @@ void ViewpointArguments::addTo(CLI::App& command) {
                       "field of view (default 60). Of a surface: the eye, what it looks at, field of view")
           ->type_name("X,Y,H[,AZIMUTH,PITCH[,FOV]] | X,Y,Z,TX,TY,TZ[,FOV]")
           ->group(group);
-  command.add_flag("--lonlat", isLonLat, "X,Y of --camera are longitude and latitude")
-      ->needs(place)
-      ->group(group);
+  kinds.ofTerrain(command.add_flag("--lonlat", isLonLat, "X,Y of --camera are longitude and latitude")
+                      ->needs(place)
+                      ->group(group));
   command.add_option("--home", home, "View of the whole terrain or surface (default overview)")
       ->check(oneOf({"overview", "above", "south", "west", "north", "east"}))
       ->excludes(place)
       ->type_name("NAME")
       ->group(group);
-  CLI::Option* flight =
+  CLI::Option* flight = kinds.ofTerrain(
       command.add_option("--path", path, "Flight through the key frames of a file (docs/topics/flights.md)")
           ->type_name("FLIGHT.json")
-          ->group(group);
+          ->group(group));
   command.add_flag("--round", isRound, "Flight around the inside of the terrain; one turn around a surface")
       ->excludes(flight)
       ->group(group);
-  command.add_option("--up", up, "Axis of a surface that points up (default: as its file says, else z)")
-      ->check(oneOf({"y", "z"}))
-      ->type_name("AXIS")
-      ->group(group);
+  kinds.ofSurfaces(command.add_option("--up", up, "Axis that points up (default: as its file says, else z)")
+                       ->check(oneOf({"y", "z"}))
+                       ->type_name("AXIS")
+                       ->group(group));
 }
 
 HomeView ViewpointArguments::homeView() const {
@@ -76,7 +76,7 @@ HomeView ViewpointArguments::homeView() const {
   return HomeView::overview;
 }
 
-void DetailArguments::addTo(CLI::App& command) {
+void DetailArguments::addTo(CLI::App& command, OptionKinds& kinds) {
   const std::string group = "Detail";
   command.add_option("--pixel-error", pixelError, "Largest error in the picture, in pixels (default 1)")
       ->check(finiteAbove(0))
@@ -89,26 +89,29 @@ void DetailArguments::addTo(CLI::App& command) {
       ->check(triangleBudgets())
       ->type_name("N")
       ->group(group);
-  command
-      .add_option("--cut", cut,
-                  "What computes the triangles to draw: the GPU (device, default) or the processor")
-      ->check(oneOf({"device", "processor"}))
-      ->type_name("NAME")
-      ->group(group);
-  command
-      .add_option("--frame-time", frameTime,
-                  "Longest time of a frame in the window; the error grows to keep it")
-      ->check(finiteAbove(0))
-      ->type_name("MS")
-      ->group(group);
-  command
-      .add_option("--deadline", deadline,
-                  "Longest time of the processor's cut in a frame; the next frame continues it")
-      ->check(finiteAbove(0))
-      ->type_name("MS")
-      ->group(group);
-  command.add_flag("--no-geomorph", isFixed, "Do not move new vertices gradually to their height")
-      ->group(group);
+  kinds.ofTerrain(
+      command
+          .add_option("--cut", cut,
+                      "What computes the triangles to draw: the GPU (device, default) or the processor")
+          ->check(oneOf({"device", "processor"}))
+          ->type_name("NAME")
+          ->group(group));
+  kinds.ofTerrain(command
+                      .add_option("--frame-time", frameTime,
+                                  "Longest time of a frame in the window; the error grows to keep it")
+                      ->check(finiteAbove(0))
+                      ->type_name("MS")
+                      ->group(group));
+  kinds.ofTerrain(
+      command
+          .add_option("--deadline", deadline,
+                      "Longest time of the processor's cut in a frame; the next frame continues it")
+          ->check(finiteAbove(0))
+          ->type_name("MS")
+          ->group(group));
+  kinds.ofTerrain(
+      command.add_flag("--no-geomorph", isFixed, "Do not move new vertices gradually to their height")
+          ->group(group));
 }
 
 Status DetailArguments::findBudget(std::uint64_t finest) {
@@ -130,50 +133,55 @@ std::string DetailArguments::whatEndsTheCut() const {
   return deadline > 0 ? "deadline" : maxTriangles > 0 ? "budget" : "room on the device";
 }
 
-void AppearanceArguments::addTo(CLI::App& command) {
+void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
   const std::string group = "Appearance";
-  command
-      .add_option(
-          "--color", color,
-          "Colour by height (default), slope, aspect, plain or error; a surface by material (default), "
-          "plain or error")
-      ->check(oneOf({"height", "slope", "aspect", "plain", "error", "material"}))
-      ->type_name("NAME")
-      ->group(group);
-  CLI::Option* picture =
+  const CLI::Option* colors =
+      command
+          .add_option(
+              "--color", color,
+              "Colour by height (default), slope, aspect, plain or error; a surface by material (default), "
+              "plain or error")
+          ->check(oneOf({"height", "slope", "aspect", "plain", "error", "material"}))
+          ->type_name("NAME")
+          ->group(group);
+  kinds.valuesOf(ModelKind::terrain, colors, {"height", "slope", "aspect"});
+  kinds.valuesOf(ModelKind::surface, colors, {"material"});
+  CLI::Option* picture = kinds.ofTerrain(
       command
           .add_option(
               "--drape", drape,
               "Georeferenced picture over the terrain, in any CRS; --color shows where it does not reach")
           ->type_name("FILE")
-          ->group(group);
-  command
-      .add_option("--drape-bands", drapeBands,
-                  "Bands of the picture: one (grey) or red, green and blue (default: as the file says)")
-      ->needs(picture)
-      ->type_name("R,G,B")
-      ->group(group);
-  command
-      .add_option("--contours", contours,
-                  "Interval of contour lines, in the DEM's unit of height (default: none)")
-      ->check(finiteAbove(0))
-      ->type_name("H")
-      ->group(group);
+          ->group(group));
+  kinds.ofTerrain(
+      command
+          .add_option("--drape-bands", drapeBands,
+                      "Bands of the picture: one (grey) or red, green and blue (default: as the file says)")
+          ->needs(picture)
+          ->type_name("R,G,B")
+          ->group(group));
+  kinds.ofTerrain(command
+                      .add_option("--contours", contours,
+                                  "Interval of contour lines, in the DEM's unit of height (default: none)")
+                      ->check(finiteAbove(0))
+                      ->type_name("H")
+                      ->group(group));
   command.add_option("--sun", sun, "Direction of the sun in degrees (default 315,40)")
       ->type_name("AZIMUTH,ELEVATION")
       ->group(group);
-  command
-      .add_option("--haze", hazeKilometres,
-                  "Distance at which haze hides about two thirds (default: no haze)")
-      ->check(finiteAbove(0))
-      ->type_name("KM")
-      ->group(group);
-  command.add_option("--exaggeration", exaggeration, "Factor of all heights (default 1)")
-      ->check(finiteBetween(1e-6, 1e6))
-      ->type_name("X")
-      ->group(group);
-  command.add_flag("--curvature", isCurved, "Draw the curvature of the Earth, by the CRS's ellipsoid")
-      ->group(group);
+  kinds.ofTerrain(command
+                      .add_option("--haze", hazeKilometres,
+                                  "Distance at which haze hides about two thirds (default: no haze)")
+                      ->check(finiteAbove(0))
+                      ->type_name("KM")
+                      ->group(group));
+  kinds.ofTerrain(command.add_option("--exaggeration", exaggeration, "Factor of all heights (default 1)")
+                      ->check(finiteBetween(1e-6, 1e6))
+                      ->type_name("X")
+                      ->group(group));
+  kinds.ofTerrain(
+      command.add_flag("--curvature", isCurved, "Draw the curvature of the Earth, by the CRS's ellipsoid")
+          ->group(group));
   command.add_flag("--wireframe", hasWireframe, "Draw the edges of the triangles")->group(group);
   command.add_flag("--unshaded", isUnshaded, "Draw without sunlight")->group(group);
 }
@@ -198,7 +206,6 @@ Result<ViewLook> AppearanceArguments::look() const {
   look.contourInterval = contours;
   look.hazeKilometres = hazeKilometres;
   look.hasWireframe = hasWireframe;
-  if (color == "material") return failure(ErrorCode::usage, "is for surfaces", "--color material");
   if (sun.empty()) return look;
   ARETE_TRY(const auto angles, anglesOfSun(sun));
   std::tie(look.sunAzimuthDegrees, look.sunElevationDegrees) = angles;
@@ -253,9 +260,9 @@ Result<std::pair<int, int>> PictureArguments::size() const {
 
 void ViewArguments::addTo(CLI::App& command) {
   command.add_option("FILE.amt", model, "Multitriangulation")->required()->type_name("");
-  viewpoint.addTo(command);
-  detail.addTo(command);
-  appearance.addTo(command);
+  viewpoint.addTo(command, kinds);
+  detail.addTo(command, kinds);
+  appearance.addTo(command, kinds);
   pictures.addTo(command);
   command.get_option("--frame-time")->excludes(command.get_option("--headless"));
 }
@@ -297,24 +304,7 @@ Result<ViewSettings> ViewArguments::settings() const {
 }
 
 Result<SurfaceViewSettings> ViewArguments::ofSurface() const {
-  const std::pair<const char*, bool> ofTerrain[] = {
-      {"--lonlat", viewpoint.isLonLat},
-      {"--path", !viewpoint.path.empty()},
-      {"--cut", !detail.cut.empty()},
-      {"--frame-time", detail.frameTime > 0},
-      {"--deadline", detail.deadline > 0},
-      {"--no-geomorph", detail.isFixed},
-      {"--drape", !appearance.drape.empty()},
-      {"--contours", appearance.contours > 0},
-      {"--haze", appearance.hazeKilometres > 0},
-      {"--exaggeration", appearance.exaggeration != 1},
-      {"--curvature", appearance.isCurved},
-  };
-  for (const auto& [option, isGiven] : ofTerrain)
-    if (isGiven) return failure(ErrorCode::usage, "is for terrain, and the file is of a surface", option);
   const std::string& color = appearance.color;
-  if (color == "height" || color == "slope" || color == "aspect")
-    return failure(ErrorCode::usage, "is for terrain, and the file is of a surface", "--color " + color);
   SurfaceViewSettings s;
   s.pixels = detail.pixelError;
   s.look.coloring = color == "plain"   ? SurfaceColoring::plain

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "cli/arguments/option_kinds.h"
 #include "cli/session/session.h"
 #include "engine/base/result.h"
 #include "viewer/camera/home_view.h"
@@ -25,7 +26,7 @@ struct ViewpointArguments {
   std::string up;      ///< of a surface: the axis that points up; empty: as the file says
   bool isLonLat = false, isRound = false;
 
-  void addTo(CLI::App& command);
+  void addTo(CLI::App& command, OptionKinds& kinds);
   bool statesCamera() const { return !camera.empty() || !home.empty(); }
   HomeView homeView() const;
   bool hasFlight() const { return !path.empty() || isRound; }
@@ -39,7 +40,7 @@ struct DetailArguments {
   std::string cut;                ///< empty: device
   bool isFixed = false;           ///< no geomorphing
 
-  void addTo(CLI::App& command);
+  void addTo(CLI::App& command, OptionKinds& kinds);
   /// Sets maxTriangles, of a model whose finest triangulation has so many. Errors: usage.
   Status findBudget(std::uint64_t finest);
   /// Adds "maxTriangles" and "finestTriangles", of which it may be a share, where a budget is stated.
@@ -55,7 +56,7 @@ struct AppearanceArguments {
   double contours = 0, hazeKilometres = 0, exaggeration = 1;
   bool hasWireframe = false, isUnshaded = false, isCurved = false;
 
-  void addTo(CLI::App& command);
+  void addTo(CLI::App& command, OptionKinds& kinds);
   /// Which bands of the drape to show. Errors: usage: not one or three band numbers, which count from 1.
   Result<DrapeOptions> drapeOptions() const;
   /// Errors: usage: `sun` is not two angles.
@@ -82,6 +83,7 @@ struct ViewArguments {
   DetailArguments detail;
   AppearanceArguments appearance;
   PictureArguments pictures;
+  OptionKinds kinds;
 
   void addTo(CLI::App& command);
   /// The rules between options that CLI11 cannot state. Errors: usage, naming the option; unsupported: a film
@@ -89,7 +91,8 @@ struct ViewArguments {
   Status check() const;
   /// Errors: usage.
   Result<ViewSettings> settings() const;
-  /// Of a surface. Errors: usage: an option that is for terrain, by its name; `sun` is not two angles.
+  /// Of a surface. Precondition: no option is stated that is for terrain. Errors: usage: `sun` is not two
+  /// angles.
   Result<SurfaceViewSettings> ofSurface() const;
 };
 

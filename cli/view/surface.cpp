@@ -171,6 +171,8 @@ Status checkOutputs(const ViewArguments& a) {
 Status viewSurface(ViewArguments a, const AmtContainer& file, Session& session) {
   ARETE_TRY(SurfaceViewSettings settings, a.ofSurface());
   ARETE_CHECK(a.check());
+  if (a.viewpoint.isRound && a.pictures.frames.empty())
+    return failure(ErrorCode::usage, "requires --frames, where the file is of a surface", "--round");
   ARETE_TRY(const auto size, a.pictures.size());
   ARETE_CHECK(checkOutputs(a));
   ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(file, AmtVerify::all, session.context()));

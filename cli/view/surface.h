@@ -11,7 +11,8 @@ namespace arete {
 /// `arete view` of a surface: the window; with --headless one picture, or those of one turn around it and
 /// their film.
 ///
-/// Errors: usage, naming the option: one that is for terrain; those of reading, drawing and writing.
+/// Precondition: no option is stated that is for terrain. Errors: usage, naming the option; those of reading,
+/// drawing and writing.
 Status viewSurface(ViewArguments arguments, const AmtContainer& file, Session& session);
 
 }  // namespace arete

@@ -78,10 +78,9 @@ Result<std::optional<Flight>> flightOf(const ViewArguments& a, const TerrainMode
 
 Status runView(ViewArguments a, Session& session) {
   ARETE_TRY(AmtContainer container, openModelFile(a.model));
+  ARETE_CHECK(a.kinds.refuseOther(kindOf(container)));
   if (container.isOfSurface()) return viewSurface(a, container, session);
   ARETE_CHECK(a.check());
-  if (!a.viewpoint.up.empty())
-    return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", "--up");
   ARETE_TRY(ViewSettings settings, a.settings());
   ARETE_TRY(const DrapeOptions drapeOptions, a.appearance.drapeOptions());
   ARETE_TRY(const auto size, a.pictures.size());

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Every option of every command that takes a model of either kind, as CLI11 declares them: with a model of
+// the other kind it is refused by name or answered. Nothing is ignored in silence. The commands run in this
+// process.
+#include "cli/arguments/option_kinds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <tuple>
+
+#include "cli/ball_fixture.h"
+#include "cli/commands/program.h"
+#include "cli/manual/declarations.h"
+#include "io/geo/dem/raster_reader.h"
+
+namespace arete::cli_test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words split(const std::string& text) {
+  std::istringstream stream(text);
+  Words words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+/// How an option is tried.
+struct Trial {
+  std::string words;                           ///< the option and a plausible value
+  std::string with = "";                       ///< what it needs beside it, or has an effect on
+  std::optional<std::string> ofSurface{};      ///< other words for a surface
+  std::optional<std::string> withOfSurface{};  ///< other words beside it for a surface
+};
+
+using Trials = std::map<std::string, Trial>;
+
+/// A command on a model of each kind; "$" stands for a name that no other run has.
+struct Tried {
+  std::string onTerrain, onSurface;
+  Trials trials;
+  /// Options without an effect that shows here, and why.
+  std::map<std::string, std::string> unseen = {};
+};
+
+const Trials kReading = {{"--band", {"--band 1"}},          {"--layer", {"--layer x"}},
+                         {"--z-field", {"--z-field z"}},    {"--same-place", {"--same-place mean"}},
+                         {"--nodata", {"--nodata -9999"}},  {"--vertical-unit", {"--vertical-unit m"}},
+                         {"--positive", {"--positive up"}}, {"--crs", {"--crs EPSG:32611"}}};
+
+Trials withReading(Trials trials, const std::string& with = "") {
+  for (auto [option, trial] : kReading) {
+    trial.with = with;
+    trials.try_emplace(option, trial);
+  }
+  return trials;
+}
+
+const std::map<std::string, Tried>& triedCommands() {
+  static const std::map<std::string, Tried> tried = {
+      {"build",
+       {"build dem.tif -o $.amt", "build ball.obj -o $.amt",
+        withReading({{"--as", {"--as surface", "", "--as terrain"}},
+                     {"--packed", {"--packed"}},
+                     {"--position-bits", {"--position-bits 12", "--packed"}},
+                     {"--drop-attributes", {"--drop-attributes texcoord"}},
+                     {"--shape", {"--shape fidelity"}},
+                     {"--ratio", {"--ratio 3"}},
+                     {"--max-degree", {"--max-degree 6"}},
+                     {"--min-aspect", {"--min-aspect 0.1", "--shape fidelity"}},
+                     {"--rim-tolerance", {"--rim-tolerance 1"}},
+                     {"--features", {"--features 3"}},
+                     {"--feature-persistence", {"--feature-persistence 5%"}},
+                     {"--no-features", {"--no-features"}},
+                     {"--fixed", {"--fixed peaks.csv"}},
+                     {"--crease-angle", {"--crease-angle 30"}},
+                     {"--keep-borders", {"--keep-borders"}},
+                     {"--displacement", {"--displacement"}}})}},
+      {"info", {"info dem.amt", "info ball.amt", {{"--curve", {"--curve 2"}}, {"--at", {"--at 1%,2%"}}}}},
+      {"extract",
+       {"extract dem.amt -o $.ply",
+        "extract ball.amt -o $.ply",
+        {{"--format", {"--format obj", "--max-error 2%"}},
+         {"--overwrite", {"--overwrite", "--max-error 2%"}},
+         {"--max-error", {"--max-error 5%", "--max-triangles 100%"}},
+         {"--max-triangles", {"--max-triangles 50%", "--max-error 0"}},
+         {"--method", {"--method saturated", "--max-error 2%"}},
+         {"--fit", {"--fit error", "--max-error 2%", "--fit rms"}},
+         {"--region", {"--region BOX", "--max-error 2%", "--region 0,0,1,0.3"}},
+         {"--region-crs",
+          {"--region-crs EPSG:4326", "--max-error 2% --region BOX", {}, "--max-error 2% --region 0,0,1,0.3"}},
+         {"--distance",
+          {"--distance 2", "--max-error 2% --region BOX", {}, "--max-error 2% --region 0,0,1,0.3"}},
+         {"--outside-error",
+          {"--outside-error 4%", "--max-error 1% --region BOX", {}, "--max-error 1% --region 0,0,1,0.3"}},
+         {"--focus", {"--focus PLACE --error-growth 1", "--max-error 2%"}},
+         {"--error-growth", {"--error-growth 1", "--max-error 2% --focus PLACE"}},
+         {"--camera", {"--camera PLACE,50agl", "--max-triangles 50%", "--camera 3,0,0,0,0,0"}},
+         {"--look", {"--look 90,-5", "--camera PLACE,50agl", {}, "--camera 3,0,0,0,0,0"}},
+         {"--fov", {"--fov 5", "--camera PLACE,50agl", {}, "--camera 3,0,0,0,0,0"}},
+         {"--viewport", {"--viewport 40x30", "--camera PLACE,50agl", {}, "--camera 3,0,0,0,0,0"}},
+         {"--pixel-error", {"--pixel-error 40", "--camera PLACE,50agl", {}, "--camera 3,0,0,0,0,0"}},
+         {"--lonlat", {"--lonlat", "--camera PLACE,50agl", {}, "--camera 3,0,0,0,0,0"}},
+         {"--deadline", {"--deadline 1e6", "--max-error 2%"}},
+         {"--order", {"--order depth", "--max-triangles 50%"}},
+         {"--certificate", {"--certificate $.json", "--max-error 2%"}},
+         {"--error-raster", {"--error-raster $e.tif", "--max-error 2%"}},
+         {"--map", {"--map $.csv", "--max-error 2%"}},
+         {"--drop-parts", {"--drop-parts 1%", "--max-error 2%"}},
+         {"--drop-attributes", {"--drop-attributes texcoord", "--max-error 2%"}},
+         {"--both-ways", {"--both-ways", "--max-error 2%"}},
+         {"--no-displacement", {"--no-displacement", "--max-error 2%"}}},
+        {{"--overwrite", "geopackage_test.cpp sees what becomes of other layers"}}}},
+      {"validate",
+       {"validate dem.amt",
+        "validate ball.amt",
+        withReading({{"--fronts", {"--fronts 2"}},
+                     {"--seed", {"--seed 2"}},
+                     {"--full", {"--full"}},
+                     {"--against", {"--against dem.tif"}}},
+                    "--against dem.tif"),
+        {{"--full", "all triangles of a model as small are checked without it"}}}},
+      {"convert",
+       {"convert dem.amt -o $.amt",
+        "convert ball.amt -o $.amt",
+        {{"--packed", {"--packed"}},
+         {"--position-bits", {"--position-bits 12", "--packed"}},
+         {"--format", {"--format ply"}},
+         {"--overwrite", {"--overwrite"}},
+         {"--crs", {"--crs EPSG:32611"}},
+         {"--drop-attributes", {"--drop-attributes texcoord"}},
+         {"--up", {"--up y"}},
+         {"--unit", {"--unit mm"}}},
+        {{"--overwrite", "an .amt is replaced with or without it"}}}},
+      {"measure",
+       {"measure tin.ply dem.tif", "measure small.ply ball.amt --samples 50",
+        withReading({{"--expect", {"--expect 1000"}},
+                     {"--allow-covered-nodata", {"--allow-covered-nodata"}},
+                     {"--region", {"--region BOX"}},
+                     {"--region-crs", {"--region-crs EPSG:4326", "--region BOX"}},
+                     {"--distance", {"--distance 2", "--region BOX"}},
+                     {"--error-raster", {"--error-raster $e.tif"}},
+                     {"--both-ways", {"--both-ways"}},
+                     {"--samples", {"--samples 60", "", ""}},
+                     {"--seed", {"--seed 2"}},
+                     {"--error-mesh", {"--error-mesh $.ply"}}})}},
+      {"view",
+       {"view dem.amt --headless --screenshot $.png --size 48x32",
+        "view ball.amt --headless --screenshot $.png --size 48x32",
+        {{"--camera", {"--camera PLACE,50agl", "", "--camera 3,0,0,0,0,0"}},
+         {"--lonlat", {"--lonlat", "--camera PLACE,50agl"}},
+         {"--home", {"--home south"}},
+         {"--path", {"--path flight.json"}},
+         {"--round", {"--round"}},
+         {"--up", {"--up y"}},
+         {"--pixel-error", {"--pixel-error 20"}},
+         {"--max-triangles", {"--max-triangles 60%"}},
+         {"--cut", {"--cut processor"}},
+         {"--frame-time", {"--frame-time 20"}},
+         {"--deadline", {"--deadline 20", "--cut processor"}},
+         {"--no-geomorph", {"--no-geomorph"}},
+         {"--color", {"--color error"}},
+         {"--drape", {"--drape dem.tif"}},
+         {"--drape-bands", {"--drape-bands 1", "--drape dem.tif"}},
+         {"--contours", {"--contours 1"}},
+         {"--sun", {"--sun 90,10"}},
+         {"--haze", {"--haze 1"}},
+         {"--exaggeration", {"--exaggeration 3"}},
+         {"--curvature", {"--curvature"}},
+         {"--wireframe", {"--wireframe"}},
+         {"--unshaded", {"--unshaded"}},
+         {"--headless", {""}},
+         {"--size", {""}},
+         {"--samples", {"--samples 1"}},
+         {"--screenshot", {""}},
+         {"--frames", {"--frames $", "--round"}},
+         {"--fps", {"--fps 0.5", "--round --frames $"}},
+         {"--film", {"--film $.mp4", "--round --frames $"}},
+         {"--figures", {"--figures $.json", "--round --frames $"}}}}},
+  };
+  return tried;
+}
+
+/// Commands that no surface is given to: they refuse the file by its name, whatever the options.
+const std::map<std::string, std::string> kOfTerrainAlone = {
+    {"height", "height ball.amt --at 0,0"},
+    {"los", "los ball.amt --from 0,0,1 --to 1,1,1"},
+    {"profile", "profile ball.amt --from 0,0 --to 1,1"},
+    {"viewshed", "viewshed ball.amt --observer 0,0,1 -o $.tif"}};
+/// Commands that take no model.
+const std::set<std::string> kWithoutModel = {"",          "mesh",          "mesh info", "mesh repair",
+                                             "mesh crop", "mesh decimate", "demo",      "manual"};
+
+/// The kind that the help of an option begins with.
+std::optional<ModelKind> kindInHelp(const CLI::Option& option) {
+  const std::string text = option.get_description();
+  if (text.starts_with("Of terrain: ") || text.starts_with("Against a DEM: ")) return ModelKind::terrain;
+  if (text.starts_with("Of a surface: ") || text.starts_with("Against a mesh: ")) return ModelKind::surface;
+  return std::nullopt;
+}
+
+class OptionsOfBothKinds : public Balls {
+ protected:
+  void SetUp() override {
+    Balls::SetUp();
+    before_ = fs::current_path();
+    fs::current_path(folder_ / "here");
+    makeRaster("dem.tif", "fractal", 30, 30);
+    declareProgram(program_, session_);
+    for (const DeclaredCommand& command : declaredCommands(program_))
+      commands_[command.joined(" ")] = command.app;
+    const RasterHeightfield field = readRaster(path("dem.tif"))->heightfield;
+    const Vec2 low = field.georeference.toSource(5, 20), high = field.georeference.toSource(20, 5),
+               middle = field.georeference.toSource(15.3, 15.4);
+    box_ = fmt::format("{},{},{},{}", low.x, low.y, high.x, high.y);
+    place_ = fmt::format("{},{}", middle.x, middle.y);
+    for (const char* line :
+         {"build dem.tif -o dem.amt", "build ball.obj -o ball.amt",
+          "extract dem.amt -o tin.ply --max-error 2%", "extract ball.amt -o small.ply --max-error 2%"})
+      ASSERT_EQ(call(line).code, 0) << line;
+  }
+  void TearDown() override {
+    fs::current_path(before_);
+    Balls::TearDown();
+  }
+
+  /// Runs a command in this process.
+  Outcome call(const std::string& line) {
+    const std::string tag = fmt::format("run{}x", ++runs_);
+    Words words = split("arete " + line);
+    for (std::string& word : words) {
+      replace(word, "$", tag);
+      replace(word, "BOX", box_);
+      replace(word, "PLACE", place_);
+    }
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    const auto code = static_cast<int>(runProgram(static_cast<int>(words.size()), argv.data()));
+    Outcome outcome{code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
+    replace(outcome.out, tag, "$");
+    // What is written, and nothing that depends on the day.
+    std::string made;
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator("."))
+      if (entry.path().filename().string().starts_with(tag) && entry.is_regular_file())
+        names.insert(entry.path().filename().string());
+    for (const std::string& name : names) made += name.substr(tag.size()) + "\n" + read(name);
+    replace(made, tag, "$");
+    written_ = made;
+    return outcome;
+  }
+
+  /// What a run has written: its files, or what it says where it writes no file.
+  std::string answerOf(const Outcome& outcome) const { return written_.empty() ? outcome.out : written_; }
+
+  /// Tries every option of a command on both kinds.
+  void tryAll(const std::string& name, bool showsEffects = true) {
+    const Tried& tried = triedCommands().at(name);
+    for (const CLI::Option* option : commands_.at(name)->get_options()) {
+      const std::string text = option->get_name();
+      if (option->get_group().empty() || option->get_group() == "Output" || option->get_positional() ||
+          option->get_required() || text == "--help")
+        continue;
+      SCOPED_TRACE(name + " " + text);
+      const auto found = tried.trials.find(text);
+      if (found == tried.trials.end()) {
+        ADD_FAILURE() << "a plausible value must be stated here for a new option";
+        continue;
+      }
+      for (const ModelKind kind : {ModelKind::terrain, ModelKind::surface})
+        tryOne(tried, *option, found->second, kind, showsEffects && !tried.unseen.contains(text));
+    }
+  }
+
+  void tryOne(const Tried& tried, const CLI::Option& option, const Trial& trial, ModelKind kind,
+              bool showsEffects) {
+    const bool isSurface = kind == ModelKind::surface;
+    const std::string with = isSurface ? trial.withOfSurface.value_or(trial.with) : trial.with,
+                      words = isSurface ? trial.ofSurface.value_or(trial.words) : trial.words;
+    if (words.empty()) return;  // every run states it
+    const std::string base = fmt::format("{} {}", isSurface ? tried.onSurface : tried.onTerrain, with);
+    const std::optional<ModelKind> only = kindInHelp(option);
+    if (!only && !showsEffects) return;
+    const Outcome outcome = call(base + " " + words);
+    const std::string answer = answerOf(outcome);
+    const auto names = [&](const std::string& sentence) {
+      for (const std::string& word : split(with + " " + words))
+        if (word.starts_with("--") && sentence.find(word) != std::string::npos) return true;
+      return false;
+    };
+    const bool isRefusedForItsKind =
+        outcome.code == 2 && (outcome.err.find(": is for ") != std::string::npos ||
+                              outcome.err.find(": requires a DEM, ") != std::string::npos ||
+                              outcome.err.find(": requires another mesh, ") != std::string::npos);
+    if (only && *only != kind) {
+      EXPECT_TRUE(isRefusedForItsKind && names(outcome.err)) << base << " " << words << "\n" << outcome.err;
+      return;
+    }
+    if (only) {
+      EXPECT_FALSE(isRefusedForItsKind) << base << " " << words << "\n" << outcome.err;
+      return;
+    }
+    if (outcome.code == 2) {
+      EXPECT_NE(outcome.err.find(option.get_name()), std::string::npos) << outcome.err;
+      return;
+    }
+    ASSERT_EQ(outcome.code, 0) << base << " " << words << "\n" << outcome.err;
+    const Outcome without = call(base);
+    ASSERT_EQ(without.code, 0) << base << "\n" << without.err;
+    EXPECT_NE(answer, answerOf(without)) << base << " " << words << ": the option has no effect";
+  }
+
+  CLI::App program_;
+  Session session_;
+  std::map<std::string, const CLI::App*> commands_;
+  std::string box_, place_, written_;
+  fs::path before_;
+  int runs_ = 0;
+
+ private:
+  static void replace(std::string& text, const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+      text.replace(at, from.size(), to);
+  }
+};
+
+TEST_F(OptionsOfBothKinds, EveryCommandIsTriedOrTakesOneKindOfFileAlone) {
+  for (const auto& [name, app] : commands_)
+    EXPECT_EQ(triedCommands().count(name) + kOfTerrainAlone.count(name) + kWithoutModel.count(name), 1u)
+        << name;
+  for (const auto& [name, line] : kOfTerrainAlone) {
+    const Outcome outcome = call(line);
+    EXPECT_NE(outcome.code, 0) << line;
+    EXPECT_NE(outcome.err.find("ball.amt: is of a surface"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(OptionsOfBothKinds, OfBuildAreAnsweredOrRefused) {
+  tryAll("build");
+}
+TEST_F(OptionsOfBothKinds, OfInfoAreAnsweredOrRefused) {
+  tryAll("info");
+}
+TEST_F(OptionsOfBothKinds, OfExtractAreAnsweredOrRefused) {
+  tryAll("extract");
+}
+TEST_F(OptionsOfBothKinds, OfValidateAreAnsweredOrRefused) {
+  tryAll("validate");
+}
+TEST_F(OptionsOfBothKinds, OfConvertAreAnsweredOrRefused) {
+  tryAll("convert");
+}
+TEST_F(OptionsOfBothKinds, OfMeasureAreAnsweredOrRefused) {
+  tryAll("measure");
+}
+TEST_F(OptionsOfBothKinds, OfViewAreAnsweredOrRefused) {
+  const bool canDraw = call("view dem.amt --headless --screenshot $.png --size 8x8").code == 0;
+  tryAll("view", canDraw);
+}
+
+}  // namespace
+}  // namespace arete::cli_test
