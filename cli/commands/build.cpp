@@ -296,7 +296,7 @@ void addBuildCommand(CLI::App& app, Session& session) {
       command
           ->add_option(
               "--shape", arguments->shape,
-              "delaunay: well-shaped triangles (default); fidelity: far fewer triangles at the same error")
+              "delaunay (default), for well-shaped triangles, or fidelity, for far fewer at the same error")
           ->check(oneOf({"delaunay", "fidelity"}))
           ->type_name("NAME"));
   command
@@ -310,13 +310,12 @@ void addBuildCommand(CLI::App& app, Session& session) {
                    "Largest number of neighbours of a vertex that is removed (default 14)")
       ->check(wholeNumber(6, 32))
       ->type_name("D");
-  kinds.ofTerrain(
-      command
-          ->add_option(
-              "--min-aspect", arguments->minimumAspect,
-              "For fidelity: smallest ratio of a triangle's altitude to its longest edge (default 0.02)")
-          ->check(finiteAtLeast(0))
-          ->type_name("A"));
+  kinds.ofTerrain(command
+                      ->add_option("--min-aspect", arguments->minimumAspect,
+                                   "Smallest ratio of a triangle's altitude to its longest edge, with "
+                                   "--shape fidelity (default 0.02)")
+                      ->check(finiteAtLeast(0))
+                      ->type_name("A"));
   kinds.ofTerrain(
       command
           ->add_option("--rim-tolerance", arguments->options.rimTolerance,

@@ -37,7 +37,7 @@ CLI::Option* addPositionBitsTo(CLI::App& command, int& positionBits) {
   return command
       .add_option(
           "--position-bits", positionBits,
-          "With --packed: round coordinates to a grid of at most 2^N steps along the longest side\n"
+          "In a packed file, round coordinates to a grid of at most 2^N steps along the longest side\n"
           "(8 to 24); every error grows by twice the largest move (default: vertices stay to the bit)")
       ->check(CLI::Range(8, 24))
       ->type_name("N");
