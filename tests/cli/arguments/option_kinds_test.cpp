@@ -11,7 +11,6 @@
 #include <map>
 #include <optional>
 #include <sstream>
-#include <tuple>
 
 #include "cli/ball_fixture.h"
 #include "cli/commands/program.h"
