@@ -221,7 +221,7 @@ TEST_F(PlyRead, LeavesOutWhatLinesHaveBeyondTheirProperties) {
         // colours that the header does not state, in all lines or in some
         Case{"0 0 1 255 0 0\n1 0 2 255 0 0\n1 1 3 255 0 0\n0 1 4 255 0 0\n3 0 1 2\n3 0 2 3\n", "4 lines"},
         Case{"0 0 1\n1 0 2 7\n1 1 3\n0 1 4\n3 0 1 2 255 255 255\n3 0 2 3\n", "2 lines"},
-        Case{"0 0 1 x\n\n1 0 2\n1 1 3\n0 1 4\n3 0 1 2\n3 0 2 3\n", "1 lines"},
+        Case{"0 0 1 x\n\n1 0 2\n1 1 3\n0 1 4\n3 0 1 2\n3 0 2 3\n", "1 line has"},
         // fewer lines than records: some share one, and every value counts
         Case{"0 0 1 1 0 2\n1 1 3 0 1 4\n3 0 1 2 3 0 2 3\n", ""},
         Case{"0 0 1 1 0 2 1 1 3 0 1 4 3 0 1 2 3 0 2 3", ""},
