@@ -48,8 +48,7 @@ std::string wholeName(const CLI::App& command) {
 
 void declareProgram(CLI::App& app, Session& session) {
   app.description(
-      "Arete turns a digital elevation model or a triangle mesh into one multitriangulation and
-"
+      "Arete turns a digital elevation model or a triangle mesh into one multitriangulation and\n"
       "takes meshes of any tolerance from it, with an error that can be measured independently.");
   app.name("arete");
   app.set_version_flag("--version", "arete " ARETE_VERSION);

@@ -366,7 +366,7 @@ class Extraction {
                           grouped(found.crossings, "pair", "pairs"), grouped(*sourceCrossings_));
     const Result<MeshFormat> format = meshFormatOf(request.output, arguments_.format);
     const bool mayDouble =
-        format && format->extension == ".ply" && model_.up != "z" && model_.mt.vertices().places64.empty();
+        format && format->holds.statesScalarType && model_.up != "z" && model_.mt.vertices().places64.empty();
     const double moved = mayDouble ? movedByFloats(front.mesh) : 0;
     if (moved > 0) text += doublesText(moved);
     for (const fs::path& beside : written.filesBeside)

@@ -114,7 +114,7 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   lose(format.holds.holdsCrs, !mesh.crsWkt.empty(), "the CRS");
   lose(format.holds.holdsVerticalUnit, !mesh.verticalUnit.empty(), "the unit of the heights");
   lose(format.holds.holdsErrors, !mesh.triangleErrors.empty(), "the error of each triangle");
-  if (ofFloats && format.extension == ".ply" && mesh.up != MeshUp::z)
+  if (ofFloats && format.holds.statesScalarType && mesh.up != MeshUp::z)
     converted.movedByFloats = movedByFloats(mesh.mesh);
   const Vec3& r = converted.frame.rounding;
   const bool wasExact = mesh.frame.rounding == Vec3{};

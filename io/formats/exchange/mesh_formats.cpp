@@ -39,7 +39,8 @@ constexpr MeshFormatTraits kPly = {.isExact = true,
                                    .holdsErrors = true,
                                    .holdsQualities = true,
                                    .hasOneTextureSet = true,
-                                   .mayHoldPoints = true};
+                                   .mayHoldPoints = true,
+                                   .statesScalarType = true};
 constexpr MeshFormatTraits kObj = {.isExact = true,
                                    .holdsCrs = true,
                                    .holdsVerticalUnit = true,

@@ -98,6 +98,7 @@ struct MeshFormatTraits {
   bool holdsTextureTransforms = false;  ///< shift and scale of a material's pictures
   bool statesPartsOnce = false;         ///< an object, group or material is one run of faces
   bool mayHoldPoints = false;           ///< reads a file without faces as points
+  bool statesScalarType = false;        ///< coordinates are floats or doubles, as the header says
   bool sharesFile = false;              ///< a file of it may hold no mesh, and it is a database, not a stream
   std::uint32_t firstIndex = 0;         ///< the number of the first vertex and face in the file
 };
