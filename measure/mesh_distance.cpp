@@ -22,6 +22,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/base/box3.h"
 #include "engine/base/caught_failure.h"
 #include "engine/parallel/each_task.h"
 #include "measure/farthest_point.h"
@@ -37,21 +38,6 @@ constexpr std::uint64_t kSearchedPerSample = 4, kLeastSearched = 64, kMostSearch
 constexpr double kSearchSlack = 1e-5;  // of the diagonal
 constexpr std::uint64_t kSamplesPerTriangle = 10, kLeastSamples = 1'000'000;
 
-struct Box3 {
-  Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-           std::numeric_limits<double>::infinity()};
-  Vec3 high{-low.x, -low.y, -low.z};
-
-  void include(const Vec3& p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  Vec3 middle() const {
-    return {std::midpoint(low.x, high.x), std::midpoint(low.y, high.y), std::midpoint(low.z, high.z)};
-  }
-  double diagonal() const { return std::sqrt(squaredDistance(low, high)); }
-};
-
 /// A mesh moved to the common origin, and its figures.
 struct Surface {
   TriangleMesh mesh;
@@ -60,7 +46,7 @@ struct Surface {
 };
 
 Box3 boxOf(const TriangleMesh& mesh) {
-  Box3 box;
+  Box3 box = Box3::empty();
   for (const auto& t : mesh.triangles)
     for (const std::uint32_t v : t) box.include(mesh.positions[v]);
   return box;
@@ -290,7 +276,8 @@ Result<Pair> pairOf(const TriangleMesh& first, const TriangleMesh& second) {
   if (!std::isfinite(std::pow(pair.box.diagonal(), 4)))
     return failure(ErrorCode::invalidData,
                    "the coordinates are too large, or too far apart, to measure between");
-  pair.origin = pair.box.middle();
+  const Vec3 &low = pair.box.low, &high = pair.box.high;
+  pair.origin = {std::midpoint(low.x, high.x), std::midpoint(low.y, high.y), std::midpoint(low.z, high.z)};
   pair.surfaces = {surfaceOf(first, pair.origin), surfaceOf(second, pair.origin)};
   for (const auto& [surface, which] :
        {std::pair(&pair.surfaces[0], "first"), std::pair(&pair.surfaces[1], "second")})

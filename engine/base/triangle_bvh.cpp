@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Triangles are halved three times at the median of their centres along the longest side of the centres' box,
-// until eight are left, whose distances are found at once; so are those of the eight boxes of a node. A query
+// Triangles are parted in the middle of the longest side of the six-dimensional box of their boxes' corners,
+// by which long ones side by side stay together, until eight are left, whose distances are found at once; so
+// are those of the eight boxes of a node. Where long ones lie aslant, plain boxes overlap each other, and
+// children have oriented ones too. A query
 // descends to the nearest child first and passes over boxes that are no nearer than the best triangle so far.
 // Which triangle is nearest is decided by the lanes; where on it the point lies, by nearestWithShares().
 #include "engine/base/triangle_bvh.h"
@@ -64,19 +66,36 @@ TrianglePoint nearestWithShares(const Vec3& p, const SpaceTriangle& t) {
 
 namespace {
 
-/// Sorts a range so that the median of the centres along the longest side of their box is in its middle.
-void halve(std::span<std::uint32_t> range, std::span<const Vec3> centres) {
-  Box3 box = Box3::empty();
-  for (const std::uint32_t t : range) box.include(centres[t]);
-  const Vec3 side = box.high - box.low;
-  const double Vec3::*const axis = side.x >= side.y && side.x >= side.z ? &Vec3::x
-                                   : side.y >= side.z                   ? &Vec3::y
-                                                                        : &Vec3::z;
-  std::ranges::nth_element(range, range.begin() + static_cast<std::ptrdiff_t>(range.size() / 2),
+/// Sorts a range into two parts: at the middle of the longest side of the box of their boxes' corners, moved
+/// to a multiple of what a leaf takes, and so that each part has an eighth. @return the size of the first
+std::size_t part(std::span<std::uint32_t> range, std::span<const Box3> boxes, std::size_t leaf) {
+  const auto coordinate = [&](std::uint32_t t, std::size_t k) {
+    const Vec3& p = k < 3 ? boxes[t].low : boxes[t].high;
+    return k % 3 == 0 ? p.x : k % 3 == 1 ? p.y : p.z;
+  };
+  std::size_t axis = 0;
+  double longest = -1, middle = 0;
+  for (std::size_t k = 0; k < 6; ++k) {
+    double low = kInfinity, high = -kInfinity;
+    for (const std::uint32_t t : range) {
+      low = std::min(low, coordinate(t, k));
+      high = std::max(high, coordinate(t, k));
+    }
+    if (!(high - low > longest)) continue;
+    longest = high - low;
+    axis = k;
+    middle = std::midpoint(low, high);
+  }
+  auto some = static_cast<std::size_t>(
+      std::ranges::count_if(range, [&](std::uint32_t t) { return coordinate(t, axis) <= middle; }));
+  const std::size_t least = std::max<std::size_t>(range.size() / 8, 1);
+  some = std::clamp((some + leaf / 2) / leaf * leaf, least, range.size() - least);
+  std::ranges::nth_element(range, range.begin() + static_cast<std::ptrdiff_t>(some),
                            [&](std::uint32_t s, std::uint32_t t) {
-                             const double atS = centres[s].*axis, atT = centres[t].*axis;
+                             const double atS = coordinate(s, axis), atT = coordinate(t, axis);
                              return atS != atT ? atS < atT : s < t;
                            });
+  return some;
 }
 
 }  // namespace
@@ -84,18 +103,18 @@ void halve(std::span<std::uint32_t> range, std::span<const Vec3> centres) {
 TriangleBvh::TriangleBvh(std::span<const Vec3> positions, std::span<const Corners> triangles)
     : entryOf_(triangles.size()) {
   if (triangles.empty()) return;
-  std::vector<Vec3> centres;
-  centres.reserve(triangles.size());
-  for (const auto& [i, j, k] : triangles) centres.push_back(positions[i] + positions[j] + positions[k]);
+  std::vector<Box3> boxes(triangles.size(), Box3::empty());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (const std::uint32_t v : triangles[t]) boxes[t].include(positions[v]);
   std::vector<std::uint32_t> all(triangles.size());
   std::iota(all.begin(), all.end(), 0u);
-  root_ = build(all, centres);
+  root_ = build(all, boxes);
   places_.resize(order_.size());
   for (std::uint32_t i = 0; i < order_.size(); ++i) entryOf_[order_[i]] = i;
   refit(positions, triangles);
 }
 
-std::uint32_t TriangleBvh::build(std::span<std::uint32_t> range, std::span<const Vec3> centres) {
+std::uint32_t TriangleBvh::build(std::span<std::uint32_t> range, std::span<const Box3> boxes) {
   if (range.size() <= kWide) {
     const auto leaf = static_cast<std::uint32_t>(leaves_.size());
     leaves_.emplace_back();
@@ -109,28 +128,51 @@ std::uint32_t TriangleBvh::build(std::span<std::uint32_t> range, std::span<const
   std::array<std::span<std::uint32_t>, kWide> parts;
   parts[0] = range;
   // No more parts than leaves are needed: a leaf takes as long with one triangle as with eight.
-  for (std::size_t count = 1; count < kWide && range.size() > count * kWide; count *= 2)
-    for (std::size_t i = count; i-- > 0;) {
-      const std::span<std::uint32_t> part = parts[i];
-      if (part.size() > 1) halve(part, centres);
-      parts[2 * i] = part.first(part.size() / 2);
-      parts[2 * i + 1] = part.subspan(part.size() / 2);
-    }
+  for (std::size_t count = 1; count < kWide; ++count) {
+    const auto largest = std::max_element(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count),
+                                          [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    if (largest->size() <= kWide) break;
+    const std::size_t some = part(*largest, boxes, kWide);
+    parts[count] = largest->subspan(some);
+    *largest = largest->first(some);
+  }
   for (std::size_t i = 0; i < kWide; ++i)
     if (!parts[i].empty()) {
-      const std::uint32_t child = build(parts[i], centres);
+      const std::uint32_t child = build(parts[i], boxes);
       nodes_[node].child[i] = child;
     }
   return node;
 }
 
 void TriangleBvh::refit(std::span<const Vec3> positions, std::span<const Corners> triangles) {
+  aslant_.clear();
   if (!isEmpty()) refit(root_, positions, triangles);
 }
 
-Box3 TriangleBvh::refit(std::uint32_t child, std::span<const Vec3> positions,
-                        std::span<const Corners> triangles) {
-  Box3 box = Box3::empty();
+void TriangleBvh::putAslant(Node& node, std::size_t lane, const OrientedBox& box) {
+  if (node.aslant == kNone) {
+    node.aslant = static_cast<std::uint32_t>(aslant_.size());
+    Aslant& none = aslant_.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      none.axes[k].fill(Lanes{});
+      none.low[k].fill(-kInfinity);
+      none.high[k].fill(kInfinity);
+    }
+  }
+  Aslant& to = aslant_[node.aslant];
+  for (std::size_t k = 0; k < 3; ++k) {
+    to.axes[k][0][lane] = box.axes[k].x;
+    to.axes[k][1][lane] = box.axes[k].y;
+    to.axes[k][2][lane] = box.axes[k].z;
+    to.low[k][lane] = box.low[k];
+    to.high[k][lane] = box.high[k];
+  }
+}
+
+TriangleBvh::Below TriangleBvh::refit(std::uint32_t child, std::span<const Vec3> positions,
+                                      std::span<const Corners> triangles) {
+  Below all;
+  Box3& box = all.box;
   const auto put = [](std::array<Lanes, 3>& to, std::size_t lane, const Vec3& v) {
     to[0][lane] = v.x;
     to[1][lane] = v.y;
@@ -138,16 +180,24 @@ Box3 TriangleBvh::refit(std::uint32_t child, std::span<const Vec3> positions,
   };
   if (child < kLeaf) {
     Node& node = nodes_[child];
+    node.aslant = kNone;
     for (std::size_t i = 0; i < kWide; ++i) {
-      const Box3 part = node.child[i] == kNone ? Box3::empty() : refit(node.child[i], positions, triangles);
-      put(node.low, i, part.low);
-      put(node.high, i, part.high);
+      const Below below = node.child[i] == kNone ? Below{} : refit(node.child[i], positions, triangles);
+      put(node.low, i, below.box.low);
+      put(node.high, i, below.box.high);
       if (node.child[i] == kNone) continue;
-      box.include(part.low);
-      box.include(part.high);
+      box.include(below.box.low);
+      box.include(below.box.high);
+      all.first = std::min(all.first, below.first);
+      all.end = below.end;
+      const auto inside = std::span(places_).subspan(below.first * std::size_t{kWide},
+                                                     (below.end - below.first) * std::size_t{kWide});
+      if (const auto aslant = orientedBoxOf(inside, below.box)) putAslant(node, i, *aslant);
     }
-    return box;
+    return all;
   }
+  all.first = child - kLeaf;
+  all.end = all.first + 1;
   Leaf& leaf = leaves_[child - kLeaf];
   const auto inverse = [](double x) { return x > 0 ? 1 / x : 0; };
   for (std::size_t i = 0; i < kWide; ++i) {
@@ -168,7 +218,7 @@ Box3 TriangleBvh::refit(std::uint32_t child, std::span<const Vec3> positions,
     leaf.perArea[i] = inverse(dot(normal, normal));
     for (const Vec3& p : {a, b, c}) box.include(p);
   }
-  return box;
+  return all;
 }
 
 ARETE_VECTOR_CLONES
@@ -183,6 +233,21 @@ void TriangleBvh::squaresOf(const Node& node, const Vec3& p, Lanes& to) {
       squared += beyond * beyond;
     }
     to[i] = squared;
+  }
+}
+
+ARETE_VECTOR_CLONES
+void TriangleBvh::raise(const Aslant& boxes, const Vec3& p, Lanes& squares) {
+  for (std::size_t i = 0; i < kWide; ++i) {
+    double squared = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double at = boxes.axes[k][0][i] * p.x + boxes.axes[k][1][i] * p.y + boxes.axes[k][2][i] * p.z;
+      const double below = boxes.low[k][i] - at, above = at - boxes.high[k][i];
+      double beyond = below > above ? below : above;
+      beyond = beyond > 0 ? beyond : 0;
+      squared += beyond * beyond;
+    }
+    squares[i] = squares[i] > squared ? squares[i] : squared;
   }
 }
 
@@ -237,18 +302,22 @@ TriangleBvh::Answer TriangleBvh::nearest(const Vec3& p, std::uint32_t guess) con
     double squared;
     std::uint32_t child;
   };
-  std::array<Open, 96> stack;  // at most 7 wait at each of 11 levels
+  std::uint32_t looks = 0;
+  // At most 7 wait at each of 22 levels: a child has at most (7 / 8)^7 of what its parent has.
+  std::array<Open, 192> stack;
   std::size_t size = 0;
   stack[size++] = {0, root_};
   while (size > 0) {
     const Open at = stack[--size];
     if (!(at.squared < least)) continue;
+    ++looks;
     if (at.child >= kLeaf) {
       if (at.child - kLeaf != begun) search(at.child - kLeaf);
       continue;
     }
     const Node& node = nodes_[at.child];
     squaresOf(node, p, squares);
+    if (node.aslant != kNone) raise(aslant_[node.aslant], p, squares);
     const std::size_t first = size;
     for (std::size_t i = 0; i < kWide; ++i) {
       if (!(squares[i] < least)) continue;
@@ -258,7 +327,7 @@ TriangleBvh::Answer TriangleBvh::nearest(const Vec3& p, std::uint32_t guess) con
       stack[to] = {squares[i], node.child[i]};
     }
   }
-  Answer answer{order_[best], nearestWithShares(p, places_[best]), 0};
+  Answer answer{order_[best], nearestWithShares(p, places_[best]), 0, looks};
   answer.squaredDistance = squaredDistance(p, answer.point.place);
   return answer;
 }
