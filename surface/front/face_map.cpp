@@ -15,18 +15,43 @@ SpaceTriangle placeOf(const MultiTriangulation& mt, TriangleId t) {
   return {mt.position(VertexId(a)), mt.position(VertexId(b)), mt.position(VertexId(c))};
 }
 
+/// By face of the source: its middle, that of the parts into which it may have been split.
+std::vector<Vec3> middlesOf(const SurfaceModel& model) {
+  std::vector<Vec3> middles(model.sourceFaces, Vec3{0, 0, 0});
+  std::vector<double> areas(model.sourceFaces, 0);
+  for (const bool isSecond : {false, true})
+    for (std::uint32_t t = 0; t < model.mt.triangleIdCount(); ++t) {
+      if (model.mt.remover(TriangleId(t)).isValid()) continue;
+      const SpaceTriangle place = placeOf(model.mt, TriangleId(t));
+      const Vec3 middle = (place[0] + place[1] + place[2]) / 3.0;
+      const double area = norm(cross(place[1] - place[0], place[2] - place[0]));
+      const std::uint32_t of = model.faceOf[t];
+      if (!isSecond)
+        areas[of] += area;
+      else
+        middles[of] = areas[of] > 0 ? middles[of] + area / areas[of] * middle : middle;
+    }
+  return middles;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> facesOf(const SurfaceModel& model, const Cut& cut) {
   const MultiTriangulation& mt = model.mt;
   std::vector<std::uint32_t> numberOf(mt.triangleIdCount(), MeshAttributes::kNone);
   for (std::uint32_t i = 0; i < cut.ids.size(); ++i) numberOf[cut.ids[i]] = i;
-  requireMemory(model.sourceFaces * sizeof(std::uint32_t));
+  requireMemory(model.sourceFaces * (sizeof(std::uint32_t) + sizeof(Vec3) + 2 * sizeof(double)));
   std::vector<std::uint32_t> found(model.sourceFaces, MeshAttributes::kNone);
+  const std::vector<Vec3> middles = middlesOf(model);
+  std::vector<double> distances(middles.size(), std::numeric_limits<double>::infinity());
   for (std::uint32_t finest = 0; finest < mt.triangleIdCount(); ++finest) {
     if (mt.remover(TriangleId(finest)).isValid()) continue;
-    const SpaceTriangle face = placeOf(mt, TriangleId(finest));
-    const Vec3 middle = (face[0] + face[1] + face[2]) / 3.0;
+    // Of the parts of a split face, that which holds its middle.
+    const std::uint32_t of = model.faceOf[finest];
+    const Vec3& middle = middles[of];
+    const double away = distanceToTriangle(middle, placeOf(mt, TriangleId(finest)));
+    if (!(away < distances[of])) continue;
+    distances[of] = away;
     std::uint32_t t = finest;
     while (numberOf[t] == MeshAttributes::kNone) {
       std::uint32_t nearest = MeshAttributes::kNone;
@@ -38,7 +63,7 @@ std::vector<std::uint32_t> facesOf(const SurfaceModel& model, const Cut& cut) {
       }
       t = nearest;
     }
-    found[model.faceOf[finest]] = numberOf[t];
+    found[of] = numberOf[t];
   }
   for (const auto& [face, in] : model.leftOutFaces) found[face] = found[in];
   return found;

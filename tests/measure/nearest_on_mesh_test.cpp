@@ -10,6 +10,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "terrain/measure_meshes.h"
 
@@ -43,6 +44,30 @@ TEST(NearestOnMesh, FindsTheNearestPointOfAllTriangles) {
       const auto there = minus(p, answer.point);
       ASSERT_NEAR(static_cast<double>(std::sqrt(dot(there, there))), answer.distance, 1e-12 + 1e-12 * far);
     }
+  }
+}
+
+TEST(NearestOnMesh, LooksAtFewAroundAVertexOfManyTriangles) {
+  for (const double height : {0.0, 0.4, 3.0}) {
+    std::vector<double> looks;
+    for (const std::uint32_t n : {500u, 5000u, 20'000u}) {
+      const TriangleMesh mesh = fans(n, height);
+      const NearestOnMesh tree(mesh);
+      std::mt19937_64 random(n);
+      double sum = 0;
+      for (int i = 0; i < 500; ++i) {
+        const auto& t = mesh.triangles[random() % mesh.triangles.size()];
+        const double u = double(random() % 1000) / 2000, v = double(random() % 1000) / 2000;
+        const Vec3 p =
+            (1 - u - v) * mesh.positions[t[0]] + u * mesh.positions[t[1]] + v * mesh.positions[t[2]];
+        const NearestOnMesh::Answer answer = tree.nearest(p);
+        EXPECT_LT(answer.distance, 1e-12);
+        sum += answer.looks;
+      }
+      looks.push_back(sum / 500);
+    }
+    EXPECT_LT(looks[0], 60) << "height " << height;
+    EXPECT_LT(looks[2], 2.5 * looks[0]) << "height " << height << ": 40 times as many triangles";
   }
 }
 

@@ -50,6 +50,20 @@ inline TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
   return mesh;
 }
 
+/// A vertex of n triangles, which stands off the ring of the others by a height, and below them a lid that is
+/// a fan around one of the ring.
+inline TriangleMesh fans(std::uint32_t n, double height) {
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    mesh.positions.push_back({std::cos(angle), std::sin(angle), 0});
+  }
+  mesh.positions.push_back({0, 0, height});
+  for (std::uint32_t i = 0; i < n; ++i) mesh.triangles.push_back({n, i, (i + 1) % n});
+  for (std::uint32_t i = 1; i + 1 < n; ++i) mesh.triangles.push_back({0, i + 1, i});
+  return mesh;
+}
+
 /// Triangles anywhere, every fifth one a sliver, a segment or a point.
 inline TriangleMesh soup(std::size_t triangles, std::uint64_t seed) {
   std::mt19937_64 random(seed);

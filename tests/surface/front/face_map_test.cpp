@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/nearest_on_triangle.h"
 #include "surface/builder/build.h"
 #include "surface/front/front.h"
 #include "surface/laws/validate_surface.h"
@@ -80,7 +81,7 @@ struct Case {
 
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     std::mt19937_64 random(seed);
     TriangleMesh mesh = block(1 + static_cast<std::uint32_t>(seed % 3));
     std::set<std::array<std::uint32_t, 2>> used;  // edges that have a chain
@@ -99,6 +100,51 @@ std::vector<Case> cases() {
   return all;
 }
 
+constexpr double kRounding = 1e-9;  // of coordinates up to 192
+
+SpaceTriangle placeOf(const TriangleMesh& mesh, std::size_t f) {
+  const auto& [a, b, c] = mesh.triangles[f];
+  return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+}
+
+double fromMiddle(const TriangleMesh& mesh, std::size_t f, const SpaceTriangle& to) {
+  const SpaceTriangle face = placeOf(mesh, f);
+  return distanceToTriangle((face[0] + face[1] + face[2]) / 3.0, to);
+}
+
+/// The first face with the same corners in the same turn.
+std::size_t twinOf(const TriangleMesh& mesh, std::size_t f) {
+  const auto turned = [&](std::size_t t) {
+    auto corners = mesh.triangles[t];
+    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    return corners;
+  };
+  std::size_t twin = 0;
+  while (turned(twin) != turned(f)) ++twin;
+  return twin;
+}
+
+/// The face that holds a left-out one is, of all that the build kept, none farther from its middle.
+void expectRightPlaces(const TriangleMesh& mesh, const SurfaceModel& model) {
+  std::set<std::uint32_t> kept;
+  for (std::uint32_t t = 0; t < model.mt.triangleIdCount(); ++t)
+    if (!model.mt.remover(TriangleId(t)).isValid()) kept.insert(model.faceOf[t]);
+  ASSERT_EQ(kept.size() + model.leftOutFaces.size(), mesh.triangles.size());
+  for (const auto& [face, in] : model.leftOutFaces) {
+    SCOPED_TRACE("left-out face " + std::to_string(face));
+    ASSERT_TRUE(kept.contains(in));
+    double least = fromMiddle(mesh, face, placeOf(mesh, in));
+    const double there = least;
+    for (const std::uint32_t other : kept)
+      least = std::min(least, fromMiddle(mesh, face, placeOf(mesh, other)));
+    EXPECT_LE(there, least + kRounding);
+    const std::size_t twin = twinOf(mesh, face);
+    if (twin != face && kept.contains(static_cast<std::uint32_t>(twin))) {
+      EXPECT_EQ(in, twin);
+    }
+  }
+}
+
 TEST(FaceMap, HasAPlaceOfEveryFaceWhereFlatOnesWereLeftOutAndTheirNeighboursSplit) {
   std::uint64_t leftOut = 0, split = 0;
   for (const auto& [name, mesh] : cases()) {
@@ -107,6 +153,7 @@ TEST(FaceMap, HasAPlaceOfEveryFaceWhereFlatOnesWereLeftOutAndTheirNeighboursSpli
     ASSERT_TRUE(model) << model.error().describe();
     const Status valid = validateSurface(*model);
     EXPECT_TRUE(valid) << valid.error().message;
+    expectRightPlaces(mesh, *model);
     leftOut += model->leftOutFaces.size();
     split += model->mending.splitFaces;
     for (const std::uint32_t nodes : {model->mt.nodeCount(), model->mt.nodeCount() / 2, 0u}) {
@@ -115,7 +162,14 @@ TEST(FaceMap, HasAPlaceOfEveryFaceWhereFlatOnesWereLeftOutAndTheirNeighboursSpli
       ASSERT_EQ(faces.size(), mesh.triangles.size());
       for (std::size_t f = 0; f < faces.size(); ++f) {
         ASSERT_LT(faces[f], cut.triangles.size()) << "face " << f << " of " << faces.size();
+        // The finest triangle that stands for a face holds its middle, also where the face was split.
+        if (nodes != model->mt.nodeCount() || isFlat(mesh, f)) continue;
+        SpaceTriangle place;
+        for (std::size_t c = 0; c < 3; ++c)
+          place[c] = model->mt.position(VertexId(cut.vertices[cut.triangles[faces[f]][c]]));
+        EXPECT_LE(fromMiddle(mesh, f, place), kRounding) << "face " << f;
       }
+      for (const auto& [face, in] : model->leftOutFaces) EXPECT_EQ(faces[face], faces[in]);
     }
   }
   EXPECT_GT(leftOut, 60u);
