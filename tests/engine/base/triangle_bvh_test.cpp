@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
+#include <vector>
 
 namespace arete {
 namespace {
@@ -51,6 +53,37 @@ TEST(TriangleBvh, FindsTheNearestOfAllTrianglesWithAnyGuessAndAfterMoves) {
       bvh.refit(at, triangles);
     }
   }
+}
+
+TEST(TriangleBvh, LooksAtFewAroundAVertexOfManyTriangles) {
+  std::vector<double> looks;
+  for (const std::uint32_t n : {500u, 20'000u}) {
+    std::vector<Vec3> at;
+    std::vector<Corners> triangles;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const double angle = 6.283185307179586 * i / n;
+      at.push_back({std::cos(angle), std::sin(angle), 0});
+      triangles.push_back({n, i, (i + 1) % n});
+      if (i > 0 && i + 1 < n) triangles.push_back({0, i + 1, i});
+    }
+    at.push_back({0, 0, 1.5});
+    const TriangleBvh bvh(at, triangles);
+    std::mt19937_64 random(n);
+    double sum = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const auto on = static_cast<std::uint32_t>(random() % triangles.size());
+      const Corners& t = triangles[on];
+      const double u = double(random() % 1000) / 2000, v = double(random() % 1000) / 2000;
+      const Vec3 p = (1 - u - v) * at[t[0]] + u * at[t[1]] + v * at[t[2]];
+      const std::uint32_t beside = on > 0 ? on - 1 : on + 1;
+      const TriangleBvh::Answer answer = bvh.nearest(p, beside);
+      EXPECT_LT(std::sqrt(answer.squaredDistance), 1e-7);  // shares of slivers are rounded
+      sum += answer.looks;
+    }
+    looks.push_back(sum / 1000);
+  }
+  EXPECT_LT(looks[0], 30);
+  EXPECT_LT(looks[1], 3 * looks[0]) << "40 times as many triangles";
 }
 
 TEST(TriangleBvh, OfASegmentIsOnTheSegmentAndOfNothingIsEmpty) {

@@ -130,7 +130,7 @@ void expectExact(const Solid& solid) {
 }
 
 TEST(FlatParts, OfSolidsKeepTheirCornersWithinABudget) {
-  for (const int n : {1, 2, 7})
+  for (const int n : {1, 2, 4})
     for (const int diagonals : {0, 1, 2})
       for (Solid& solid : solids(n, diagonals)) {
         SCOPED_TRACE(solid.name + " of " + std::to_string(n) + ", diagonals " + std::to_string(diagonals));
@@ -145,7 +145,7 @@ TEST(FlatParts, OfACubeOfTenSquaresASideKeepItsCorners) {
 TEST(FlatParts, OfTurnedSolidsKeepTheirCornersAlsoRoundedToFloats) {
   for (const std::uint64_t seed : {1u, 2u})
     for (const bool isRounded : {false, true})
-      for (Solid& solid : solids(3 + static_cast<int>(seed) * 2, static_cast<int>(seed) % 3)) {
+      for (Solid& solid : solids(2 + static_cast<int>(seed), static_cast<int>(seed) % 3)) {
         SCOPED_TRACE(solid.name + " of seed " + std::to_string(seed) + (isRounded ? ", rounded" : ""));
         solid.mesh = turned(std::move(solid.mesh), seed, isRounded);
         expectExact(solid);
@@ -167,8 +167,8 @@ TriangleMesh prism(std::uint32_t sides, std::uint32_t rings) {
 }
 
 TEST(FlatParts, OfPrismsKeepTheirCornersWithinABudget) {
-  for (const std::uint32_t sides : {3u, 4u, 5u, 6u, 9u, 17u, 60u})
-    for (const std::uint32_t rings : {1u, 2u, 11u}) {
+  for (const std::uint32_t sides : {3u, 4u, 5u, 6u, 17u, 30u})
+    for (const std::uint32_t rings : {1u, 2u, 6u}) {
       SCOPED_TRACE(std::to_string(sides) + " sides, " + std::to_string(rings) + " rings");
       expectExact({"", prism(sides, rings), 4 * sides - 4});
       expectExact({"", turned(prism(sides, rings), sides, true), 4 * sides - 4});
