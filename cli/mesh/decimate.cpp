@@ -368,7 +368,9 @@ void addMeshDecimateCommand(CLI::App& mesh, Session& session) {
           "of qem); qem: edges, at the least of their quadric; lindstrom-turk: edges, memoryless (CGAL); "
           "half-edge: vertices go to a\n"
           "neighbour; vertex-pair: edges and near vertices; face: triangles become a vertex; cluster:\n"
-          "cells of an octree")
+          "cells of an octree. Only measured states a distance, to the same object, material and chart; the "
+          "others\n"
+          "bound none, nor how far a line between parts moves")
       ->check(oneOf({"measured", "qem", "lindstrom-turk", "half-edge", "vertex-pair", "face", "cluster"}))
       ->type_name("NAME");
   command
