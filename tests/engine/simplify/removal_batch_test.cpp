@@ -95,12 +95,12 @@ TEST(RemovalBatch, LeavesTheFansOfAllRemovalsJoinedToTheirNeighbours) {
     std::size_t open = 0, closed = 0;
     for (std::uint32_t group = 1; group <= 4; ++group) {
       const std::size_t before = shrinking.thresholds.size();
-      shrinking.remove(group == 2 ? 1 : 100, group, seed + group);
+      ASSERT_NO_FATAL_FAILURE(shrinking.remove(group == 2 ? 1 : 100, group, seed + group));
       ASSERT_FALSE(shrinking.removed.empty());
       for (std::size_t i = 0; i < shrinking.removed.size(); ++i)
         ++(shrinking.batch.isOpen(i) ? open : closed);
       EXPECT_EQ(liveTrianglesOf(shrinking.mesh), shrinking.expected);
-      test::expectConsistent(shrinking.mesh);
+      ASSERT_NO_FATAL_FAILURE(test::expectConsistent(shrinking.mesh));
       EXPECT_EQ(shrinking.liveTriangles, shrinking.expected.size());
 
       EXPECT_EQ(shrinking.thresholds.size(), before - shrinking.removed.size());
