@@ -14,8 +14,8 @@ namespace arete {
 struct FitOutcome {
   double rmsBefore = 0, rmsAfter = 0;  ///< of the distances from samples of the source
   /// No point of the source is farther than this from the fitted mesh, nor from what it has of the same
-  /// chart: found by a search that shares no code with the fit, or the error of the cut where nothing was
-  /// moved.
+  /// chart: found by a search that shares nothing with the fit but boxes and distances of engine/base, or the
+  /// error of the cut where nothing was moved.
   double distance = 0;
   double part = 1;  ///< of the moves that was made, so that maxError is kept
 };
