@@ -257,6 +257,31 @@ TEST(Words, OfNumbersAreFoundWhereOneWouldBeWrong) {
     EXPECT_FALSE(found(right)) << right;
 }
 
+/// A habit of these sources that a stranger stumbles over, and how often comments and sentences may have it:
+/// as often as on the day that it was counted. The number only falls.
+struct Habit {
+  const char* pattern;
+  std::size_t budget;
+};
+
+TEST(Words, OfHabitsThatAreHardToReadBecomeFewer) {
+  constexpr Habit kHabits[] = {{"\\b(those|that) of\\b", 461},
+                               {"\\bas of\\b", 9},
+                               {"\\bis no [a-z]+", 124},
+                               {"\\bso many\\b", 33},
+                               {"\\bOf (a|an|the) [a-z]+: ", 9}};
+  std::vector<Prose> texts;
+  for (const fs::path& file :
+       sourcesOf({"engine", "measure", "surface", "terrain", "io", "gis", "python", "viewer", "cli"}))
+    for (const Kind kind : {Kind::comments, Kind::strings}) texts.push_back(Lexer(textOf(file)).take(kind));
+  for (const Habit& habit : kHabits) {
+    const std::regex pattern(habit.pattern);
+    std::size_t count = 0;
+    for (const Prose& text : texts) count += matchesIn(text, pattern).size();
+    EXPECT_LE(count, habit.budget) << habit.pattern << ": write a sentence with a subject";
+  }
+}
+
 // The test itself, on planted text.
 
 TEST(Lexer, KeepsCommentsApartFromStrings) {
