@@ -102,9 +102,9 @@ struct NearestOnMesh::Tree {
       if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
     const double middle = std::midpoint(low[axis], high[axis]);
     if (mayBeUneven && middle < high[axis]) {
-      const auto second =
-          std::ranges::partition(range, [&](std::uint32_t t) { return corners[t][axis] <= middle; });
-      return range.size() - second.size();
+      const auto second = std::partition(range.begin(), range.end(),
+                                         [&](std::uint32_t t) { return corners[t][axis] <= middle; });
+      return static_cast<std::size_t>(second - range.begin());
     }
     const std::size_t half = range.size() / 2;
     std::ranges::nth_element(

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <ranges>
+#include <string_view>
 #include <utility>
 
 namespace arete {
@@ -13,7 +13,7 @@ namespace {
 
 /// "Place of ..." as "place of ...", to stand behind a colon; names as "GeoTIFF" and "CRS" stay.
 std::string continued(std::string text) {
-  const auto word = std::ranges::subrange(text.begin(), std::ranges::find(text, ' '));
+  const std::string_view word = std::string_view(text).substr(0, text.find(' '));
   if (std::ranges::count_if(word, [](unsigned char c) { return std::isupper(c) != 0; }) == 1 &&
       word.size() > 1)
     text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
