@@ -18,7 +18,7 @@ namespace {
 
 /// The corners from the lowest one on.
 LiveMesh::Corners turned(LiveMesh::Corners corners) {
-  std::ranges::rotate(corners, std::ranges::min_element(corners));
+  std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
   return corners;
 }
 
