@@ -62,7 +62,8 @@ TriangleMesh blocks(const std::array<int, 3>& size, const std::function<bool(int
             };
             std::array<std::uint32_t, 4> q{at(u, v), at(u + 1, v), at(u + 1, v + 1), at(u, v + 1)};
             if (side == 0) std::swap(q[1], q[3]);
-            if (diagonals == 1 || (diagonals == 2 && (u + v) % 2 == 1)) std::ranges::rotate(q, q.begin() + 1);
+            if (diagonals == 1 || (diagonals == 2 && (u + v) % 2 == 1))
+              std::rotate(q.begin(), q.begin() + 1, q.end());
             mesh.triangles.push_back({q[0], q[1], q[2]});
             mesh.triangles.push_back({q[0], q[2], q[3]});
           }

@@ -116,7 +116,7 @@ double fromMiddle(const TriangleMesh& mesh, std::size_t f, const SpaceTriangle& 
 std::size_t twinOf(const TriangleMesh& mesh, std::size_t f) {
   const auto turned = [&](std::size_t t) {
     auto corners = mesh.triangles[t];
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
     return corners;
   };
   std::size_t twin = 0;

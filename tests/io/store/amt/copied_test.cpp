@@ -2,6 +2,7 @@
 //
 // Files that are read piece by piece: the same parts as of mapped files, and an error where the file is
 // changed meanwhile.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
