@@ -10,8 +10,8 @@
 # MAY_INCLUDE names the rooms, of its own layer and of those below, whose headers its files may include; tests/house
 # walks all includes and fails on any other (rooms.txt in the build folder is what it reads). HEADERS are public: part of
 # the library that others install (cmake/AreteInstall.cmake). What they include is installed with them; a header that is
-# not listed may change at any time. A room belongs to the nearest layer above it, or to the LAYER it names. CGAL_SOURCES are compiled with the flags that CGAL requires, of which
-# -frounding-math would slow down everything else.
+# not listed may change at any time. A room belongs to the nearest layer above it, or to the LAYER it names. CGAL_SOURCES
+# are compiled with the flags that CGAL requires, of which -frounding-math would slow down everything else.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)

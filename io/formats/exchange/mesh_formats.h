@@ -10,7 +10,7 @@
 
 namespace arete {
 
-/// One mesh file format. A new format is a folder in io/formats/mesh and a line in the table of
+/// One mesh file format. A new format is a folder in io/formats and a line in the table of
 /// mesh_formats.cpp.
 struct MeshFormat {
   std::string_view name;       ///< "PLY"
