@@ -18,6 +18,7 @@
 #include "io/files/copied_file.h"
 #include "io/files/mapped_file.h"
 #include "io/store/format/checksum.h"
+#include "io/store/format/schema.h"
 
 namespace arete {
 
@@ -131,7 +132,7 @@ Status AmtContainer::readDirectory(const AmtHeader& header) {
     if (chunk.offset > amtAligned(end)) return refuse("leaves a gap before it");
     if ((chunk.flags & ~(header.version < kAmtNewestVersion ? 0u : kAmtRequired)) != 0)
       return refuse("has a reserved field that is not zero");
-    if ((chunk.flags & kAmtRequired) != 0 && !isKnownAmtTag(chunk.tag))
+    if ((chunk.flags & kAmtRequired) != 0 && findAmtColumn(chunk.tag) == nullptr)
       return failure(ErrorCode::unsupported,
                      fmt::format("was made by a newer Arete: it has a chunk {}, which this one does not know",
                                  chunk.name()),

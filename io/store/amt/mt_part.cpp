@@ -19,6 +19,7 @@
 #include "engine/mt/hole_limit.h"
 #include "engine/mt/node_blocks.h"
 #include "engine/parallel/parallel_loops.h"
+#include "io/store/format/schema.h"
 
 namespace arete {
 namespace {
@@ -56,32 +57,46 @@ struct PrefixArrays {
   NodeBlocks blocks;
 };
 
+/// A column whose elements are copied as they are.
+struct CopiedColumn {
+  AmtMtColumn column;
+  std::span<const std::byte> from;
+  UninitializedVector<std::byte> to = {};
+
+  void resize(std::size_t elements) { to.resize(elements * column.elementBytes()); }
+  void copy(std::size_t begin, std::size_t at, std::size_t elements) {
+    const std::size_t size = column.elementBytes();
+    std::memcpy(to.data() + at * size, from.data() + begin * size, elements * size);
+  }
+};
+
+/// The columns of an MT that say nothing of other elements.
+std::vector<CopiedColumn> copiedColumnsOf(const MtArrays& a) {
+  std::vector<CopiedColumn> columns;
+  for (const AmtMtColumn& column : amtMtColumns(a))
+    if (column.coding != AmtCoding::walked &&
+        (column.per == AmtPer::triangle || column.per == AmtPer::vertex || column.per == AmtPer::node))
+      columns.push_back({column, column.mt.bytes(a)});
+  return columns;
+}
+
 struct SubsetArrays {
   MultiTriangulation whole;  // whose root it shares
-  UninitializedVector<std::uint32_t> slotBegin, link, remover, floor, creatorHint, samples;
-  UninitializedVector<std::uint16_t> error, below, above, saturatedError;
-  UninitializedVector<Sphere> sphere;
-  UninitializedVector<Vec2> plan;
-  UninitializedVector<std::byte> rawHeights;
+  UninitializedVector<std::uint32_t> slotBegin, link, remover, floor, creatorHint;
+  std::vector<CopiedColumn> copied;
   NodeBlocks blocks;
 
-  MultiTriangulation model(std::shared_ptr<const void> owner) const {
+  MultiTriangulation model(std::shared_ptr<const void> owner) {
     MtArrays a = whole.arrays();
     a.slotBegin = slotBegin;
     a.link = link;
     a.remover = remover;
-    a.error = error;
-    a.below = below;
-    a.above = above;
     a.floor = floor;
-    a.saturatedError = saturatedError;
-    a.sphere = sphere;
+    a.creatorHint = creatorHint;
+    for (const CopiedColumn& copy : copied) copy.column.mt.put(a, copy.to);
+    blocks = makeNodeBlocks(a.saturatedError, a.sphere);
     a.blockError = blocks.error;
     a.blockSphere = blocks.sphere;
-    a.creatorHint = creatorHint;
-    a.vertices.samples = samples;
-    a.vertices.plan = plan;
-    a.vertices.rawHeights = rawHeights;
     return {a, std::move(owner)};
   }
 };
@@ -106,7 +121,6 @@ class SubsetCopy {
     forWords([&](std::size_t word) { nodes_.visitWord(word, [&](std::uint32_t n) { copy(n); }); });
     if (isDamaged_) return {MtSubset::Problem::damaged, {}};
     if (isParentMissing_) return {MtSubset::Problem::parentMissing, {}};
-    to_->blocks = makeNodeBlocks(to_->saturatedError, to_->sphere);
     return {MtSubset::Problem::none, to_->model(to_)};
   }
 
@@ -148,26 +162,21 @@ class SubsetCopy {
     to.slotBegin.resize(nodes + 1);
     to.link.resize(slots_);
     to.remover.resize(ids);
-    to.error.resize(ids);
-    to.below.resize(ids);
-    to.above.resize(ids);
     to.floor.resize(slots_ - 2 * nodes);
-    to.saturatedError.resize(nodes);
-    to.sphere.resize(nodes);
     to.creatorHint.resize((std::size_t{slots_} + MultiTriangulation::kSlotsPerHint - 1) /
                           MultiTriangulation::kSlotsPerHint);
-    const std::size_t vertices = a_.rootVertices + nodes;
-    if (a_.vertices.isLattice())
-      to.samples.resize(vertices);
-    else
-      to.plan.resize(vertices);
-    to.rawHeights.resize(vertices * a_.vertices.encoding.bytesPerHeight());
+    to.copied = copiedColumnsOf(a_);
+    for (CopiedColumn& copy : to.copied)
+      copy.resize(copy.column.per == AmtPer::triangle ? ids
+                  : copy.column.per == AmtPer::node   ? nodes
+                                                      : a_.rootVertices + nodes);
   }
 
   void copyRoot() {
     for (std::uint32_t t = 0; t < roots_; ++t)
-      copyTriangle(t, t, MultiTriangulation::kNone, MultiTriangulation::kNone);
-    copyVertices(0, 0, a_.rootVertices);
+      copyRemover(t, t, MultiTriangulation::kNone, MultiTriangulation::kNone);
+    copyElements(AmtPer::triangle, 0, 0, roots_);
+    copyElements(AmtPer::vertex, 0, 0, a_.rootVertices);
   }
 
   void beginSlots(std::size_t word) {
@@ -184,14 +193,15 @@ class SubsetCopy {
     const Slots slots = slotsOf(a_, n);
     for (std::uint32_t i = 0; i < slots.size; ++i) {
       to.link[begin + i] = vertexOf(a_.link[slots.begin + i]);
-      copyTriangle(roots_ + slots.begin + i, roots_ + begin + i, n, rank);
+      copyRemover(roots_ + slots.begin + i, roots_ + begin + i, n, rank);
     }
+    copyElements(AmtPer::triangle, std::size_t{roots_} + slots.begin, std::size_t{roots_} + begin,
+                 slots.size);
     const std::uint32_t floor = slots.begin - 2 * n;
     for (std::uint32_t i = 0; i < slots.size - 2; ++i)
       to.floor[begin - 2 * rank + i] = triangleOf(a_.floor[floor + i]);
-    to.saturatedError[rank] = a_.saturatedError[n];
-    to.sphere[rank] = a_.sphere[n];
-    copyVertices(a_.rootVertices + n, a_.rootVertices + rank, 1);
+    copyElements(AmtPer::node, n, rank, 1);
+    copyElements(AmtPer::vertex, std::size_t{a_.rootVertices} + n, std::size_t{a_.rootVertices} + rank, 1);
     const std::uint64_t end = std::uint64_t{begin} + slots.size;
     for (std::uint64_t hint = (std::uint64_t{begin} + MultiTriangulation::kSlotsPerHint - 1) /
                               MultiTriangulation::kSlotsPerHint;
@@ -199,8 +209,13 @@ class SubsetCopy {
       to.creatorHint[hint] = rank;
   }
 
-  /// A triangle of node `creator`, whose new number is `rank`.
-  void copyTriangle(std::uint32_t from, std::uint32_t t, std::uint32_t creator, std::uint32_t rank) {
+  void copyElements(AmtPer per, std::size_t from, std::size_t at, std::size_t count) {
+    for (CopiedColumn& copy : to_->copied)
+      if (copy.column.per == per) copy.copy(from, at, count);
+  }
+
+  /// That of a triangle of node `creator`, whose new number is `rank`.
+  void copyRemover(std::uint32_t from, std::uint32_t t, std::uint32_t creator, std::uint32_t rank) {
     const std::uint32_t r = a_.remover[from];
     std::uint32_t remover = MultiTriangulation::kNone;
     if (r != MultiTriangulation::kNone && r == creator)
@@ -208,19 +223,6 @@ class SubsetCopy {
     else if (r < a_.saturatedError.size() && nodes_.contains(r))
       remover = nodes_.rankOf(r);
     to_->remover[t] = remover;
-    to_->error[t] = a_.error[from];
-    to_->below[t] = a_.below[from];
-    to_->above[t] = a_.above[from];
-  }
-
-  void copyVertices(std::size_t from, std::size_t v, std::size_t count) {
-    if (a_.vertices.isLattice())
-      std::copy_n(a_.vertices.samples.begin() + from, count, to_->samples.begin() + v);
-    else
-      std::copy_n(a_.vertices.plan.begin() + from, count, to_->plan.begin() + v);
-    const std::size_t bytes = a_.vertices.encoding.bytesPerHeight();
-    std::copy_n(a_.vertices.rawHeights.begin() + from * bytes, count * bytes,
-                to_->rawHeights.begin() + v * bytes);
   }
 
   std::uint32_t vertexOf(std::uint32_t v) {
@@ -257,8 +259,7 @@ class SubsetCopy {
 std::optional<MultiTriangulation> prefixOfMt(const MultiTriangulation& whole, std::uint32_t nodes) {
   if (nodes == whole.nodeCount()) return whole;
   MtArrays a = whole.arrays();
-  const std::uint64_t slots = a.slotBegin[nodes], ids = a.rootTriangles.size() + slots,
-                      vertices = std::uint64_t{a.rootVertices} + nodes;
+  const std::uint64_t slots = a.slotBegin[nodes], ids = a.rootTriangles.size() + slots;
   if (slots > a.link.size() || slots < 3 * std::uint64_t{nodes} ||
       slots - 2 * std::uint64_t{nodes} > a.floor.size())
     return std::nullopt;
@@ -278,24 +279,14 @@ std::optional<MultiTriangulation> prefixOfMt(const MultiTriangulation& whole, st
   };
   copyBlocks(0, nodes / MultiTriangulation::kNodesPerBlock);
   copyBlocks(nodeBlockCount(whole.nodeCount()), nodes / MultiTriangulation::kNodesPerPage);
-  a.slotBegin = a.slotBegin.first(nodes + 1);
-  a.link = a.link.first(slots);
+  AmtFacts facts;
+  facts.counts = {a.rootVertices, a.rootTriangles.size(), nodes, slots};
+  for (const AmtMtColumn& column : amtMtColumns(a))
+    if (column.per != AmtPer::block)
+      column.mt.put(a, column.mt.bytes(a).first(amtCountOf(column.per, facts) * column.elementBytes()));
   a.remover = arrays->remover;
-  a.error = a.error.first(ids);
-  a.below = a.below.first(ids);
-  a.above = a.above.first(ids);
-  a.floor = a.floor.first(slots - 2 * std::uint64_t{nodes});
-  a.saturatedError = a.saturatedError.first(nodes);
-  a.sphere = a.sphere.first(nodes);
   a.blockError = arrays->blocks.error;
   a.blockSphere = arrays->blocks.sphere;
-  a.creatorHint = a.creatorHint.first((slots + MultiTriangulation::kSlotsPerHint - 1) /
-                                      MultiTriangulation::kSlotsPerHint);
-  if (a.vertices.isLattice())
-    a.vertices.samples = a.vertices.samples.first(vertices);
-  else
-    a.vertices.plan = a.vertices.plan.first(vertices);
-  a.vertices.rawHeights = a.vertices.rawHeights.first(vertices * a.vertices.encoding.bytesPerHeight());
   return MultiTriangulation(a, arrays);
 }
 

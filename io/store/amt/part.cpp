@@ -26,6 +26,7 @@
 #include "io/store/amt/index_check.h"
 #include "io/store/amt/mt_part.h"
 #include "io/store/amt/segments.h"
+#include "io/store/format/schema.h"
 
 namespace arete {
 namespace {
@@ -45,7 +46,10 @@ class PartReader {
         required_(wanted),
         verify_(verify),
         context_(context),
-        segments_(file) {}
+        segments_(file) {
+    for (const AmtMtColumn& column : amtMtColumns(a_))
+      columns_.push_back({column.per, segments_.of(column.tag)});
+  }
 
   Result<MultiTriangulation> run() {
     ARETE_CHECK(checkSegmentChecksums());
@@ -58,6 +62,11 @@ class PartReader {
   }
 
  private:
+  struct Column {
+    AmtPer per;
+    AmtSegments::Chunk chunk;
+  };
+
   bool isRequired(OutwardScale::Code saturatedError, double error) const {
     return !(error > 0) || a_.scale.decode(saturatedError) > error;
   }
@@ -106,7 +115,7 @@ class PartReader {
   }
 
   Result<MultiTriangulation> readPrefix() {
-    segments_.touch(slotBegin_, end_, end_ + 1);
+    touch(AmtPer::nodeOrEnd, end_, end_ + 1);
     if (!areSlots(0, end_, 0, a_.slotBegin[end_])) return culprit();
     touchNodes(0, end_, 0, a_.slotBegin[end_]);
     const auto part = prefixOfMt(whole_, end_);
@@ -139,8 +148,7 @@ class PartReader {
       if (isPageRequired_[page] == 0) continue;
       const std::uint64_t begin = std::uint64_t{page} * kNodesPerPage,
                           end = std::min<std::uint64_t>(begin + kNodesPerPage, whole_.nodeCount());
-      segments_.touch(saturatedError_, begin, end);
-      segments_.touch(sphere_, begin, end);
+      touch(AmtPer::node, begin, end);
     }
     parallelFor(std::uint32_t{0}, pages_, [&](std::uint32_t page) {
       if (isPageRequired_[page] == 0 || context_.cancelled()) return;
@@ -164,11 +172,12 @@ class PartReader {
 
   /// The arrays that are read whole.
   void touchBeside() {
-    for (const AmtTag& tag : {amt_tag::kRootTriangles, amt_tag::kBlockError, amt_tag::kBlockSphere,
-                              amt_tag::kIsolatedSamples, amt_tag::kIsolatedHeights, amt_tag::kFixedVertices})
+    for (const AmtTag& tag : {amt_tag::kIsolatedSamples, amt_tag::kIsolatedHeights, amt_tag::kFixedVertices})
       segments_.touchAll(segments_.of(tag));
-    touchVertices(0, a_.rootVertices);
-    touchTriangles(0, a_.rootTriangles.size());
+    for (const Column& column : columns_)
+      if (column.per == AmtPer::rootTriangle || column.per == AmtPer::block) segments_.touchAll(column.chunk);
+    touch(AmtPer::vertex, 0, a_.rootVertices);
+    touch(AmtPer::triangle, 0, a_.rootTriangles.size());
   }
 
   /// @return false if the slots are damaged
@@ -180,7 +189,7 @@ class PartReader {
       const std::uint32_t begin = first + static_cast<std::uint32_t>(std::countr_zero(members)),
                           end =
                               first + kNodesPerBlock - static_cast<std::uint32_t>(std::countl_zero(members));
-      segments_.touch(slotBegin_, begin, end + 1);
+      touch(AmtPer::nodeOrEnd, begin, end + 1);
       if (!areSlots(begin, end, a_.slotBegin[begin], a_.slotBegin[end])) return false;
       touchNodes(begin, end, a_.slotBegin[begin], a_.slotBegin[end]);
     }
@@ -195,22 +204,18 @@ class PartReader {
 
   /// The data of nodes [begin, end), whose slots are [slots, slotsEnd).
   void touchNodes(std::uint64_t begin, std::uint64_t end, std::uint64_t slots, std::uint64_t slotsEnd) {
-    segments_.touch(slotBegin_, begin, end + 1);
-    segments_.touch(link_, slots, slotsEnd);
-    segments_.touch(floor_, slots - 2 * begin, slotsEnd - 2 * end);
-    segments_.touch(saturatedError_, begin, end);
-    segments_.touch(sphere_, begin, end);
-    segments_.touch(creatorHint_, slots / kSlotsPerHint, (slotsEnd + kSlotsPerHint - 1) / kSlotsPerHint);
-    touchTriangles(a_.rootTriangles.size() + slots, a_.rootTriangles.size() + slotsEnd);
-    touchVertices(a_.rootVertices + begin, a_.rootVertices + end);
+    touch(AmtPer::nodeOrEnd, begin, end + 1);
+    touch(AmtPer::slot, slots, slotsEnd);
+    touch(AmtPer::floorTriangle, slots - 2 * begin, slotsEnd - 2 * end);
+    touch(AmtPer::node, begin, end);
+    touch(AmtPer::hint, slots / kSlotsPerHint, (slotsEnd + kSlotsPerHint - 1) / kSlotsPerHint);
+    touch(AmtPer::triangle, a_.rootTriangles.size() + slots, a_.rootTriangles.size() + slotsEnd);
+    touch(AmtPer::vertex, a_.rootVertices + begin, a_.rootVertices + end);
   }
-  void touchTriangles(std::uint64_t begin, std::uint64_t end) {
-    for (const AmtSegments::Chunk chunk : {remover_, error_, below_, above_})
-      segments_.touch(chunk, begin, end);
-  }
-  void touchVertices(std::uint64_t begin, std::uint64_t end) {
-    segments_.touch(place_, begin, end);
-    segments_.touch(height_, begin, end);
+  /// These elements of every column that is per such.
+  void touch(AmtPer per, std::uint64_t begin, std::uint64_t end) {
+    for (const Column& column : columns_)
+      if (column.per == per) segments_.touch(column.chunk, begin, end);
   }
 
   Status checkSegments() {
@@ -242,15 +247,7 @@ class PartReader {
   AmtVerify verify_;
   const RunContext& context_;
   AmtSegments segments_;
-  const AmtSegments::Chunk slotBegin_ = segments_.of(amt_tag::kSlotBegin),
-                           link_ = segments_.of(amt_tag::kLink), remover_ = segments_.of(amt_tag::kRemover),
-                           error_ = segments_.of(amt_tag::kError), below_ = segments_.of(amt_tag::kBelow),
-                           above_ = segments_.of(amt_tag::kAbove), floor_ = segments_.of(amt_tag::kFloor),
-                           saturatedError_ = segments_.of(amt_tag::kSaturatedError),
-                           sphere_ = segments_.of(amt_tag::kSphere),
-                           creatorHint_ = segments_.of(amt_tag::kCreatorHint),
-                           place_ = segments_.of(file_.model().isRaster ? amt_tag::kSamples : amt_tag::kPlan),
-                           height_ = segments_.of(amt_tag::kHeights);
+  std::vector<Column> columns_;  // of the MT
   std::vector<std::uint8_t> isPageRequired_;
   std::uint32_t pages_ = 0, end_ = 0;  // up to the end of the last required page; end_ in nodes
 };

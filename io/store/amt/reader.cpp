@@ -8,7 +8,7 @@
 #include "engine/base/caught_failure.h"
 #include "engine/mt/node_blocks.h"
 #include "io/store/amt/file.h"
-#include "io/store/amt/mt_chunks.h"
+#include "io/store/amt/model_columns.h"
 #include "io/store/amt/part.h"
 #include "io/store/format/metadata.h"
 #include "io/store/packed/packed.h"
@@ -45,50 +45,29 @@ Result<AmtMetadata> AmtOpener::readMetadata() const {
 }
 
 Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
-  const bool isPacked = all_.find(amt_tag::kPackedDirectory) != nullptr;
-  std::vector<AmtShape> shapes = amtShapes(metadata, isPacked);
-  if (isPacked)
-    for (const AmtTag tag : {amt_tag::kPackedDirectory, amt_tag::kPackedTables, amt_tag::kPackedNodes})
-      shapes.push_back({tag, AmtScalar::u8, 1, all_.find(tag) == nullptr ? 0 : all_.find(tag)->bytes});
-  const bool hasSegments = all_.find(amt_tag::kSegmentChecksums) != nullptr;
-  if (hasSegments) {
-    std::uint64_t segments = 0;
-    for (const AmtChunk& chunk : all_.chunks()) segments += amtSegmentCount(chunk.tag, chunk.bytes);
-    shapes.push_back(amtSegmentShape(segments));
-  }
-  ARETE_CHECK(all_.checkShapes(shapes));
-
+  AmtFacts facts = amtFactsOf(metadata);
+  ARETE_CHECK(checkColumns<TerrainModel>(all_, facts));
   file_.writer_ = metadata.writer;
   file_.model_ = metadata.model;
   file_.nodeCount_ = metadata.counts.nodes;
-  MtArrays a;
-  const auto rootVertices = static_cast<std::uint32_t>(metadata.counts.rootVertices);
-  a.rootVertices = rootVertices;
   place(amt_tag::kIsolatedSamples, file_.isolatedSamples_);
   place(amt_tag::kIsolatedHeights, file_.isolatedHeights_);
   place(amt_tag::kFixedVertices, file_.fixedVertices_);
-  if (hasSegments) place(amt_tag::kSegmentChecksums, file_.segmentChecksums_);
-  if (isPacked) {
+  if (facts.segments) place(amt_tag::kSegmentChecksums, file_.segmentChecksums_);
+  MtArrays a;
+  a.rootVertices = static_cast<std::uint32_t>(metadata.counts.rootVertices);
+  if (facts.isPacked) {
     place(amt_tag::kPackedDirectory, file_.packedDirectory_);
     place(amt_tag::kPackedTables, file_.packedTables_);
     place(amt_tag::kPackedNodes, file_.packedNodes_);
     file_.metadata_ = std::make_shared<const AmtMetadata>(metadata);
-    file_.model_.mt = MultiTriangulation(a, all_.owner());
-    return {};
+  } else {
+    placeMtColumns<TerrainModel>(all_, facts, a);
+    a.vertices.columns = metadata.model.columns;
+    a.vertices.encoding = metadata.encoding;
+    a.scale = metadata.scale;
+    a.metric = metadata.metric;
   }
-  a = placeMtChunks(all_);
-  a.rootVertices = rootVertices;
-  place(amt_tag::kBelow, a.below);
-  place(amt_tag::kAbove, a.above);
-  if (metadata.model.isRaster)
-    place(amt_tag::kSamples, a.vertices.samples);
-  else
-    place(amt_tag::kPlan, a.vertices.plan);
-  a.vertices.columns = metadata.model.columns;
-  a.vertices.encoding = metadata.encoding;
-  place(amt_tag::kHeights, a.vertices.rawHeights);
-  a.scale = metadata.scale;
-  a.metric = metadata.metric;
   file_.model_.mt = MultiTriangulation(a, all_.owner());
   return {};
 }

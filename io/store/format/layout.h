@@ -120,32 +120,6 @@ inline constexpr AmtTag kPackedNumbers = {'P', 'N', 'U', 'M'};
 inline constexpr AmtTag kPackedDisplacement = {'P', 'D', 'S', 'P'};
 }  // namespace amt_tag
 
-/// Whether this program knows what a chunk of this tag holds.
-constexpr bool isKnownAmtTag(const AmtTag& tag) {
-  using namespace amt_tag;
-  for (const AmtTag& known : {kMetadata,        kRootTriangles,
-                              kSlotBegin,       kLink,
-                              kRemover,         kError,
-                              kBelow,           kAbove,
-                              kFloor,           kSaturatedError,
-                              kSphere,          kBlockError,
-                              kBlockSphere,     kCreatorHint,
-                              kSamples,         kPlan,
-                              kHeights,         kPackedDirectory,
-                              kPackedTables,    kPackedNodes,
-                              kIsolatedSamples, kIsolatedHeights,
-                              kFixedVertices,   kSegmentChecksums,
-                              kPlaces,          kRms,
-                              kVertexNumbers,   kFaceNumbers,
-                              kWedges,          kAttributes,
-                              kLooks,           kPictures,
-                              kPackedNumbers,   kDirections,
-                              kReaches,         kPackedDisplacement,
-                              kLeftOutFaces})
-    if (tag == known) return true;
-  return false;
-}
-
 /// The number of segments of a chunk; 0 for the metadata and the checksums of segments.
 constexpr std::uint64_t amtSegmentCount(const AmtTag& tag, std::uint64_t bytes) {
   if (tag == amt_tag::kMetadata || tag == amt_tag::kSegmentChecksums) return 0;

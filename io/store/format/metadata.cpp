@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "engine/mt/hole_limit.h"
-#include "engine/mt/node_blocks.h"
 #include "io/files/text/address_text.h"
 #include "io/files/text/json_tree.h"
 #include "io/store/format/json_fields.h"
@@ -34,17 +33,6 @@ constexpr std::array<Choice<HeightEncoding::Type>, 3> kHeightTypes = {
      {HeightEncoding::Type::float32, "float32"},
      {HeightEncoding::Type::float64, "float64"}}};
 
-AmtScalar scalarOf(HeightEncoding::Type type) {
-  switch (type) {
-    case HeightEncoding::Type::int16:
-      return AmtScalar::i16;
-    case HeightEncoding::Type::float32:
-      return AmtScalar::f32;
-    default:
-      return AmtScalar::f64;
-  }
-}
-
 /// Values that the file holds and a model has no member for.
 struct Stored {
   std::uint32_t scaleBase = 0;
@@ -56,17 +44,12 @@ struct Stored {
 template <class Visitor, class Metadata, class OtherValues>
 void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
   auto& model = m.model;
-  top.field("writer", m.writer);
-  top.field("source", model.source);
-  top.field("sourceChecksum", model.sourceChecksum);
+  visitSourceFields(top, m);
   top.field("isRaster", model.isRaster);
   top.field("columns", model.columns);
   top.field("rows", model.rows);
   top.object("counts", [&](auto& counts) {
-    counts.field("rootVertices", m.counts.rootVertices);
-    counts.field("rootTriangles", m.counts.rootTriangles);
-    counts.field("nodes", m.counts.nodes);
-    counts.field("slots", m.counts.slots);
+    visitMtCounts(counts, m.counts);
     counts.field("isolated", m.counts.isolated);
     counts.field("fixedVertices", m.counts.fixedVertices);
   });
@@ -75,11 +58,7 @@ void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
     heights.field("scale", m.encoding.scale);
     heights.field("offset", m.encoding.offset);
   });
-  top.field("errorScaleBase", stored.scaleBase);
-  top.object("metricFrame", [&](auto& metric) {
-    metric.field("origin", m.metric.origin);
-    metric.field("scale", m.metric.scale);
-  });
+  visitFrameFields(top, m, stored.scaleBase);
   top.object("georeference", [&](auto& georeference) {
     auto& g = model.georeference;
     georeference.field("geoTransform", g.geoTransform);
@@ -186,11 +165,11 @@ std::optional<std::string> findScaleProblem(const OutwardScale& scale) {
 }
 
 AmtMetadata amtMetadataOf(const TerrainModel& model, std::string writer) {
-  const MtArrays& a = model.mt.arrays();
   AmtMetadata m;
-  m.writer = std::move(writer);
-  m.counts = {a.rootVertices, a.rootTriangles.size(), a.saturatedError.size(),
-              a.link.size(),  model.isolated.size(),  model.options.fixedVertices.size()};
+  static_cast<AmtHead&>(m) = amtHeadOf(model.mt, std::move(writer));
+  m.encoding = model.mt.vertices().encoding;
+  m.counts.isolated = model.isolated.size();
+  m.counts.fixedVertices = model.options.fixedVertices.size();
   m.model.georeference = model.georeference;
   m.model.isRaster = model.isRaster;
   m.model.columns = model.columns;
@@ -203,9 +182,6 @@ AmtMetadata amtMetadataOf(const TerrainModel& model, std::string writer) {
   m.model.metricP = model.metricP;
   m.model.metricQ = model.metricQ;
   m.model.levels = model.levels;
-  m.encoding = a.vertices.encoding;
-  m.scale = a.scale;
-  m.metric = a.metric;
   return m;
 }
 
@@ -261,44 +237,12 @@ Result<AmtMetadata> fromAmtJson(std::string_view text) {
   return m;
 }
 
-std::vector<AmtShape> mtShapes(const AmtCounts& c, std::span<const AmtTag> ofTriangles) {
-  const std::uint64_t triangles = c.rootTriangles + c.slots;
-  constexpr std::uint64_t kSlotsPerHint = MultiTriangulation::kSlotsPerHint;
-  std::vector<AmtShape> shapes = {
-      {amt_tag::kRootTriangles, AmtScalar::u32, 12, c.rootTriangles},
-      {amt_tag::kSlotBegin, AmtScalar::u32, 4, c.nodes + 1},
-      {amt_tag::kLink, AmtScalar::u32, 4, c.slots},
-      {amt_tag::kRemover, AmtScalar::u32, 4, triangles},
-      {amt_tag::kError, AmtScalar::u16, 2, triangles},
-  };
-  for (const AmtTag& tag : ofTriangles) shapes.push_back({tag, AmtScalar::u16, 2, triangles});
-  const AmtShape rest[] = {
-      {amt_tag::kFloor, AmtScalar::u32, 4, c.slots - 2 * c.nodes},
-      {amt_tag::kSaturatedError, AmtScalar::u16, 2, c.nodes},
-      {amt_tag::kSphere, AmtScalar::f32, 16, c.nodes},
-      {amt_tag::kBlockError, AmtScalar::u16, 2, nodeBlockAndPageCount(c.nodes)},
-      {amt_tag::kBlockSphere, AmtScalar::f32, 16, nodeBlockAndPageCount(c.nodes)},
-      {amt_tag::kCreatorHint, AmtScalar::u32, 4, (c.slots + kSlotsPerHint - 1) / kSlotsPerHint},
-  };
-  shapes.insert(shapes.end(), std::begin(rest), std::end(rest));
-  return shapes;
-}
-
-std::vector<AmtShape> amtShapes(const AmtMetadata& m, bool isPacked) {
-  const AmtCounts& c = m.counts;
-  const std::uint64_t vertices = c.rootVertices + c.nodes;
-  std::vector<AmtShape> shapes;
-  if (!isPacked) {
-    shapes = mtShapes(c, std::array{amt_tag::kBelow, amt_tag::kAbove});
-    shapes.push_back(m.model.isRaster ? AmtShape{amt_tag::kSamples, AmtScalar::u32, 4, vertices}
-                                      : AmtShape{amt_tag::kPlan, AmtScalar::f64, 16, vertices});
-    shapes.push_back({amt_tag::kHeights, scalarOf(m.encoding.type),
-                      static_cast<std::uint32_t>(m.encoding.bytesPerHeight()), vertices});
-  }
-  shapes.push_back({amt_tag::kIsolatedSamples, AmtScalar::u32, 4, c.isolated});
-  shapes.push_back({amt_tag::kIsolatedHeights, AmtScalar::f64, 8, c.isolated});
-  shapes.push_back({amt_tag::kFixedVertices, AmtScalar::u32, 4, c.fixedVertices});
-  return shapes;
+AmtFacts amtFactsOf(const AmtMetadata& metadata) {
+  AmtFacts facts;
+  facts.counts = metadata.counts;
+  facts.isLattice = metadata.model.isRaster;
+  facts.heights = metadata.encoding.type;
+  return facts;
 }
 
 }  // namespace arete

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -39,14 +38,9 @@ std::uint64_t splitFacesOf(const SurfaceMetadata& m) {
 template <class Visitor, class Metadata, class OtherValues>
 void visitSurfaceMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
   auto& model = m.model;
-  top.field("writer", m.writer);
-  top.field("source", model.source);
-  top.field("sourceChecksum", model.sourceChecksum);
+  visitSourceFields(top, m);
   top.object("counts", [&](auto& counts) {
-    counts.field("rootVertices", m.counts.rootVertices);
-    counts.field("rootTriangles", m.counts.rootTriangles);
-    counts.field("nodes", m.counts.nodes);
-    counts.field("slots", m.counts.slots);
+    visitMtCounts(counts, m.counts);
     counts.field("finestTriangles", m.finestTriangles);
     counts.field("wedges", m.wedges);
     counts.field("sourceVertices", model.sourceVertices);
@@ -54,11 +48,7 @@ void visitSurfaceMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
   });
   top.flag("hasDoubles", m.hasDoubles);
   top.flag("hasAllFaces", m.hasAllFaces);
-  top.field("errorScaleBase", stored.scaleBase);
-  top.object("metricFrame", [&](auto& metric) {
-    metric.field("origin", m.metric.origin);
-    metric.field("scale", m.metric.scale);
-  });
+  visitFrameFields(top, m, stored.scaleBase);
   top.optional("positionStep", stored.positionStep);
   top.optional("positionError", stored.positionError);
   top.optional("fileFaces", stored.fileFaces);
@@ -87,17 +77,13 @@ void visitSurfaceMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
 
 }  // namespace
 
-SurfaceMetadata surfaceMetadataOf(const SurfaceModel& model, std::string writer) {
-  const MtArrays& a = model.mt.arrays();
+SurfaceMetadata amtMetadataOf(const SurfaceModel& model, std::string writer) {
   SurfaceMetadata m;
-  m.writer = std::move(writer);
-  m.counts = {a.rootVertices, a.rootTriangles.size(), a.saturatedError.size(), a.link.size(), 0, 0};
+  static_cast<AmtHead&>(m) = amtHeadOf(model.mt, std::move(writer));
   m.finestTriangles = model.mt.finestTriangleCount();
   m.wedges = model.attributes.wedgeCount;
-  m.hasDoubles = !a.vertices.places64.empty();
+  m.hasDoubles = !model.mt.vertices().places64.empty();
   m.hasAllFaces = model.hasFaceAttributes();
-  m.scale = a.scale;
-  m.metric = a.metric;
   SurfaceModel& to = m.model;
   to.sourceVertices = model.sourceVertices;
   to.sourceFaces = model.sourceFaces;
@@ -116,7 +102,7 @@ SurfaceMetadata surfaceMetadataOf(const SurfaceModel& model, std::string writer)
   return m;
 }
 
-std::optional<std::string> findSurfaceProblem(const SurfaceMetadata& m) {
+std::optional<std::string> findAmtProblem(const SurfaceMetadata& m) {
   if (auto problem = findCountProblem(m.counts)) return problem;
   constexpr std::uint64_t kMost = 0xFFFFFFFE;
   if (m.wedges > kMost || m.model.sourceVertices > kMost || m.model.sourceFaces > kMost)
@@ -152,7 +138,7 @@ std::optional<std::string> findSurfaceProblem(const SurfaceMetadata& m) {
   return std::nullopt;
 }
 
-std::string toSurfaceJson(const SurfaceMetadata& metadata) {
+std::string toAmtJson(const SurfaceMetadata& metadata) {
   JsonTree object(nlohmann::ordered_json::object());
   json_fields::Writer writer(*object);
   const SurfaceModel& model = metadata.model;
@@ -175,21 +161,19 @@ Result<SurfaceMetadata> fromSurfaceJson(std::string_view text) {
   m.model.positionError = stored.positionError.value_or(0);
   m.model.fileFaces = stored.fileFaces.value_or(m.model.sourceFaces);
   m.model.mending.splitFaces = stored.splitFaces.value_or(splitFacesOf(m));
-  if (problem.empty()) problem = findSurfaceProblem(m).value_or("");
+  if (problem.empty()) problem = findAmtProblem(m).value_or("");
   if (!problem.empty()) return failure(ErrorCode::corrupt, fmt::format("the metadata is wrong: {}", problem));
   return m;
 }
 
-std::vector<AmtShape> surfaceShapes(const SurfaceMetadata& m) {
-  const AmtCounts& c = m.counts;
-  const std::uint64_t triangles = c.rootTriangles + c.slots, vertices = c.rootVertices + c.nodes;
-  std::vector<AmtShape> shapes = mtShapes(c, std::array<AmtTag, 1>{amt_tag::kRms});
-  shapes.push_back(m.hasDoubles ? AmtShape{amt_tag::kPlaces, AmtScalar::f64, 24, vertices}
-                                : AmtShape{amt_tag::kPlaces, AmtScalar::f32, 12, vertices});
-  shapes.push_back({amt_tag::kVertexNumbers, AmtScalar::u32, 4, vertices});
-  shapes.push_back({amt_tag::kFaceNumbers, AmtScalar::u32, 4, m.hasAllFaces ? triangles : m.finestTriangles});
-  if (m.wedges > 0) shapes.push_back({amt_tag::kWedges, AmtScalar::u32, 12, triangles});
-  return shapes;
+AmtFacts amtFactsOf(const SurfaceMetadata& metadata) {
+  AmtFacts facts;
+  facts.counts = metadata.counts;
+  facts.hasDoubles = metadata.hasDoubles;
+  facts.hasAllFaces = metadata.hasAllFaces;
+  facts.hasWedges = metadata.wedges > 0;
+  facts.finestTriangles = metadata.finestTriangles;
+  return facts;
 }
 
 }  // namespace arete

@@ -8,34 +8,27 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "io/store/format/metadata.h"
-#include "io/store/format/shapes.h"
+#include "io/store/format/metadata_head.h"
 #include "surface/model/surface_model.h"
 
 namespace arete {
 
 /// The content of the metadata chunk of a surface: all of a model but its arrays and its looks.
-struct SurfaceMetadata {
-  std::string writer;
-  AmtCounts counts;
+struct SurfaceMetadata : AmtHead {
   std::uint64_t wedges = 0;
   bool hasDoubles = false;   ///< places are doubles, not floats
   bool hasAllFaces = false;  ///< every triangle has a face number, not only those of the finest front
   std::uint64_t finestTriangles = 0;
   double positionStep = 0;  ///< of a packed file: see io/store/packed/packed.h
-  OutwardScale scale;
-  MetricFrame metric;
   SurfaceModel model;  ///< without mt, arrays and attributes
 };
 
-SurfaceMetadata surfaceMetadataOf(const SurfaceModel& model, std::string writer);
-/// As findAmtProblem(), toAmtJson() and fromAmtJson() of terrain.
-std::optional<std::string> findSurfaceProblem(const SurfaceMetadata& metadata);
-std::string toSurfaceJson(const SurfaceMetadata& metadata);
+/// As those of terrain (io/store/format/metadata.h).
+SurfaceMetadata amtMetadataOf(const SurfaceModel& model, std::string writer);
+std::optional<std::string> findAmtProblem(const SurfaceMetadata& metadata);
+std::string toAmtJson(const SurfaceMetadata& metadata);
 Result<SurfaceMetadata> fromSurfaceJson(std::string_view text);
-
-/// The chunks whose sizes follow from the metadata, in the order in which they are written.
-std::vector<AmtShape> surfaceShapes(const SurfaceMetadata& metadata);
+AmtFacts amtFactsOf(const SurfaceMetadata& metadata);
 
 /// What a file says of the looks of a surface: declarations of attributes, objects, groups, materials,
 /// pictures, as JSON. The values are in chunks of their own.

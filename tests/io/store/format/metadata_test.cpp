@@ -88,26 +88,5 @@ TEST(Metadata, IsRefusedWhereCountsOrNumbersContradictEachOther) {
   }
 }
 
-TEST(Metadata, CallsForEveryChunkOnceAndForTheArraysOnlyWhereTheFileIsPlain) {
-  for (const bool isRaster : {true, false}) {
-    AmtMetadata m = tiny();
-    m.model.isRaster = isRaster;
-    std::set<AmtTag> tags;
-    for (const AmtShape& shape : amtShapes(m)) EXPECT_TRUE(tags.insert(shape.tag).second);
-    EXPECT_EQ(tags.size(), 18u);
-    EXPECT_EQ(tags.count(amt_tag::kSamples), isRaster ? 1u : 0u);
-    EXPECT_EQ(tags.count(amt_tag::kPlan), isRaster ? 0u : 1u);
-    EXPECT_EQ(amtShapes(m, true).size(), 3u);
-  }
-  for (const AmtShape& shape : amtShapes(tiny()))
-    if (shape.tag == amt_tag::kFloor) {
-      EXPECT_EQ(shape.count, 3u);
-    } else if (shape.tag == amt_tag::kHeights) {
-      EXPECT_EQ(shape.elementBytes, 2u);
-      EXPECT_EQ(shape.scalar, AmtScalar::i16);
-      EXPECT_EQ(shape.count, 6u);
-    }
-}
-
 }  // namespace
 }  // namespace arete

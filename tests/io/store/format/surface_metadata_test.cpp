@@ -85,12 +85,12 @@ void expectSame(const SurfaceMetadata& a, const SurfaceMetadata& b) {
 
 TEST(SurfaceMetadataText, ReadsEveryFieldBackToTheBit) {
   const SurfaceMetadata m = full();
-  EXPECT_FALSE(findSurfaceProblem(m)) << *findSurfaceProblem(m);
-  const std::string text = toSurfaceJson(m);
+  EXPECT_FALSE(findAmtProblem(m)) << *findAmtProblem(m);
+  const std::string text = toAmtJson(m);
   const Result<SurfaceMetadata> back = fromSurfaceJson(text);
   ASSERT_TRUE(back) << back.error().message;
   expectSame(m, *back);
-  EXPECT_EQ(toSurfaceJson(*back), text);
+  EXPECT_EQ(toAmtJson(*back), text);
 }
 
 TEST(SurfaceMetadataText, LeavesOutWhatIsNotThere) {
@@ -100,7 +100,7 @@ TEST(SurfaceMetadataText, LeavesOutWhatIsNotThere) {
   m.model.positionError = 0;
   m.model.boundsLines = m.model.mending.dropsFlatNormals = m.model.options.keepsBorders = false;
   m.model.crsWkt = m.model.verticalUnit = m.model.up = "";
-  const json object = json::parse(toSurfaceJson(m));
+  const json object = json::parse(toAmtJson(m));
   for (const char* key : {"hasDoubles", "hasAllFaces", "positionStep", "positionError", "boundsLines",
                           "crsWkt", "verticalUnit", "up"})
     EXPECT_FALSE(object.contains(key)) << key;
@@ -110,7 +110,7 @@ TEST(SurfaceMetadataText, LeavesOutWhatIsNotThere) {
 }
 
 TEST(SurfaceMetadataText, OfEarlierWritersCountsFacesAndSplitsFromTheRest) {
-  json object = json::parse(toSurfaceJson(full()));
+  json object = json::parse(toAmtJson(full()));
   object.erase("fileFaces");
   object["mending"].erase("splitFaces");
   object["anything"] = "is ignored";
@@ -121,7 +121,7 @@ TEST(SurfaceMetadataText, OfEarlierWritersCountsFacesAndSplitsFromTheRest) {
 }
 
 TEST(SurfaceMetadataText, IsRefusedWhereAFieldIsMissingOrOfAnotherType) {
-  const json object = json::parse(toSurfaceJson(full())), flat = object.flatten();
+  const json object = json::parse(toAmtJson(full())), flat = object.flatten();
   const std::vector<std::string> mayBeAbsent = {"/hasDoubles",
                                                 "/hasAllFaces",
                                                 "/positionStep",
@@ -180,7 +180,7 @@ TEST(SurfaceMetadataText, IsRefusedWhereNumbersAreOutOfRangeOrWouldWrapAround) {
   for (const auto& [sentence, change] : changes) {
     SurfaceMetadata m = full();
     change(m);
-    const auto problem = findSurfaceProblem(m);
+    const auto problem = findAmtProblem(m);
     ASSERT_TRUE(problem) << sentence;
     EXPECT_NE(problem->find(sentence), std::string::npos) << *problem;
   }

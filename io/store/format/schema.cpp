@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/store/format/schema.h"
+
+#include "engine/mt/node_blocks.h"
+
+namespace arete {
+namespace {
+
+template <class Model>
+void addMtColumns(const AmtFacts& facts, std::vector<AmtMtColumn>& to) {
+  for (const AmtRow<Model>& row : kAmtSchema<Model>)
+    if (row.mt && row.isIn(facts)) to.push_back({row, row.mt});
+}
+
+template <class Model>
+const AmtColumn* findIn(const AmtTag& tag) {
+  const auto found = std::ranges::find(kAmtSchema<Model>, tag, &AmtColumn::tag);
+  return found == kAmtSchema<Model>.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::uint64_t amtCountOf(AmtPer per, const AmtFacts& facts) {
+  const AmtCounts& c = facts.counts;
+  switch (per) {
+    case AmtPer::rootTriangle:
+      return c.rootTriangles;
+    case AmtPer::node:
+      return c.nodes;
+    case AmtPer::nodeOrEnd:
+      return c.nodes + 1;
+    case AmtPer::slot:
+      return c.slots;
+    case AmtPer::triangle:
+      return c.rootTriangles + c.slots;
+    case AmtPer::floorTriangle:
+      return c.slots - 2 * c.nodes;
+    case AmtPer::block:
+      return nodeBlockAndPageCount(c.nodes);
+    case AmtPer::hint:
+      return (c.slots + MultiTriangulation::kSlotsPerHint - 1) / MultiTriangulation::kSlotsPerHint;
+    case AmtPer::vertex:
+      return c.rootVertices + c.nodes;
+    case AmtPer::finestTriangle:
+      return facts.finestTriangles;
+    case AmtPer::isolated:
+      return c.isolated;
+    case AmtPer::fixedVertex:
+      return c.fixedVertices;
+    case AmtPer::segment:
+      return facts.segments.value_or(0);
+    default:
+      return 0;
+  }
+}
+
+std::vector<AmtMtColumn> amtMtColumns(const MtArrays& a) {
+  std::vector<AmtMtColumn> columns;
+  AmtFacts facts;
+  facts.isLattice = a.vertices.isLattice();
+  facts.heights = a.vertices.encoding.type;
+  facts.hasDoubles = !a.vertices.places64.empty();
+  if (a.vertices.isSurface())
+    addMtColumns<SurfaceModel>(facts, columns);
+  else
+    addMtColumns<TerrainModel>(facts, columns);
+  return columns;
+}
+
+const AmtColumn* findAmtColumn(const AmtTag& tag) {
+  const AmtColumn* const ofTerrain = findIn<TerrainModel>(tag);
+  return ofTerrain != nullptr ? ofTerrain : findIn<SurfaceModel>(tag);
+}
+
+}  // namespace arete
