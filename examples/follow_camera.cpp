@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
 
     arete::IncrementalOptions options;
     options.deadline = arete::Deadline::in(std::chrono::milliseconds(10));
-    const arete::ViewError criterion({.view = *view, .pixels = 1}, model->mt.arrays().metric);
+    const arete::ViewError criterion({.view = *view, .pixels = 1}, model->mt.metric());
     const auto update = cut.update(criterion, options);
     if (!update) return fail(update.error());
 

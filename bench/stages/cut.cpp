@@ -54,7 +54,7 @@ class CutStage {
     for (const double e : source_.tolerances)
       ARETE_CHECK(general(fmt::format("minimal, {:g}", e), UniformError(e), {}));
     const double inside = source_.tolerances.front(), outside = source_.tolerances.back();
-    const RegionError region(middle(model_), model_.mt.arrays().metric, inside, outside);
+    const RegionError region(middle(model_), model_.mt.metric(), inside, outside);
     for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
       const char* name = method == CutMethod::minimal ? "minimal" : "saturated";
       const std::string variant =
@@ -111,7 +111,7 @@ class CutStage {
     camera.height = (ground ? ground->height : 0) + 300 / model_.georeference.verticalUnitMetres;
     ARETE_TRY(const View seen, viewOf(camera, model_));
     const auto withPixels = [&](double pixels) {
-      return ViewError({.view = seen, .pixels = pixels}, model_.mt.arrays().metric);
+      return ViewError({.view = seen, .pixels = pixels}, model_.mt.metric());
     };
     return ofSize("saturated, view", kViewTriangles, {.method = CutMethod::saturated}, 1e-3, 1e3, withPixels);
   }

@@ -29,7 +29,7 @@ constexpr double kFramesPerSecond = 60, kMetresPerSecond = 150, kDegreesPerSecon
 /// From the middle of the DEM. Near its borders the camera goes on turning the same way.
 Result<std::vector<View>> viewsOfFlight(const TerrainModel& model) {
   const SurfaceHeights heights(model);
-  const MetricFrame& metric = model.mt.arrays().metric;
+  const MetricFrame& metric = model.mt.metric();
   Vec2 plan = model.toPlan(model.toSource({0.5 * (model.columns - 1), 0.5 * (model.rows - 1)}));
   double azimuth = 30, turned = 0, turn = kDegreesPerSecond / kFramesPerSecond, ground = 0;
   std::vector<View> views;
@@ -91,7 +91,7 @@ class FollowStage {
   }
 
   ViewError criterionOf(const View& view) const {
-    return ViewError({.view = view, .pixels = kPixels}, mt_.arrays().metric);
+    return ViewError({.view = view, .pixels = kPixels}, mt_.metric());
   }
 
   /// Times work(criterion) for every frame. Returns the median of its milliseconds.

@@ -12,9 +12,6 @@
 
 namespace arete {
 
-/// What a file is of.
-enum class ModelKind { terrain, surface };
-
 ModelKind kindOf(const AmtContainer& file);
 
 /// Which options of a command are for one kind of model alone: their help says so, and one check refuses them

@@ -48,14 +48,12 @@ double DistanceError::allowedAt(double distance) const {
 double DistanceError::allowedFor(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
   std::array<Vec3, 3> p;
   for (int i = 0; i < 3; ++i) {
-    p[i] = mt.arrays().metric.toMetric(mt.position(VertexId(corners[i])));
+    p[i] = mt.metric().toMetric(mt.position(VertexId(corners[i])));
     if (o_.inPlan) p[i].z = o_.place.z;
   }
   // How far the source that the triangle stands for may be from it.
-  const bool isBeside = mt.vertices().isSurface();
-  const double away = isBeside    ? mt.error(t)
-                      : o_.inPlan ? 0
-                                  : mt.error(t) * std::abs(mt.arrays().metric.scale.z);
+  const bool isBeside = !mt.vertices().hasPlan();
+  const double away = isBeside ? mt.error(t) : o_.inPlan ? 0 : mt.error(t) * std::abs(mt.metric().scale.z);
   return allowedAt(std::max(0.0, distanceToTriangle(o_.place, {p[0], p[1], p[2]}) - away));
 }
 

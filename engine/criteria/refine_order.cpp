@@ -15,13 +15,13 @@ RefineKey TwoQueues::key(const MultiTriangulation& mt, const Criterion&, Triangl
   std::array<Vec3, 6> prism = prismOf(mt, t, corners);
   for (Vec3& p : prism) p = frustum_.toView(p);
   if (frustum_.mayMeet(prism)) {
-    const MetricFrame& metric = mt.arrays().metric;
+    const MetricFrame& metric = mt.metric();
     const auto corner = [&](int i) { return metric.toMetric(mt.position(VertexId(corners[i]))); };
     return {0, distanceToTriangle(o_.view.eye, {corner(0), corner(1), corner(2)})};
   }
   const NodeId remover = mt.remover(t);
   if (!remover.isValid()) return {1, 0};
-  const Vec3 p = frustum_.toView(mt.arrays().metric.toMetric(mt.position(mt.apex(remover))));
+  const Vec3 p = frustum_.toView(mt.metric().toMetric(mt.position(mt.apex(remover))));
   const double fromAxis = std::hypot(p.x, p.y), fromEye = std::hypot(fromAxis, p.z);
   const double sum = o_.axisWeight * fromAxis + o_.distanceWeight * fromEye;
   return {1, p.z < 0 ? sum * o_.behindFactor : sum};

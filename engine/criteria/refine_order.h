@@ -64,7 +64,7 @@ class LargestSquaresFirst final : public RefineOrder {
   RefineKey key(const MultiTriangulation& mt, const Criterion&, TriangleId t,
                 const Criterion::Corners& corners, std::uint64_t) const override {
     const auto at = [&](std::size_t i) { return mt.position(VertexId(corners[i])); };
-    const double rms = mt.rms(t);
+    const double rms = mt.decoded(kRms, t);
     return {0, -rms * rms * norm(cross(at(1) - at(0), at(2) - at(0)))};
   }
 };

@@ -16,14 +16,13 @@
 namespace arete {
 
 std::array<Vec3, 6> prismOf(const MultiTriangulation& mt, TriangleId t, const Criterion::Corners& corners) {
-  const MtArrays& a = mt.arrays();
-  const double above = a.scale.decode(a.above[t.index()]), below = a.scale.decode(a.below[t.index()]);
+  const double above = mt.decoded(kAbove, t), below = mt.decoded(kBelow, t);
   std::array<Vec3, 6> prism;
   for (int i = 0; i < 3; ++i) {
     const Vec3 p = mt.position(VertexId(corners[i]));
     // z_TIN - z_reference lies in [-below, above].
-    prism[i] = a.metric.toMetric({p.x, p.y, p.z - above});
-    prism[i + 3] = a.metric.toMetric({p.x, p.y, p.z + below});
+    prism[i] = mt.metric().toMetric({p.x, p.y, p.z - above});
+    prism[i + 3] = mt.metric().toMetric({p.x, p.y, p.z + below});
   }
   return prism;
 }
@@ -46,7 +45,7 @@ double ViewError::allowedOnSurface(const MultiTriangulation& mt, TriangleId t, c
 }
 
 double ViewError::allowedFor(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
-  if (mt.vertices().isSurface()) return allowedOnSurface(mt, t, corners);
+  if (!mt.vertices().hasPlan()) return allowedOnSurface(mt, t, corners);
   std::array<Vec3, 6> prism = prismOf(mt, t, corners);
   for (Vec3& p : prism) p = frustum_.toView(p);
   if (!frustum_.mayMeet(prism)) return o_.outsideError;

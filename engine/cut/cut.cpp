@@ -63,7 +63,7 @@ bool isSatisfied(const MultiTriangulation& mt, const Criterion& criterion, Trian
   // The bound is the cheaper test, and passes most.
   const BoundedCriterion* const bounded = criterion.bounded();
   if (const NodeId remover = mt.remover(t); remover.isValid() && bounded != nullptr) {
-    const double allowed = bounded->allowedError(mt.arrays().sphere[remover.index()]);
+    const double allowed = bounded->allowedError(mt.sphere(remover));
     if (mt.error(t) <= allowed) return true;
   }
   return criterion.isFineEnough(mt, t, corners);
@@ -92,12 +92,11 @@ Cut frontOfPrefix(const MultiTriangulation& mt, std::uint32_t nodes) {
 }
 
 std::uint32_t uniformTriangleCount(const MultiTriangulation& mt, double maxError) {
-  const auto& saturated = mt.arrays().saturatedError;
-  const OutwardScale::Code code = mt.arrays().scale.floorCode(maxError);
+  const OutwardScale::Code code = mt.scale().floorCode(maxError);
   const std::uint32_t band = MultiTriangulation::bandOf(code), certain = mt.bandBegin(band);
   std::uint32_t count = mt.prefixTriangleCount(certain);
   for (std::uint32_t n = certain; n < mt.bandEnd(band); ++n)
-    if (saturated[n] > code) count += mt.isOpen(NodeId(n)) ? 1 : 2;
+    if (mt.saturatedCode(NodeId(n)) > code) count += mt.isOpen(NodeId(n)) ? 1 : 2;
   return count;
 }
 

@@ -49,7 +49,7 @@ class FrontWriter {
         in_(in),
         roots_(mt.rootTriangleCount()),
         rootVertices_(mt.rootVertexCount()),
-        slots_(static_cast<std::uint32_t>(mt.arrays().link.size())),
+        slots_(mt.slotTotal()),
         slotBegin_(mt.arrays().slotBegin.data()),
         link_(mt.arrays().link.data()),
         remover_(mt.arrays().remover.data() + roots_),

@@ -44,7 +44,7 @@ class Test {
         criterion_(criterion),
         bounded_(criterion.bounded()),
         isUniform_(bounded_ != nullptr && bounded_->uniformError()),
-        code_(isUniform_ ? mt.arrays().scale.floorCode(*bounded_->uniformError()) : OutwardScale::Code(0)) {}
+        code_(isUniform_ ? mt.scale().floorCode(*bounded_->uniformError()) : OutwardScale::Code(0)) {}
 
   bool isUniform() const { return isUniform_; }
   OutwardScale::Code code() const { return code_; }
@@ -56,8 +56,8 @@ class Test {
   };
   Around around(NodeId n) const {
     if (isUniform_) return {code_, code_};
-    const Sphere& ball = mt_.arrays().sphere[n.index()];
-    const OutwardScale& scale = mt_.arrays().scale;
+    const Sphere& ball = mt_.sphere(n);
+    const OutwardScale& scale = mt_.scale();
     return {scale.floorCode(bounded_->allowedError(ball)), scale.floorCode(bounded_->mostAllowed(ball))};
   }
 
@@ -366,7 +366,7 @@ std::optional<MemberSet> leastMembersByWalk(const MultiTriangulation& mt, const 
 
 std::optional<MemberSet> leastMembersWithin(const MultiTriangulation& mt, double least,
                                             std::uint32_t maxTriangles, const std::function<bool()>& stop) {
-  const OutwardScale& scale = mt.arrays().scale;
+  const OutwardScale& scale = mt.scale();
   const std::uint32_t leastCode = scale.floorCode(least);
   // Invariant: the set of code `fits` is small enough, that of any code below `large` is not. (A smaller
   // error has a larger set.) Both with their triangles.
@@ -420,7 +420,7 @@ std::optional<SetOfSeverity> membersOfSeverityWithin(const MultiTriangulation& m
   // The largest finite severity of the root: around an eye severities are infinite.
   double fits = 0, large = *criterion.severityLimit();
   for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) {
-    const double severity = criterion.severity(mt, TriangleId(t), mt.arrays().rootTriangles[t]);
+    const double severity = criterion.severity(mt, TriangleId(t), mt.rootTriangles()[t]);
     if (std::isfinite(severity)) fits = std::max(fits, severity);
   }
   // Triangles that the sets add to the root, at least 1.

@@ -67,10 +67,10 @@ class Walk {
     for (std::size_t steps = 0;; ++steps) {
       if (steps % kRefinementsPerCheck == 0 && context.cancelled())
         return failure(ErrorCode::interrupted, "the cut was interrupted");
-      while (!heap_.empty() && isIn(mt_.arrays().remover[heap_.top().triangle])) heap_.pop();
+      while (!heap_.empty() && isIn(mt_.remover(TriangleId(heap_.top().triangle)).index())) heap_.pop();
       recordState();
       if (heap_.empty()) break;
-      collectMissing(mt_, mt_.arrays().remover[heap_.top().triangle], claim, missing);
+      collectMissing(mt_, mt_.remover(TriangleId(heap_.top().triangle)).index(), claim, missing);
       heap_.pop();
       std::uint64_t added = 0;
       for (const std::uint32_t n : missing) added += mt_.isOpen(NodeId(n)) ? 1 : 2;
@@ -101,8 +101,8 @@ class Walk {
 
   void offer(std::uint32_t id, NodeId creator) {
     const TriangleId t(id);
-    const std::uint32_t remover = mt_.arrays().remover[id];
-    if (remover == MultiTriangulation::kNone || isIn(remover)) return;
+    const NodeId remover = mt_.remover(t);
+    if (!remover.isValid() || isIn(remover.index())) return;
     const Criterion::Corners corners = mt_.corners(t, creator);
     if (isSatisfied(mt_, criterion_, t, corners)) return;
     const RefineKey key = options_.order ? options_.order->key(mt_, criterion_, t, corners, arrivals_)

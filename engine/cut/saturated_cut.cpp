@@ -60,7 +60,7 @@ MemberSet uniformMembers(const MultiTriangulation& mt, Code code, std::uint32_t 
 SaturatedMembers uniformCut(const MultiTriangulation& mt, double maxError,
                             std::optional<std::uint32_t> maxTriangles) {
   const auto& saturated = mt.arrays().saturatedError;
-  const Code code = mt.arrays().scale.floorCode(maxError);
+  const Code code = mt.scale().floorCode(maxError);
   if (!maxTriangles) return {uniformMembers(mt, code, 0), true};
   const std::uint32_t end = mt.bandEnd(MultiTriangulation::bandOf(code));
   std::vector<std::uint32_t> addedBy(std::size_t(OutwardScale::kMaxCode) + 1, 0);

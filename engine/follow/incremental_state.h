@@ -128,7 +128,7 @@ class IncrementalCut::State {
 
   /// A millionth of the size of the largest region: shorter travel is counted as if it were this long.
   static double leastTravel(const MultiTriangulation& mt) {
-    return mt.nodeCount() == 0 ? 1 : std::max(1e-6 * double(mt.arrays().sphere[0].radius), 1e-12);
+    return mt.nodeCount() == 0 ? 1 : std::max(1e-6 * double(mt.sphere(NodeId(0)).radius), 1e-12);
   }
 
   /// visit(triangle, the node that removes it or kNone).

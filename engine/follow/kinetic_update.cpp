@@ -73,8 +73,8 @@ void IncrementalCut::KineticUpdate::begin() {
   if (!s_.hasCertificates) {
     s_.hasCertificates = true;
     for (const std::uint32_t t : s_.triangles()) {
-      const std::uint32_t remover = s_.mt.arrays().remover[t];
-      if (remover != MultiTriangulation::kNone && s_.canEnter(remover)) s_.requestCertificate(remover);
+      const NodeId remover = s_.mt.remover(TriangleId(t));
+      if (remover.isValid() && s_.canEnter(remover.index())) s_.requestCertificate(remover.index());
       const NodeId creator = s_.mt.creator(TriangleId(t));
       if (creator.isValid() && s_.isLeaf(creator.index())) s_.requestCertificate(creator.index());
     }
@@ -105,12 +105,12 @@ void IncrementalCut::KineticUpdate::search() {
 }
 
 void IncrementalCut::KineticUpdate::evaluatePending() {
-  const MtArrays& a = s_.mt.arrays();
+  const MultiTriangulation& mt = s_.mt;
   Batch batch;
   while (!s_.pending.empty() && batch.count < Batch::kMost) {
     const std::uint32_t n = s_.pending.back();
     s_.pending.pop_back();
-    batch.put(a.sphere[n], a.scale.decode(a.saturatedError[n]), n);
+    batch.put(mt.sphere(NodeId(n)), mt.scale().decode(mt.saturatedCode(NodeId(n))), n);
   }
   Verdicts verdicts;
   verdicts.evaluate(criterion_, batch, s_.queue.rate());

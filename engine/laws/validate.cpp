@@ -43,7 +43,7 @@ PlanArea twiceArea(Vec2 a, Vec2 b, Vec2 c) {
 class NodeCheck {
  public:
   NodeCheck(const MultiTriangulation& mt, const ValidateOptions& options)
-      : mt_(mt), a_(mt.arrays()), options_(options), hasPlan_(!mt.vertices().isSurface()) {}
+      : mt_(mt), a_(mt.arrays()), options_(options), hasPlan_(mt.vertices().hasPlan()) {}
 
   /// Empty when node n keeps the laws.
   std::string violation(std::uint32_t n) const {
@@ -243,7 +243,7 @@ Status validate(const MultiTriangulation& mt, const ValidateOptions& options, co
   if (removed - dummies != a.floor.size())
     return broken(fmt::format("law 3: {} a remover, the floors list {}",
                               counted(removed - dummies, "triangle has", "triangles have"), a.floor.size()));
-  if (a.vertices.isSurface()) return {};
+  if (!a.vertices.hasPlan()) return {};
   for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) {
     const auto& c = a.rootTriangles[t];
     const auto p = [&](int i) { return a.vertices.planPosition(VertexId(c[i])); };

@@ -85,7 +85,7 @@ class GeomorphedSurface::State {
         continue;
       }
       members_.push_back({n, {}});
-      balls_.push_back(mt.arrays().sphere[n]);
+      balls_.push_back(mt.sphere(NodeId(n)));
       errors_.push_back(static_cast<float>(mt.saturatedError(step.node)));
       ++entered_;
     }
@@ -142,7 +142,7 @@ class GeomorphedSurface::State {
     std::vector<float> before;
     for (const auto& [n, morph] : left_) {
       before.push_back(offsets_[n]);
-      const double pixels = camera.pixelsPerHeight(mt.arrays().sphere[n]);
+      const double pixels = camera.pixelsPerHeight(mt.sphere(NodeId(n)));
       offsets_[n] = offsetOf(camera, morph, mt.saturatedError(NodeId(n)) * pixels, pixels);
     }
     const double most = std::max(chained(camera, std::span(members_).last(entered_)), chained(camera, left_));
@@ -153,7 +153,7 @@ class GeomorphedSurface::State {
   /// The star of a node over moved vertices, in metric space, moved up and down by `room`.
   void hullOf(std::uint32_t n, double room, std::vector<Vec3>& hull) const {
     hull.clear();
-    const MetricFrame& metric = mt.arrays().metric;
+    const MetricFrame& metric = mt.metric();
     const auto add = [&](std::uint32_t v) {
       Vec3 p = mt.position(VertexId(v));
       p.z += offset(v);

@@ -74,7 +74,7 @@ class ViewMesh::State {
   const std::vector<HeightChange>& heights() const { return heights_; }
 
  private:
-  const MetricFrame& metric() const { return mt().arrays().metric; }
+  const MetricFrame& metric() const { return mt().metric(); }
 
   /// The middle of the box of the root's vertices, which contains the terrain in plan.
   Vec3 middle() const {
@@ -109,15 +109,14 @@ class ViewMesh::State {
 
   /// The tolerance that an incomplete cut keeps.
   double reached(const MorphCamera& camera, double cutPixels) const {
-    const MtArrays& a = mt().arrays();
     const double worst = parallelReduce(
         IndexRange<std::size_t>(0, ids_.size(), 1024), 0.0,
         [&](const auto& range, double most) {
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
             const TriangleId t(ids_[i]);
             const NodeId remover = mt().remover(t);
-            if (!remover.isValid() || a.error[t.index()] == 0) continue;
-            const double pixels = camera.pixelsPerHeight(a.sphere[remover.index()]);
+            if (!remover.isValid() || mt().errorCode(t) == 0) continue;
+            const double pixels = camera.pixelsPerHeight(mt().sphere(remover));
             if (pixels > 0) most = std::max(most, mt().error(t) * pixels);
           }
           return most;

@@ -130,7 +130,8 @@ MultiTriangulation curved(const MultiTriangulation& mt, Bending bending) {
   a.vertices = {};
   a.vertices.plan = owner->bending.plan;
   a.vertices.rawHeights = std::as_bytes(std::span<const double>(owner->bending.heights));
-  a.below = a.above = {};
+  a.columns.drop(kBelow);
+  a.columns.drop(kAbove);
 
   a.scale = OutwardScale(mt.vertexCount() == 0 ? 0 : boundOfErrors(mt, owner->bending));
   owner->error.resize(a.error.size());

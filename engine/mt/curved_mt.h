@@ -27,7 +27,7 @@ struct Bending {
 /// law 6 holds.
 ///
 /// Limits: nodes are no longer in falling bands of errors, triangles may lose their positive orientation in
-/// plan, and there are no signed bounds (`below` and `above` are empty). So uniform criteria, minimal cuts
+/// plan, and there are no signed bounds (kBelow and kAbove are empty). So uniform criteria, minimal cuts
 /// and lines of sight are not possible.
 ///
 /// Keeps the given one alive. Memory: 43 bytes per node and 2 per triangle. O(size). Preconditions: positions

@@ -8,6 +8,7 @@
 
 #include "engine/base/ids.h"
 #include "engine/base/vec.h"
+#include "engine/mt/columns.h"
 #include "engine/mt/outward_scale.h"
 #include "engine/mt/vertex_arrays.h"
 
@@ -60,11 +61,6 @@ struct MtArrays {
   std::span<const std::uint32_t> link;       ///< S: a vertex per slot
   std::span<const std::uint32_t> remover;    ///< R + S: the node that removes a triangle, or kNone
   std::span<const std::uint16_t> error;  ///< R + S: max |z - plane| over the samples covered, coded outwards
-  std::span<const std::uint16_t> below;  ///< R + S: z_TIN - z_reference >= -below over the whole triangle
-  std::span<const std::uint16_t> above;  ///< R + S: z_TIN - z_reference <= above
-  /// R + S, of a surface, which has no `below` and `above`: the root mean square of the distances whose
-  /// largest one `error` is; empty of a heightfield.
-  std::span<const std::uint16_t> rms;
   std::span<const std::uint32_t> floor;  ///< S - 2N triangle ids; node n's begin at slotBegin[n] - 2n
   std::span<const std::uint16_t> saturatedError;  ///< N, in falling bands
   std::span<const Sphere> sphere;  ///< N, saturated: encloses the node's region and its children's spheres
@@ -75,9 +71,10 @@ struct MtArrays {
   std::span<const Sphere> blockSphere;
   std::span<const std::uint32_t> creatorHint;  ///< ceil(S / 64): the node that owns slot 64 i
 
-  OutwardScale scale;  ///< of error, below, above and saturatedError
+  OutwardScale scale;  ///< of error and saturatedError, and of columns of such codes
   MetricFrame metric;  ///< of the spheres
   VertexArrays vertices;
+  Columns columns;
 };
 
 /// An immutable multitriangulation [DeFlorianiMagilloPuppo1998] of vertex insertions: flat arrays in memory
@@ -103,13 +100,26 @@ class MultiTriangulation {
 
   const MtArrays& arrays() const { return a_; }
   const VertexArrays& vertices() const { return a_.vertices; }
+  /// Of one kind of model or of both: empty if it has none.
+  template <class T>
+  std::span<const T> column(ColumnKey<T> key) const {
+    return a_.columns.of(key);
+  }
+  /// Of all codes of errors.
+  const OutwardScale& scale() const { return a_.scale; }
+  /// The frame of the spheres.
+  const MetricFrame& metric() const { return a_.metric; }
 
   std::uint32_t nodeCount() const { return static_cast<std::uint32_t>(a_.saturatedError.size()); }
   std::uint32_t vertexCount() const { return a_.rootVertices + nodeCount(); }
   std::uint32_t rootVertexCount() const { return a_.rootVertices; }
   std::uint32_t rootTriangleCount() const { return static_cast<std::uint32_t>(a_.rootTriangles.size()); }
+  /// The corners of the root's triangles, which have the first ids.
+  std::span<const std::array<std::uint32_t, 3>> rootTriangles() const { return a_.rootTriangles; }
   /// The number of triangle ids, including slots that are no triangle.
   std::uint32_t triangleIdCount() const { return static_cast<std::uint32_t>(a_.remover.size()); }
+  /// The number of slots of all nodes.
+  std::uint32_t slotTotal() const { return static_cast<std::uint32_t>(a_.link.size()); }
   /// The number of triangles of the whole MT. O(N).
   std::uint64_t triangleCount() const;
   /// The number of triangles of the finest front. O(N).
@@ -125,6 +135,8 @@ class MultiTriangulation {
 
   VertexId apex(NodeId n) const { return VertexId(a_.rootVertices + n.index()); }
   std::uint32_t slotCount(NodeId n) const { return a_.slotBegin[n.index() + 1] - a_.slotBegin[n.index()]; }
+  /// The first slot of a node, among those of all.
+  std::uint32_t firstSlot(NodeId n) const { return a_.slotBegin[n.index()]; }
   TriangleId slotTriangle(NodeId n, std::uint32_t slot) const {
     return TriangleId(rootTriangleCount() + a_.slotBegin[n.index()] + slot);
   }
@@ -160,9 +172,14 @@ class MultiTriangulation {
   }
 
   double error(TriangleId t) const { return a_.scale.decode(a_.error[t.index()]); }
-  /// Precondition: of a surface.
-  double rms(TriangleId t) const { return a_.scale.decode(a_.rms[t.index()]); }
+  OutwardScale::Code errorCode(TriangleId t) const { return a_.error[t.index()]; }
+  /// A magnitude of a column of codes. Precondition: it has the column.
+  double decoded(ColumnKey<OutwardScale::Code> key, TriangleId t) const {
+    return a_.scale.decode(a_.columns.of(key)[t.index()]);
+  }
   double saturatedError(NodeId n) const { return a_.scale.decode(a_.saturatedError[n.index()]); }
+  OutwardScale::Code saturatedCode(NodeId n) const { return a_.saturatedError[n.index()]; }
+  const Sphere& sphere(NodeId n) const { return a_.sphere[n.index()]; }
   Vec3 position(VertexId v) const { return a_.vertices.position(v); }
 
  private:

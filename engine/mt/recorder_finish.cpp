@@ -316,8 +316,8 @@ class MtRecorder::Finishing {
     a.link = out_->link;
     a.remover = out_->remover.removers();
     a.error = out_->error;
-    a.below = out_->below;
-    a.above = out_->above;
+    a.columns.set(kBelow, out_->below);
+    a.columns.set(kAbove, out_->above);
     a.floor = out_->floor;
     a.saturatedError = out_->saturatedError;
     a.sphere = out_->sphere;

@@ -44,7 +44,9 @@ struct VertexArrays {
                                                          : places32.size());
   }
   bool isLattice() const { return columns != 0; }
-  bool isSurface() const { return !places32.empty() || !places64.empty(); }
+  /// Whether a vertex is a position in the plan and a height, so that errors are vertical. Otherwise it is a
+  /// place in space, and errors are distances.
+  bool hasPlan() const { return places32.empty() && places64.empty(); }
 
   Vec2 planPosition(VertexId v) const {
     if (!isLattice()) return plan[v.index()];
@@ -72,7 +74,7 @@ struct VertexArrays {
   }
 
   Vec3 position(VertexId v) const {
-    if (isSurface()) return place(v);
+    if (!hasPlan()) return place(v);
     const Vec2 p = planPosition(v);
     return {p.x, p.y, height(v)};
   }

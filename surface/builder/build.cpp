@@ -186,8 +186,10 @@ class SurfaceBuild {
     const VertexArrays vertices = placesOf(mesh.positions, order, owner);
     MtArrays arrays = bare.arrays();
     // What the recorder calls `below` is the root mean square here (SurfaceRemover).
-    arrays.rms = std::exchange(arrays.below, {});
-    arrays.above = {};
+    const std::span<const std::uint16_t> rms = arrays.columns.of(kBelow);
+    arrays.columns.drop(kBelow);
+    arrays.columns.drop(kAbove);
+    arrays.columns.set(kRms, rms);
     model_.mt = withVertices(MultiTriangulation(arrays, std::make_shared<MultiTriangulation>(bare)), vertices,
                              std::move(owner));
     const MultiTriangulation& mt = model_.mt;

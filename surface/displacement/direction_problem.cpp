@@ -25,8 +25,8 @@ DirectionProblem::DirectionProblem(const MultiTriangulation& mt)
     : mt_(mt),
       diagonal_(mt.vertexCount(), Symmetric3{}),
       right_(mt.vertexCount(), Vec3{0, 0, 0}),
-      ofSlot_(mt.arrays().link.size(), Block{}) {
-  for (const auto& t : mt.arrays().rootTriangles)
+      ofSlot_(mt.slotTotal(), Block{}) {
+  for (const auto& t : mt.rootTriangles())
     for (std::size_t i = 0; i < 3; ++i)
       rootEdges_.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
   std::ranges::sort(rootEdges_);
@@ -52,8 +52,7 @@ DirectionProblem::Block& DirectionProblem::blockOf(std::uint32_t a, std::uint32_
                                                 rootEdges_.begin())];
   const NodeId n(high - mt_.rootVertexCount());
   const auto link = mt_.link(n);
-  return ofSlot_[mt_.arrays().slotBegin[n.index()] +
-                 static_cast<std::size_t>(std::ranges::find(link, low) - link.begin())];
+  return ofSlot_[mt_.firstSlot(n) + static_cast<std::size_t>(std::ranges::find(link, low) - link.begin())];
 }
 
 void DirectionProblem::add(const std::array<std::uint32_t, 3>& corners, const Part& part) {
@@ -75,7 +74,7 @@ void DirectionProblem::multiply(std::span<const Symmetric3> diagonal, std::span<
   for (std::size_t e = 0; e < rootEdges_.size(); ++e)
     across(ofRootEdge_[e], rootEdges_[e][0], rootEdges_[e][1]);
   for (std::uint32_t n = 0; n < mt_.nodeCount(); ++n) {
-    const std::uint32_t apex = mt_.apex(NodeId(n)).index(), begin = mt_.arrays().slotBegin[n];
+    const std::uint32_t apex = mt_.apex(NodeId(n)).index(), begin = mt_.firstSlot(NodeId(n));
     const auto link = mt_.link(NodeId(n));
     for (std::size_t i = 0; i < link.size(); ++i) across(ofSlot_[begin + i], apex, link[i]);
   }

@@ -21,7 +21,7 @@ std::vector<double> promisedErrors(const MultiTriangulation& mt, const Cut& cut,
                                    const BoundedCriterion* criterion) {
   std::vector<double> promised(cut.ids.size(), cut.achievedError);
   if (criterion == nullptr || criterion->uniformError() || !cut.isComplete) return promised;
-  const MetricFrame& metric = mt.arrays().metric;
+  const MetricFrame& metric = mt.metric();
   for (std::size_t t = 0; t < cut.ids.size(); ++t) {
     std::array<Vec3, 3> corners;
     for (std::size_t i = 0; i < 3; ++i)
@@ -54,7 +54,7 @@ std::vector<Vec3> displacedPlaces(const MultiTriangulation& mt, const SurfaceDis
   for (std::size_t t = 0; t < cut.ids.size(); ++t) {
     const auto& [a, b, c] = cut.triangles[t];
     const std::uint32_t id = cut.ids[t];
-    const double error = mt.error(TriangleId(id)), rms = mt.rms(TriangleId(id));
+    const double error = mt.error(TriangleId(id)), rms = mt.decoded(kRms, TriangleId(id));
     const double longest = std::max({norm(directions[a]), norm(directions[b]), norm(directions[c])});
     const double most = longest > 0 ? displacement.reach(id, error) + (promised[t] - error) / longest
                                     : std::numeric_limits<double>::infinity();

@@ -54,7 +54,7 @@ class Pulls final : public CoarseTriangleVisitor {
   void visit(std::size_t number, const CoarseTriangle& t) override {
     Entry& entry = batch_[number];
     entry.corners = t.corners;
-    const double scale = mt_.rms(TriangleId(t.id)), life = lifeOf(mt_, TriangleId(t.id));
+    const double scale = mt_.decoded(kRms, TriangleId(t.id)), life = lifeOf(mt_, TriangleId(t.id));
     const SpaceTriangle place = {original_.positions[t.corners[0]], original_.positions[t.corners[1]],
                                  original_.positions[t.corners[2]]};
     const Vec3 normal = areaNormal(place);

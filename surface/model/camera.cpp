@@ -6,7 +6,7 @@
 namespace arete {
 
 Result<View> viewOf(const SurfaceCamera& camera, const SurfaceModel& model) {
-  const MetricFrame& metric = model.mt.arrays().metric;
+  const MetricFrame& metric = model.mt.metric();
   View view;
   view.eye = metric.toMetric(camera.eye);
   view.forward = metric.toMetric(camera.target) - view.eye;

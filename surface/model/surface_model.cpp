@@ -43,7 +43,7 @@ bool SurfaceModel::mayHaveLines() const {
 
 Status SurfaceModel::validate() const {
   const MeshAttributes& a = attributes;
-  if (!mt.vertices().isSurface() && mt.vertexCount() > 0) return refuse("its vertices are not of a surface");
+  if (mt.vertices().hasPlan() && mt.vertexCount() > 0) return refuse("its vertices are not of a surface");
   if (vertexOf.size() != mt.vertexCount())
     return refuse(fmt::format("{} {} in the source", counted(mt.vertexCount(), "vertex has", "vertices have"),
                               counted(vertexOf.size(), "number", "numbers")));

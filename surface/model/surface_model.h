@@ -44,7 +44,7 @@ struct SurfaceMending {
 ///
 /// The error of a triangle is the largest distance of the part of the source that it stands for; so the
 /// largest one of a cut bounds the distance from any point of the source to the cut, and that to the same
-/// part and chart of it (boundsLines). The root mean square of these distances is in MtArrays::rms.
+/// part and chart of it (boundsLines). The root mean square of these distances is the column kRms.
 struct SurfaceModel {
   MultiTriangulation mt;
 

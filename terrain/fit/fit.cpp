@@ -112,8 +112,7 @@ Result<FittedCut> fittedCut(const FitMesh& mesh, const Cut& before, double toler
 Result<Cut> leastCut(const TerrainModel& model, const FitTolerance& tolerance, const RunContext& context) {
   if (tolerance.region == nullptr) return takeCut(model.mt, UniformError(tolerance.maxError), {}, context);
   return takeCut(
-      model.mt,
-      RegionError(*tolerance.region, model.mt.arrays().metric, tolerance.maxError, tolerance.outsideError),
+      model.mt, RegionError(*tolerance.region, model.mt.metric(), tolerance.maxError, tolerance.outsideError),
       {}, context);
 }
 

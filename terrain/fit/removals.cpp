@@ -63,7 +63,7 @@ class Removals {
     const NodeId node(v - roots);
     if (mesh_.isFixed(vertex) || !mesh_.isLeaf(node)) return;
     isQueued_[vertex] = true;
-    queue_.push({mesh_.mt().arrays().saturatedError[node.index()], ~node.index()});
+    queue_.push({mesh_.mt().saturatedCode(node), ~node.index()});
   }
 
   void takeBatch() {

@@ -25,9 +25,8 @@ struct StoredErrors {
 };
 
 inline StoredErrors storedErrors(const MultiTriangulation& mt, std::uint32_t triangle) {
-  const MtArrays& a = mt.arrays();
-  return {a.scale.decode(a.error[triangle]), a.scale.decode(a.below[triangle]),
-          a.scale.decode(a.above[triangle])};
+  const TriangleId t(triangle);
+  return {mt.error(t), mt.decoded(kBelow, t), mt.decoded(kAbove, t)};
 }
 
 /// Whether the errors hold at a sample, by exact arithmetic.

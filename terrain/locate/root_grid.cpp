@@ -43,7 +43,7 @@ std::pair<double, double> extentInBand(const std::array<Vec2, 3>& triangle, doub
 }  // namespace
 
 RootGrid::RootGrid(const MultiTriangulation& mt, double margin) {
-  const auto rootTriangles = mt.arrays().rootTriangles;
+  const auto rootTriangles = mt.rootTriangles();
   if (rootTriangles.empty()) {
     begin_.assign(2, 0);
     bounds_ = {0, 0, -1, -1};

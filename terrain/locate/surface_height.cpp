@@ -62,19 +62,19 @@ SurfaceHeights::SurfaceHeights(const TerrainModel& model)
       locator_(model.mt, {.margin = margin(model), .mayFill = model.options.rimTolerance > 0}) {}
 
 std::optional<SurfaceHeight> SurfaceHeights::inPlan(Vec2 p, OutwardScale::Code allowed) const {
-  const MtArrays& arrays = model_.mt.arrays();
+  const auto belows = model_.mt.column(kBelow), aboves = model_.mt.column(kAbove);
   const bool mayStop = model_.options.rimTolerance == 0;
   std::optional<LocatedTriangle> t = locator_.inRoot(p);
   for (std::uint32_t steps = 0; t; ++steps) {
     const std::size_t id = t->triangle.index();
     const bool isFinest = locator_.isFinest(*t);
-    const OutwardScale::Code below = arrays.below[id], above = arrays.above[id];
+    const OutwardScale::Code below = belows[id], above = aboves[id];
     if (isFinest || (mayStop && std::max(below, above) <= allowed)) {
       SurfaceHeight answer{
           .height = locator_.interpolate(t->corners, p), .triangle = t->triangle, .nodesVisited = steps};
       if (!isFinest) {
-        answer.below = arrays.scale.decode(below);
-        answer.above = arrays.scale.decode(above);
+        answer.below = model_.mt.scale().decode(below);
+        answer.above = model_.mt.scale().decode(above);
       }
       return answer;
     }
@@ -84,7 +84,7 @@ std::optional<SurfaceHeight> SurfaceHeights::inPlan(Vec2 p, OutwardScale::Code a
 }
 
 std::optional<SurfaceHeight> SurfaceHeights::at(Vec2 xy, double maxError) const {
-  return inPlan(model_.toPlan(xy), model_.mt.arrays().scale.floorCode(maxError));
+  return inPlan(model_.toPlan(xy), model_.mt.scale().floorCode(maxError));
 }
 
 Result<std::vector<std::optional<SurfaceHeight>>> SurfaceHeights::at(std::span<const Vec2> positions,
@@ -92,7 +92,7 @@ Result<std::vector<std::optional<SurfaceHeight>>> SurfaceHeights::at(std::span<c
                                                                      const RunContext& context) const try {
   if (positions.size() > 0xFFFFFFFFu)
     return failure(ErrorCode::unsupported, "more positions than 32 bits can number");
-  const OutwardScale::Code allowed = model_.mt.arrays().scale.floorCode(maxError);
+  const OutwardScale::Code allowed = model_.mt.scale().floorCode(maxError);
   std::vector<std::optional<SurfaceHeight>> answers(positions.size());
   std::vector<Visit> order(positions.size());
   SharedProgress progress(context, "heights", positions.size());

@@ -59,7 +59,7 @@ double TriangleLocator::distance(const std::array<VertexId, 3>& corners, Vec2 p)
 
 std::optional<LocatedTriangle> TriangleLocator::inRoot(Vec2 p) const {
   const std::span<const TriangleId> candidates = roots_.near(p);
-  const auto& rootTriangles = mt_.arrays().rootTriangles;
+  const auto& rootTriangles = mt_.rootTriangles();
   for (const TriangleId t : candidates) {
     const std::array<VertexId, 3> corners = idsOf(rootTriangles[t.index()]);
     const Vec2 a = planPosition(corners[0]), b = planPosition(corners[1]), c = planPosition(corners[2]);

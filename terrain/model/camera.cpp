@@ -15,7 +15,7 @@ namespace arete {
 
 Vec3 metricPosition(Vec2 xy, double height, const TerrainModel& model) {
   const Vec2 plan = model.toPlan(xy);
-  return model.mt.arrays().metric.toMetric({plan.x, plan.y, height});
+  return model.mt.metric().toMetric({plan.x, plan.y, height});
 }
 
 Result<View> viewOf(const Camera& camera, const TerrainModel& model) try {

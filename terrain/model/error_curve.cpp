@@ -26,15 +26,15 @@ double rungValue(int rung) {
 }  // namespace
 
 std::vector<double> toleranceLadder(const MultiTriangulation& mt, std::size_t most) {
-  const auto& saturated = mt.arrays().saturatedError;
+  const auto saturated = [&](std::uint32_t n) { return mt.saturatedCode(NodeId(n)); };
   OutwardScale::Code least = 0;  // the least positive error; 0: none found yet
   for (std::uint32_t n = mt.nodeCount(); n-- > 0;) {
-    if (least != 0 && MultiTriangulation::bandOf(saturated[n]) > MultiTriangulation::bandOf(least)) break;
-    if (saturated[n] != 0 && (least == 0 || saturated[n] < least)) least = saturated[n];
+    if (least != 0 && MultiTriangulation::bandOf(saturated(n)) > MultiTriangulation::bandOf(least)) break;
+    if (saturated(n) != 0 && (least == 0 || saturated(n) < least)) least = saturated(n);
   }
   if (least == 0) return {};
   const double coarsest = mt.largestError();
-  const double finest = mt.arrays().scale.decode(least);
+  const double finest = mt.scale().decode(least);
   std::vector<double> ladder;
   int rung = 3 * (static_cast<int>(std::ceil(std::log10(coarsest))) + 1);
   for (; ladder.size() < most && rungValue(rung) >= finest; --rung)

@@ -32,7 +32,7 @@ MetricFrame metricAt(const Georeference& georeference, Vec2 grid) {
 }  // namespace
 
 Region planRegion(RegionShape sourceShape, const TerrainModel& model) {
-  return mapped(std::move(sourceShape), model.mt.arrays().metric, [&](Vec2 p) { return model.toPlan(p); });
+  return mapped(std::move(sourceShape), model.mt.metric(), [&](Vec2 p) { return model.toPlan(p); });
 }
 
 Region planRegion(RegionShape sourceShape, const RasterHeightfield& heightfield) {
@@ -55,7 +55,7 @@ Region planRegion(RegionShape sourceShape, const PointHeightfield& heightfield) 
 
 bool meetsDomain(const Region& region, const MultiTriangulation& mt) {
   const VertexArrays& v = mt.vertices();
-  return std::ranges::any_of(mt.arrays().rootTriangles, [&](const auto& c) {
+  return std::ranges::any_of(mt.rootTriangles(), [&](const auto& c) {
     return region.meetsTriangle(v.planPosition(VertexId(c[0])), v.planPosition(VertexId(c[1])),
                                 v.planPosition(VertexId(c[2])));
   });

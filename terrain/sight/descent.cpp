@@ -25,7 +25,9 @@ class Descent {
   Descent(const TriangleLocator& locator, const SightLeg& leg, SightJudge& judge, OutwardScale::Code allowed,
           bool mayFill)
       : crossing_(locator, leg),
-        arrays_(locator.mt().arrays()),
+        mt_(locator.mt()),
+        below_(mt_.column(kBelow)),
+        above_(mt_.column(kAbove)),
         leg_(leg),
         judge_(judge),
         allowed_(allowed),
@@ -77,12 +79,12 @@ class Descent {
         continue;
       }
       // All adjacent spans that the same node removes. What follows them is reported after the star.
-      const std::uint32_t node = arrays_.remover[span.triangle];
+      const NodeId node = mt_.remover(TriangleId(span.triangle));
       double to = span.t1;
       while (i < end && spans_[i].t0 <= to + shortest_) {
         TriangleSpan next = spans_[i];
         if (next.t1 > to) {
-          if (arrays_.remover[next.triangle] != node) break;
+          if (mt_.remover(TriangleId(next.triangle)) != node) break;
           next.z0 = next.at(std::max(next.t0, to));
           next.t0 = std::max(next.t0, to);
           if (actionOf(next) != Action::refine) break;
@@ -91,7 +93,7 @@ class Descent {
         }
         ++i;
       }
-      star(node, from, to);
+      star(node.index(), from, to);
       done = to;
     }
     spans_.resize(begin);
@@ -101,7 +103,7 @@ class Descent {
 
   /// Gives the judge the lower bounds of the terrain at the ends of a span.
   void hint(const TriangleSpan& span) {
-    const double lower = arrays_.scale.decode(arrays_.above[span.triangle]);
+    const double lower = mt_.scale().decode(above_[span.triangle]);
     judge_.hint(leg_.distance(span.t0), span.z0 - lower);
     judge_.hint(leg_.distance(span.t1), span.z1 - lower);
   }
@@ -112,10 +114,12 @@ class Descent {
     refine,  ///< finer triangles decide
   };
 
+  bool isFinest(const TriangleSpan& span) const { return !mt_.remover(TriangleId(span.triangle)).isValid(); }
+
   Action actionOf(const TriangleSpan& span) const {
-    if (arrays_.remover[span.triangle] == MultiTriangulation::kNone) return Action::report;
-    const OutwardScale::Code below = arrays_.below[span.triangle], above = arrays_.above[span.triangle];
-    const double higher = arrays_.scale.decode(below);
+    if (isFinest(span)) return Action::report;
+    const OutwardScale::Code below = below_[span.triangle], above = above_[span.triangle];
+    const double higher = mt_.scale().decode(below);
     if (!judge_.matters(leg_.distance(span.t0), span.z0 + higher, leg_.distance(span.t1), span.z1 + higher,
                         mayFill_))
       return Action::skip;
@@ -125,11 +129,11 @@ class Descent {
   /// Precondition: its action is `report`.
   void report(const TriangleSpan& span) {
     const double s0 = leg_.distance(span.t0), s1 = leg_.distance(span.t1);
-    if (arrays_.remover[span.triangle] == MultiTriangulation::kNone)
+    if (isFinest(span))
       judge_.terrain(s0, span.z0, s1, span.z1);
     else
-      judge_.terrain(s0, span.z0, s1, span.z1, arrays_.scale.decode(arrays_.above[span.triangle]),
-                     arrays_.scale.decode(arrays_.below[span.triangle]));
+      judge_.terrain(s0, span.z0, s1, span.z1, mt_.scale().decode(above_[span.triangle]),
+                     mt_.scale().decode(below_[span.triangle]));
   }
 
   void star(std::uint32_t node, double first, double last) {
@@ -139,7 +143,8 @@ class Descent {
   }
 
   MtCrossing crossing_;
-  const MtArrays& arrays_;
+  const MultiTriangulation& mt_;
+  std::span<const OutwardScale::Code> below_, above_;
   const SightLeg& leg_;
   SightJudge& judge_;
   OutwardScale::Code allowed_;
@@ -158,7 +163,7 @@ class SightDescent final : public SightEngine {
   SightAnswer answer(const SightLine& line, const SightOptions& options) const override {
     SightJudge judge(line, options);
     const TriangleLocator& locator = heights_.locator();
-    const OutwardScale::Code allowed = locator.mt().arrays().scale.floorCode(options.maxError);
+    const OutwardScale::Code allowed = locator.mt().scale().floorCode(options.maxError);
     std::uint64_t visited = 0;
     const auto points = line.points();
     const auto addEnd = [&](const SightPoint& end) {

@@ -52,12 +52,12 @@ struct Envelope {
 };
 
 Envelope envelopeOf(const MultiTriangulation& mt, const Cut& cut) {
-  const MtArrays& a = mt.arrays();
   Envelope envelope;
   envelope.higher.assign(cut.vertices.size(), 0);
   envelope.lower.assign(cut.vertices.size(), 0);
   for (std::size_t i = 0; i < cut.triangles.size(); ++i) {
-    const double higher = a.scale.decode(a.below[cut.ids[i]]), lower = a.scale.decode(a.above[cut.ids[i]]);
+    const TriangleId t(cut.ids[i]);
+    const double higher = mt.decoded(kBelow, t), lower = mt.decoded(kAbove, t);
     std::array<Vec3, 3> p;
     for (int c = 0; c < 3; ++c) {
       const std::uint32_t v = cut.triangles[i][c];

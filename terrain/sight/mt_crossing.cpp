@@ -55,23 +55,24 @@ void MtCrossing::addRoots(std::vector<TriangleSpan>& spans) const {
   std::vector<TriangleId> roots;
   locator_.roots().along({leg_.x, leg_.y}, {leg_.x + leg_.dx, leg_.y + leg_.dy}, roots);
   for (const TriangleId r : roots) {
-    const auto& corners = locator_.mt().arrays().rootTriangles[r.index()];
+    const auto& corners = locator_.mt().rootTriangles()[r.index()];
     add(r.index(), project(corners[0]), project(corners[1]), project(corners[2]), 0, 1, spans);
   }
 }
 
 void MtCrossing::addStar(std::uint32_t node, double first, double last,
                          std::vector<TriangleSpan>& spans) const {
-  const MtArrays& arrays = locator_.mt().arrays();
-  const std::uint32_t begin = arrays.slotBegin[node], end = arrays.slotBegin[node + 1];
-  const std::uint32_t roots = locator_.mt().rootTriangleCount();
-  const Projected apex = project(arrays.rootVertices + node), firstLink = project(arrays.link[begin]);
+  const MultiTriangulation& mt = locator_.mt();
+  const NodeId n(node);
+  const std::span<const std::uint32_t> link = mt.link(n);
+  const std::uint32_t firstTriangle = mt.slotTriangle(n, 0).index();
+  const auto slots = static_cast<std::uint32_t>(link.size());
+  const Projected apex = project(mt.apex(n).index()), firstLink = project(link[0]);
   Projected p = firstLink;
-  for (std::uint32_t slot = begin; slot < end; ++slot) {
-    const Projected q = slot + 1 < end ? project(arrays.link[slot + 1]) : firstLink;
+  for (std::uint32_t slot = 0; slot < slots; ++slot) {
+    const Projected q = slot + 1 < slots ? project(link[slot + 1]) : firstLink;
     // The last slot of an open star is not a triangle.
-    if (slot + 1 < end || arrays.remover[roots + slot] != node)
-      add(roots + slot, apex, p, q, first, last, spans);
+    if (slot + 1 < slots || !mt.isOpen(n)) add(firstTriangle + slot, apex, p, q, first, last, spans);
     p = q;
   }
 }

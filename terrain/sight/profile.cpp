@@ -27,7 +27,9 @@ class ProfileDescent {
   ProfileDescent(const TriangleLocator& locator, const SightLeg& leg, OutwardScale::Code allowed,
                  bool mayFill, std::vector<Stretch>& stretches)
       : crossing_(locator, leg),
-        arrays_(locator.mt().arrays()),
+        mt_(locator.mt()),
+        below_(mt_.column(kBelow)),
+        above_(mt_.column(kAbove)),
         allowed_(allowed),
         mayFill_(mayFill),
         stretches_(stretches) {}
@@ -39,9 +41,8 @@ class ProfileDescent {
 
  private:
   bool isFineEnough(std::uint32_t triangle) const {
-    return arrays_.remover[triangle] == MultiTriangulation::kNone ||
-           (!mayFill_ && allowed_ > 0 &&
-            std::max(arrays_.below[triangle], arrays_.above[triangle]) <= allowed_);
+    return !mt_.remover(TriangleId(triangle)).isValid() ||
+           (!mayFill_ && allowed_ > 0 && std::max(below_[triangle], above_[triangle]) <= allowed_);
   }
 
   /// Treats the spans from `begin` on, as far as they are beyond `done`; then removes them.
@@ -58,13 +59,13 @@ class ProfileDescent {
         continue;
       }
       // Adjacent spans that the same node removes are refined together.
-      const std::uint32_t node = arrays_.remover[span.triangle];
+      const NodeId node = mt_.remover(TriangleId(span.triangle));
       for (; i < end && spans_[i].t0 <= done + crossing_.shortest(); ++i) {
         if (spans_[i].t1 <= done) continue;
-        if (arrays_.remover[spans_[i].triangle] != node || isFineEnough(spans_[i].triangle)) break;
+        if (mt_.remover(TriangleId(spans_[i].triangle)) != node || isFineEnough(spans_[i].triangle)) break;
         done = spans_[i].t1;
       }
-      star(node, span.t0, done);
+      star(node.index(), span.t0, done);
     }
     spans_.resize(begin);
   }
@@ -76,7 +77,8 @@ class ProfileDescent {
   }
 
   MtCrossing crossing_;
-  const MtArrays& arrays_;
+  const MultiTriangulation& mt_;
+  std::span<const OutwardScale::Code> below_, above_;
   OutwardScale::Code allowed_;
   bool mayFill_;
   std::vector<Stretch> spans_;
@@ -181,7 +183,7 @@ bool append(Profile& profile, const SightLeg& leg, double end, std::span<const S
 
 Profile Profiles::along(const SightTrack& track, double maxError) const {
   const TerrainModel& model = heights_.model();
-  const OutwardScale::Code allowed = model.mt.arrays().scale.floorCode(maxError);
+  const OutwardScale::Code allowed = model.mt.scale().floorCode(maxError);
   Profile profile;
   profile.length = track.points.back().distance;
   if (!(profile.length > 0)) {

@@ -28,8 +28,8 @@ struct CopiedMt {
     copy(floor, a.floor);
     copy(creatorHint, a.creatorHint);
     copy(error, a.error);
-    copy(below, a.below);
-    copy(above, a.above);
+    copy(below, a.columns.of(kBelow));
+    copy(above, a.columns.of(kAbove));
     copy(saturatedError, a.saturatedError);
     copy(sphere, a.sphere);
     copy(blocks.error, a.blockError);
@@ -45,8 +45,8 @@ struct CopiedMt {
     a.floor = floor;
     a.creatorHint = creatorHint;
     a.error = error;
-    a.below = below;
-    a.above = above;
+    a.columns.set(kBelow, below);
+    a.columns.set(kAbove, above);
     a.saturatedError = saturatedError;
     a.sphere = sphere;
     a.blockError = blocks.error;

@@ -83,8 +83,8 @@ inline TerrainModel tinyModel() {
   a.link = arrays->link;
   a.remover = arrays->remover;
   a.error = arrays->error;
-  a.below = arrays->below;
-  a.above = arrays->above;
+  a.columns.set(kBelow, arrays->below);
+  a.columns.set(kAbove, arrays->above);
   a.floor = arrays->floor;
   a.saturatedError = arrays->saturated;
   a.sphere = arrays->sphere;
@@ -158,8 +158,8 @@ inline void expectSameModel(const TerrainModel& x, const TerrainModel& y) {
   expectSameArray(a.link, b.link, "link");
   expectSameArray(a.remover, b.remover, "remover");
   expectSameArray(a.error, b.error, "error");
-  expectSameArray(a.below, b.below, "below");
-  expectSameArray(a.above, b.above, "above");
+  expectSameArray(a.columns.of(kBelow), b.columns.of(kBelow), "below");
+  expectSameArray(a.columns.of(kAbove), b.columns.of(kAbove), "above");
   expectSameArray(a.floor, b.floor, "floor");
   expectSameArray(a.saturatedError, b.saturatedError, "saturatedError");
   expectSameArray(a.sphere, b.sphere, "sphere");

@@ -41,8 +41,8 @@ inline void expectSame(const TerrainModel& x, const TerrainModel& y) {
   EXPECT_TRUE(areSame(a.link, b.link));
   EXPECT_TRUE(areSame(a.remover, b.remover));
   EXPECT_TRUE(areSame(a.error, b.error));
-  EXPECT_TRUE(areSame(a.below, b.below));
-  EXPECT_TRUE(areSame(a.above, b.above));
+  EXPECT_TRUE(areSame(a.columns.of(kBelow), b.columns.of(kBelow)));
+  EXPECT_TRUE(areSame(a.columns.of(kAbove), b.columns.of(kAbove)));
   EXPECT_TRUE(areSame(a.floor, b.floor));
   EXPECT_TRUE(areSame(a.saturatedError, b.saturatedError));
   EXPECT_TRUE(areSame(a.sphere, b.sphere));

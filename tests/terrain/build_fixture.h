@@ -58,8 +58,8 @@ inline void expectSameArrays(const MultiTriangulation& x, const MultiTriangulati
   EXPECT_TRUE(sameBytes(a.link, b.link)) << name;
   EXPECT_TRUE(sameBytes(a.remover, b.remover)) << name;
   EXPECT_TRUE(sameBytes(a.error, b.error)) << name;
-  EXPECT_TRUE(sameBytes(a.below, b.below)) << name;
-  EXPECT_TRUE(sameBytes(a.above, b.above)) << name;
+  EXPECT_TRUE(sameBytes(a.columns.of(kBelow), b.columns.of(kBelow))) << name;
+  EXPECT_TRUE(sameBytes(a.columns.of(kAbove), b.columns.of(kAbove))) << name;
   EXPECT_TRUE(sameBytes(a.floor, b.floor)) << name;
   EXPECT_TRUE(sameBytes(a.saturatedError, b.saturatedError)) << name;
   EXPECT_TRUE(sameBytes(a.sphere, b.sphere)) << name;

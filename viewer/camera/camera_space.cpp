@@ -23,7 +23,7 @@ double wrappedAzimuth(double degrees) {
 }
 
 CameraSpace::CameraSpace(const TerrainModel& model) {
-  const MetricFrame& metric = model.mt.arrays().metric;
+  const MetricFrame& metric = model.mt.metric();
   originXy_ = model.toSource({metric.origin.x, metric.origin.y});
   originHeight_ = metric.origin.z;
   metresPerHeight_ = metric.scale.z;

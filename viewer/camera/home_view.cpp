@@ -68,7 +68,7 @@ MetricBox metricBox(const TerrainModel& model) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  const MetricFrame& metric = model.mt.arrays().metric;
+  const MetricFrame& metric = model.mt.metric();
   return {metric.toMetric(low), metric.toMetric(high)};
 }
 

@@ -63,7 +63,7 @@ struct ProcessorFront::State {
   std::vector<Rise> risesOf(std::span<const ViewMesh::HeightChange> changes) const {
     std::vector<Rise> rises;
     rises.reserve(changes.size());
-    const MetricFrame& exaggerated = mesh.mt().arrays().metric;
+    const MetricFrame& exaggerated = mesh.mt().metric();
     for (const ViewMesh::HeightChange& c : changes) {
       const double height = (double(c.height) + mesh.origin().z) / exaggerated.scale.z + exaggerated.origin.z;
       const double rise = height - mesh.mt().vertices().height(VertexId(c.vertex));
@@ -130,7 +130,7 @@ struct ProcessorFront::State {
 Result<ProcessorFront> ProcessorFront::create(const MultiTriangulation& mt, double stretch) {
   ARETE_TRY(ViewMesh mesh, ViewMesh::create(mt, {.heightScale = stretch}));
   ARETE_TRY(GlProgram scatter, makeProgram({{GL_COMPUTE_SHADER, {"scatter.comp.glsl"}}}));
-  auto state = std::make_unique<State>(std::move(mesh), mt.arrays().metric);
+  auto state = std::make_unique<State>(std::move(mesh), mt.metric());
   state->scatter = std::move(scatter);
   return ProcessorFront(std::move(state));
 }

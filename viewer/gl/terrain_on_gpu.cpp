@@ -20,7 +20,7 @@ namespace {
 
 std::vector<float> metricPositions(const MultiTriangulation& mt) {
   std::vector<float> positions(std::size_t(3) * mt.vertexCount());
-  const MetricFrame metric = mt.arrays().metric;
+  const MetricFrame metric = mt.metric();
   parallelFor(std::uint32_t(0), mt.vertexCount(), [&](std::uint32_t v) {
     const Vec3 p = metric.toMetric(mt.position(VertexId(v)));
     positions[3 * std::size_t(v)] = float(p.x);

@@ -90,8 +90,8 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
     if (!ok) return tl::unexpected(ok.error());
 
   const MultiTriangulation& mt = model.mt;
-  p.metric_ = mt.arrays().metric;
-  p.scale_ = mt.arrays().scale;
+  p.metric_ = mt.metric();
+  p.scale_ = mt.scale();
   p.frame_ = makeBuffer(sizeof(FrameBlock));
   p.look_ = makeBuffer(sizeof(Look));
   p.noIds_ = makeBuffer(64);

@@ -100,7 +100,7 @@ Result<FrameView> TerrainView::frameOf(const Camera& camera, const ViewSettings&
   frame.eyeGround = {ground.x, ground.y};
   frame.isMirrored = state_->model->isFlipped();
   frame.stretch = settings.stretch;
-  MetricFrame exaggerated = state_->model->mt.arrays().metric;
+  MetricFrame exaggerated = state_->model->mt.metric();
   exaggerated.scale.z *= settings.stretch;
   const MorphCamera morph({.view = frame.view, .pixels = settings.pixels, .moves = settings.isGeomorphed},
                           exaggerated);

@@ -148,7 +148,7 @@ Result<CurvedGround> CurvedGround::create(const TerrainModel& model) {
   Result<CrsLonLat> lonLat = CrsLonLat::of(model.georeference);
   if (!lonLat) return failure(lonLat.error().code, lonLat.error().message, kCulprit);
   const Georeference& g = model.georeference;
-  const MetricFrame& metric = model.mt.arrays().metric;
+  const MetricFrame& metric = model.mt.metric();
   const auto outOfReach = [] {
     return failure(ErrorCode::invalidData, "the CRS tells no longitude and latitude of the middle of the DEM",
                    kCulprit);

@@ -13,7 +13,7 @@ std::vector<Vec3> shadingNormals(const SurfaceModel& model) {
   const MultiTriangulation& mt = model.mt;
   const Cut finest = frontOfPrefix(mt, mt.nodeCount());
   const auto areaNormal = [&](const std::array<std::uint32_t, 3>& corners) {
-    const MetricFrame& metric = mt.arrays().metric;
+    const MetricFrame& metric = mt.metric();
     const auto at = [&](std::size_t i) {
       return metric.toMetric(mt.position(VertexId(finest.vertices[corners[i]])));
     };

@@ -107,8 +107,7 @@ Result<SurfaceFigures> SurfaceView::cut(const Camera& camera, const SurfaceViewS
   ARETE_TRY(const View view, uprightView(camera));
   const Stopwatch watch;
   const MultiTriangulation& mt = s.model->mt;
-  const ViewError criterion({.view = s.upright.turnedBack(view), .pixels = settings.pixels},
-                            mt.arrays().metric);
+  const ViewError criterion({.view = s.upright.turnedBack(view), .pixels = settings.pixels}, mt.metric());
   IncrementalOptions options;
   if (settings.maxTriangles > 0) options.maxTriangles = settings.maxTriangles;
   ARETE_TRY(const IncrementalCut::Update update, s.cut.update(criterion, options, context));

@@ -8,7 +8,7 @@
 namespace arete {
 
 Upright::Upright(const SurfaceModel& model, std::string_view up)
-    : metric_(model.mt.arrays().metric), isYUp_((up.empty() ? std::string_view(model.up) : up) == "y") {}
+    : metric_(model.mt.metric()), isYUp_((up.empty() ? std::string_view(model.up) : up) == "y") {}
 
 Vec3 Upright::toFile(const Vec3& upright) const {
   const Vec3 p = turnedBack(upright);

@@ -36,7 +36,7 @@ Result<std::shared_ptr<const BoundedCriterion>> engineCriterion(const ExtractCri
                                                                 const std::optional<Region>& region,
                                                                 double reserve,
                                                                 const TerrainModel& model) try {
-  const MetricFrame& metric = model.mt.arrays().metric;
+  const MetricFrame& metric = model.mt.metric();
   const double maxError = std::max(0.0, c.maxError.value_or(0) - reserve);
   const double outsideError = std::max(maxError, c.outsideError);
   if (c.camera) {
@@ -67,7 +67,7 @@ Result<RequiredError> requiredBy(std::span<const ExtractCriterion> criteria,
     ARETE_TRY(const auto part, engineCriterion(c, region, 0, outline));
     parts.push_back(part);
   }
-  return RequiredError([parts, metric = outline.mt.arrays().metric](const Box2& box) {
+  return RequiredError([parts, metric = outline.mt.metric()](const Box2& box) {
     // None of these criteria depends on heights.
     const Vec3 low = metric.toMetric({box.xMin, box.yMin, 0}),
                high = metric.toMetric({box.xMax, box.yMax, 0});

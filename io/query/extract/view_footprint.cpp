@@ -24,7 +24,7 @@ struct HeightRange {
 HeightRange metricHeights(const MultiTriangulation& mt) {
   HeightRange range;
   for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t)
-    for (const Vec3& p : prismOf(mt, TriangleId(t), mt.arrays().rootTriangles[t])) {
+    for (const Vec3& p : prismOf(mt, TriangleId(t), mt.rootTriangles()[t])) {
       range.low = std::min(range.low, p.z);
       range.high = std::max(range.high, p.z);
     }
@@ -35,7 +35,7 @@ HeightRange metricHeights(const MultiTriangulation& mt) {
 
 RequiredError requiredInView(const ViewError& view, const TerrainModel& outline) {
   const HeightRange heights = metricHeights(outline.mt);
-  const MetricFrame metric = outline.mt.arrays().metric;
+  const MetricFrame metric = outline.mt.metric();
   return [view, heights, metric](const Box2& box) {
     const Vec3 low = metric.toMetric({box.xMin, box.yMin, 0}),
                high = metric.toMetric({box.xMax, box.yMax, 0});

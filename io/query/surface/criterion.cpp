@@ -21,7 +21,7 @@ Result<std::unique_ptr<const BoundedCriterion>> engineCriterion(const SurfaceCri
         ErrorCode::usage,
         fmt::format("{} is below the error {} inside; it must not be smaller", c.outsideError, *c.maxError),
         "outsideError");
-  const MetricFrame& metric = model.mt.arrays().metric;
+  const MetricFrame& metric = model.mt.metric();
   if (c.region)
     return std::make_unique<SpaceRegionError>(c.region, metric, c.maxError.value_or(0), c.outsideError);
   if (c.camera) {

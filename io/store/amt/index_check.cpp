@@ -335,7 +335,7 @@ class MtIndexCheck {
   Status vertices() const {
     const VertexArrays& v = a_.vertices;
     const std::size_t count = v.size();
-    if (v.isSurface()) {
+    if (!v.hasPlan()) {
       if (const auto bad = firstBad(count, [&](std::uint32_t i) { return !isFinite(v.place(VertexId(i))); }))
         return refuse(amt_tag::kPlaces, fmt::format("vertex {} has coordinates that are not finite", *bad));
       return {};

@@ -29,6 +29,7 @@ struct AmtCounts {
 /// What decides which columns a file has and how long they are: what its metadata says, and, of the last
 /// three, its directory.
 struct AmtFacts {
+  ModelKind kind = ModelKind::terrain;
   AmtCounts counts;
 
   // Of a heightfield.
@@ -70,6 +71,7 @@ enum class AmtCoding : std::uint8_t {
   derived,       ///< not at all: it is computed when the nodes are unpacked
   numbers,       ///< PNUM
   displacement,  ///< PDSP
+  dropped,       ///< not at all: a packed file does without
   packed         ///< a plain file does not have it: it is what the others are packed in
 };
 
@@ -222,6 +224,18 @@ template <class Model, auto... kMembers>
 constexpr AmtRow<Model> ofMt(AmtTag tag, AmtPer per, AmtCoding coding, const More& more = {}) {
   using At = Path<MtArrays, kMembers...>;
   return {columnOf<typename At::Value>(tag, per, coding, more), {&At::bytes, &At::put}, {}};
+}
+/// A column of the multitriangulation.
+template <class Model, auto kKey>
+constexpr AmtRow<Model> ofColumn(AmtTag tag, AmtPer per, AmtCoding coding, const More& more = {}) {
+  using T = typename decltype(kKey)::Element;
+  return {columnOf<T>(tag, per, coding, more),
+          {[](const MtArrays& a) { return std::as_bytes(a.columns.of(kKey)); },
+           [](MtArrays& a, std::span<const std::byte> bytes) {
+             a.columns.set(kKey,
+                           std::span(reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)));
+           }},
+          {}};
 }
 /// An array of the model beside it.
 template <class Model, auto... kMembers>

@@ -46,6 +46,9 @@ struct AmtHeader {
 };
 static_assert(sizeof(AmtHeader) == 64 && offsetof(AmtHeader, checksum) == 56);
 
+/// What a file holds the model of.
+enum class ModelKind { terrain, surface };
+
 /// The type of the numbers that a chunk's elements are made of.
 enum class AmtScalar : std::uint32_t { u8 = 1, u16 = 2, u32 = 3, i16 = 4, f32 = 5, f64 = 6 };
 

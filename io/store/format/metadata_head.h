@@ -20,14 +20,13 @@ struct AmtHead {
 
 /// Of an MT. The counts beside it are 0.
 inline AmtHead amtHeadOf(const MultiTriangulation& mt, std::string writer) {
-  const MtArrays& a = mt.arrays();
   return {std::move(writer),
-          {.rootVertices = a.rootVertices,
-           .rootTriangles = a.rootTriangles.size(),
-           .nodes = a.saturatedError.size(),
-           .slots = a.link.size()},
-          a.scale,
-          a.metric};
+          {.rootVertices = mt.rootVertexCount(),
+           .rootTriangles = mt.rootTriangleCount(),
+           .nodes = mt.nodeCount(),
+           .slots = mt.slotTotal()},
+          mt.scale(),
+          mt.metric()};
 }
 
 /// The first problem of counts that determine arrays; of a scale of codes.

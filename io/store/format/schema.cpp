@@ -7,9 +7,11 @@ namespace arete {
 namespace {
 
 template <class Model>
-void addMtColumns(const AmtFacts& facts, std::vector<AmtMtColumn>& to) {
+std::vector<AmtMtColumn> mtColumnsOf(const AmtFacts& facts) {
+  std::vector<AmtMtColumn> columns;
   for (const AmtRow<Model>& row : kAmtSchema<Model>)
-    if (row.mt && row.isIn(facts)) to.push_back({row, row.mt});
+    if (row.mt && row.isIn(facts)) columns.push_back({row, row.mt});
+  return columns;
 }
 
 template <class Model>
@@ -54,17 +56,18 @@ std::uint64_t amtCountOf(AmtPer per, const AmtFacts& facts) {
   }
 }
 
+std::vector<AmtMtColumn> amtMtColumns(const AmtFacts& facts) {
+  return facts.kind == ModelKind::terrain ? mtColumnsOf<TerrainModel>(facts)
+                                          : mtColumnsOf<SurfaceModel>(facts);
+}
+
 std::vector<AmtMtColumn> amtMtColumns(const MtArrays& a) {
-  std::vector<AmtMtColumn> columns;
   AmtFacts facts;
+  facts.kind = a.vertices.hasPlan() ? ModelKind::terrain : ModelKind::surface;
   facts.isLattice = a.vertices.isLattice();
   facts.heights = a.vertices.encoding.type;
   facts.hasDoubles = !a.vertices.places64.empty();
-  if (a.vertices.isSurface())
-    addMtColumns<SurfaceModel>(facts, columns);
-  else
-    addMtColumns<TerrainModel>(facts, columns);
-  return columns;
+  return amtMtColumns(facts);
 }
 
 const AmtColumn* findAmtColumn(const AmtTag& tag) {

@@ -91,8 +91,8 @@ constexpr AmtRow<TerrainModel> heights(AmtScalar scalar) {
 }
 
 inline constexpr std::array kBoundRows = {
-    ofMt<TerrainModel, &MtArrays::below>(amt_tag::kBelow, AmtPer::triangle, AmtCoding::outward),
-    ofMt<TerrainModel, &MtArrays::above>(amt_tag::kAbove, AmtPer::triangle, AmtCoding::outward),
+    ofColumn<TerrainModel, kBelow>(amt_tag::kBelow, AmtPer::triangle, AmtCoding::outward),
+    ofColumn<TerrainModel, kAbove>(amt_tag::kAbove, AmtPer::triangle, AmtCoding::outward),
 };
 inline constexpr std::array kPlanRows = {
     ofMt<TerrainModel, &MtArrays::vertices, &VertexArrays::samples>(amt_tag::kSamples, AmtPer::vertex,
@@ -111,7 +111,7 @@ inline constexpr std::array kSampleRows = {
 };
 
 inline constexpr std::array kRmsRows = {
-    ofMt<SurfaceModel, &MtArrays::rms>(amt_tag::kRms, AmtPer::triangle, AmtCoding::outward, {.since = 3}),
+    ofColumn<SurfaceModel, kRms>(amt_tag::kRms, AmtPer::triangle, AmtCoding::outward, {.since = 3}),
 };
 inline constexpr std::array kSourceRows = {
     ofMt<SurfaceModel, &MtArrays::vertices, &VertexArrays::places32>(
@@ -179,7 +179,8 @@ inline constexpr std::uint32_t kAmtVersionOf =
 struct AmtMtColumn : AmtColumn {
   AmtPlaceIn<MtArrays> mt;
 };
-/// Those that an MT has, in the order of its file. O(rows).
+/// Those that the MT of such a file has, in its order; those that an MT in memory has. O(rows).
+std::vector<AmtMtColumn> amtMtColumns(const AmtFacts& facts);
 std::vector<AmtMtColumn> amtMtColumns(const MtArrays& arrays);
 
 /// The shapes of the chunks that a file of such facts has, but for those of any number of bytes, in their

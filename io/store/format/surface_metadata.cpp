@@ -168,6 +168,7 @@ Result<SurfaceMetadata> fromSurfaceJson(std::string_view text) {
 
 AmtFacts amtFactsOf(const SurfaceMetadata& metadata) {
   AmtFacts facts;
+  facts.kind = ModelKind::surface;
   facts.counts = metadata.counts;
   facts.hasDoubles = metadata.hasDoubles;
   facts.hasAllFaces = metadata.hasAllFaces;

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 
 #include "engine/base/caught_failure.h"
@@ -14,12 +13,11 @@
 #include "engine/parallel/per_thread.h"
 #include "engine/parallel/with_threads.h"
 #include "io/store/format/checksum.h"
-#include "io/store/packed/heightfield/form.h"
+#include "io/store/packed/forms.h"
 #include "io/store/packed/nodes/node_coder.h"
 #include "io/store/packed/nodes/order.h"
 #include "io/store/packed/nodes/plan.h"
 #include "io/store/packed/packed.h"
-#include "io/store/packed/surface/form.h"
 #include "io/store/packed/surface/rounded_surface.h"
 #include "io/store/packed/writer_io.h"
 #include "terrain/model/terrain_model.h"
@@ -30,8 +28,11 @@ namespace {
 
 class Packer {
  public:
-  Packer(const MultiTriangulation& mt, const MtKind& kind, const RunContext& context)
-      : context_(context), plan_(planPackets(mt, kind)), walk_{mt, plan_, arrays_, {}, {}, {}, {}, {}} {
+  /// @param wantsOrder whether takeOrder() is needed: not where nothing beside the MT is in its order
+  Packer(const MultiTriangulation& mt, const MtKind& kind, bool wantsOrder, const RunContext& context)
+      : context_(context), wantsOrder_(wantsOrder), plan_(planPackets(mt, kind)), walk_{mt, plan_, arrays_,
+                                                                                        {}, {},    {},
+                                                                                        {}, {}} {
     static_cast<MtKind&>(arrays_) = kind;
   }
 
@@ -53,7 +54,7 @@ class Packer {
     if (problem)
       return failure(ErrorCode::invalidData,
                      fmt::format("packet {} of its nodes {}", problem->packet, problem->what));
-    order_ = orderOf();
+    if (wantsOrder_) order_ = orderOf();
     giveWalkBack();
     const std::vector<RansTable> tables = tablesFor(streams);
     std::vector<std::vector<std::byte>> bytes(packets.size());
@@ -80,49 +81,21 @@ class Packer {
  private:
   bool prepare() {
     const MultiTriangulation& mt = walk_.mt;
-    const MtArrays& from = mt.arrays();
     if (!arrays_.allocate(
-            {from.rootVertices, from.rootTriangles.size(), mt.nodeCount(), from.link.size(), 0, 0},
+            {mt.rootVertexCount(), mt.rootTriangleCount(), mt.nodeCount(), mt.slotTotal(), 0, 0},
             plan_.directory.borders()))
       return false;
-    std::copy(from.rootTriangles.begin(), from.rootTriangles.end(), arrays_.rootTriangles.get());
-    if (arrays_.isSurface)
-      prepareSurface();
-    else
-      prepareHeightfield();
+    std::ranges::copy(mt.rootTriangles(), arrays_.rootTriangles.get());
+    withForm(arrays_, [&](auto form) { form.prepare(arrays_, mt); });
     walk_.oldNode.resize(mt.nodeCount());
     walk_.newNode.assign(mt.nodeCount(), MultiTriangulation::kNone);
-    walk_.oldTriangle.resize(from.link.size());
+    walk_.oldTriangle.resize(mt.slotTotal());
     walk_.turn.resize(mt.nodeCount());
     walk_.ownParentsLeft = std::move(plan_.ownParents);
     return true;
   }
-  void prepareHeightfield() {
-    const MtArrays& from = walk_.mt.arrays();
-    if (arrays_.isLattice)
-      std::copy_n(from.vertices.samples.begin(), from.rootVertices, arrays_.samples.get());
-    else
-      std::copy_n(from.vertices.plan.begin(), from.rootVertices, arrays_.plan.get());
-    std::copy_n(from.vertices.rawHeights.begin(), from.rootVertices * from.vertices.encoding.bytesPerHeight(),
-                arrays_.rawHeights.get());
-  }
-  void prepareSurface() {
-    const MtArrays& from = walk_.mt.arrays();
-    for (std::uint32_t v = 0; v < from.rootVertices; ++v)
-      arrays_.setPlace(v, from.vertices.place(VertexId(v)));
-    unsigned codes = 1u << ((1u << packed::kShiftBits) - 1);
-    for (std::size_t t = 0; t < from.error.size(); ++t) codes |= unsigned{from.error[t]} | from.rms[t];
-    arrays_.errorShift = static_cast<unsigned>(std::countr_zero(codes));
-    const auto stays = std::ranges::find(from.remover, MultiTriangulation::kNone) - from.remover.begin();
-    if (static_cast<std::size_t>(stays) == from.remover.size()) return;
-    arrays_.finestError = from.error[static_cast<std::size_t>(stays)];
-    arrays_.finestRms = from.rms[static_cast<std::size_t>(stays)];
-  }
-
-  /// Of a surface only: those of heightfields have nothing beside the MT that is in its order.
   PackedOrder orderOf() const {
     PackedOrder order;
-    if (!arrays_.isSurface) return order;
     const std::uint32_t rootVertices = walk_.mt.rootVertexCount(), roots = walk_.mt.rootTriangleCount();
     order.vertexOf.resize(walk_.mt.vertexCount());
     order.triangleOf.resize(walk_.mt.triangleIdCount());
@@ -149,9 +122,8 @@ class Packer {
     Streams& recorded = spaces_.local().streams;
     recorded.clear();
     WriterIo io(walk_, static_cast<std::uint32_t>(i), recorded);
-    std::optional<std::string> bad = arrays_.isSurface       ? walkNodes<SurfaceForm>(i, io)
-                                     : arrays_.holdsFloats() ? walkNodes<HeightfieldForm<float>>(i, io)
-                                                             : walkNodes<HeightfieldForm<double>>(i, io);
+    std::optional<std::string> bad =
+        withForm(arrays_, [&](auto form) { return walkNodes<decltype(form)>(i, io); });
     recorded.rawBits = io.rawBits.take();
     streams = recorded;  // a copy without spare capacity; `recorded` keeps its memory for the next packet
     return bad;
@@ -188,7 +160,7 @@ class Packer {
     packet.streamBytes[kBoundBytes] = static_cast<std::uint32_t>(streams.boundBytes.size());
     bytes.insert(bytes.end(), streams.boundBytes.begin(), streams.boundBytes.end());
     const MultiTriangulation& mt = walk_.mt;
-    const std::uint64_t roots = std::uint64_t{mt.arrays().rootVertices} + mt.rootTriangleCount();
+    const std::uint64_t roots = std::uint64_t{mt.rootVertexCount()} + mt.rootTriangleCount();
     const std::uint64_t things = packet.nodes + (isFirst ? roots : 0);
     const std::uint64_t least = leastBytes(things);
     if (bytes.size() + streams.rawBits.size() < least) streams.rawBits.resize(least - bytes.size());
@@ -205,6 +177,7 @@ class Packer {
   };
 
   const RunContext& context_;
+  bool wantsOrder_;
   Plan plan_;
   Arrays arrays_;
   Walk walk_;
@@ -213,12 +186,14 @@ class Packer {
 };
 
 /// Whether all triangles that stay have the same error and RMS, of which a packed file says one.
-bool hasOneFinestError(const MtArrays& a) {
-  std::size_t first = a.remover.size();
-  for (std::size_t t = 0; t < a.remover.size(); ++t) {
-    if (a.remover[t] != MultiTriangulation::kNone) continue;
-    if (first == a.remover.size()) first = t;
-    if (a.error[t] != a.error[first] || a.rms[t] != a.rms[first]) return false;
+bool hasOneFinestError(const MultiTriangulation& mt) {
+  const std::span<const std::uint16_t> rms = mt.column(kRms);
+  TriangleId first;
+  for (std::uint32_t i = 0; i < mt.triangleIdCount(); ++i) {
+    const TriangleId t(i);
+    if (mt.remover(t).isValid()) continue;
+    if (!first.isValid()) first = t;
+    if (mt.errorCode(t) != mt.errorCode(first) || rms[i] != rms[first.index()]) return false;
   }
   return true;
 }
@@ -226,26 +201,26 @@ bool hasOneFinestError(const MtArrays& a) {
 Result<PackedSurfaceMt> packSurface(const MultiTriangulation& mt, const SurfacePackOptions& options,
                                     const RunContext& context) {
   ARETE_TRY(RoundedSurface rounded, roundedSurface(mt, options.positionBits));
-  const MtArrays& a = rounded.mt.arrays();
-  if (!hasOneFinestError(a))
+  if (!hasOneFinestError(rounded.mt))
     return failure(ErrorCode::invalidData, "has triangles that stay with different errors");
   MtKind kind;
-  kind.isSurface = true;
-  kind.hasDoubles = !a.vertices.places64.empty();
+  kind.model = ModelKind::surface;
+  kind.hasDoubles = !rounded.mt.vertices().places64.empty();
   kind.step = rounded.step;
-  kind.scale = a.scale;
-  kind.metric = a.metric;
-  Packer packer(rounded.mt, kind, context);
+  kind.scale = rounded.mt.scale();
+  kind.metric = rounded.mt.metric();
+  Packer packer(rounded.mt, kind, true, context);
   ARETE_TRY(PackedMt packed, packer.run());
   return PackedSurfaceMt{std::move(packed), packer.takeOrder(), kind.hasDoubles,
-                         kind.step,         rounded.moved,      a.scale};
+                         kind.step,         rounded.moved,      kind.scale};
 }
 
 }  // namespace
 }  // namespace packed
 
 Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context) try {
-  return withThreads(context, [&] { return packed::Packer(model.mt, packed::kindOf(model), context).run(); });
+  return withThreads(context,
+                     [&] { return packed::Packer(model.mt, packed::kindOf(model), false, context).run(); });
 } catch (...) {
   return caughtFailure();
 }

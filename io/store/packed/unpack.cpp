@@ -18,12 +18,11 @@
 #include "io/store/format/checksum.h"
 #include "io/store/format/metadata.h"
 #include "io/store/format/surface_metadata.h"
-#include "io/store/packed/heightfield/form.h"
+#include "io/store/packed/forms.h"
 #include "io/store/packed/nodes/node_coder.h"
 #include "io/store/packed/nodes/order.h"
 #include "io/store/packed/packed.h"
 #include "io/store/packed/reader_io.h"
-#include "io/store/packed/surface/form.h"
 
 namespace arete {
 namespace packed {
@@ -111,9 +110,7 @@ class Unpacker {
     if (load_ && !load_(bytes)) return "cannot be read";
     if (amtChecksum(bytes) != packet.checksum) return "has been altered: its checksum does not match";
     ReaderIo io(*arrays_, directory_, index, tables_.data(), bytes);
-    return arrays_->isSurface       ? decode<SurfaceForm>(index, io)
-           : arrays_->holdsFloats() ? decode<HeightfieldForm<float>>(index, io)
-                                    : decode<HeightfieldForm<double>>(index, io);
+    return withForm(*arrays_, [&](auto form) { return decode<decltype(form)>(index, io); });
   }
   template <class Form>
   std::optional<std::string> decode(std::size_t index, ReaderIo& io) {
@@ -147,7 +144,7 @@ Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& c
                                   const RequiredError& wanted, const RunContext& context,
                                   const LoadPacked& load = {}) {
   std::string problem;
-  auto directory = packed::directoryOf(directoryBytes, problem, kind.isSurface);
+  auto directory = packed::directoryOf(directoryBytes, problem, !kind.hasPlan());
   if (!directory) return failure(ErrorCode::corrupt, "the directory of the packed nodes " + problem);
   if (directory->nodes() != counts.nodes || directory->slots() != counts.slots)
     return failure(ErrorCode::corrupt, "the packed nodes are not as many as the metadata says");
@@ -198,7 +195,7 @@ Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata,
                                            std::span<const std::byte> tables,
                                            std::span<const std::byte> nodes, const RunContext& context) try {
   packed::MtKind kind;
-  kind.isSurface = true;
+  kind.model = ModelKind::surface;
   kind.hasDoubles = metadata.hasDoubles;
   kind.step = metadata.positionStep;
   kind.moved = metadata.model.positionError;

@@ -54,6 +54,9 @@ class WriterIo {
       : w_(walk),
         mt_(walk.mt),
         a_(mt_.arrays()),
+        below_(mt_.column(kBelow)),
+        above_(mt_.column(kAbove)),
+        rms_(mt_.column(kRms)),
         roots_(mt_.rootTriangleCount()),
         packet_(packet),
         streams_(streams) {
@@ -194,7 +197,7 @@ class WriterIo {
   Vec3 actualPosition() const { return a_.vertices.place(mt_.apex(NodeId(old_))); }
 
   std::uint16_t actualError(std::uint32_t id) const { return a_.error[oldIdOf(id)]; }
-  std::uint16_t actualRms(std::uint32_t id) const { return a_.rms[oldIdOf(id)]; }
+  std::uint16_t actualRms(std::uint32_t id) const { return rms_[oldIdOf(id)]; }
   /// Error and RMS of the triangles that stay.
   std::array<std::uint16_t, 2> actualFinest() const { return {w_.arrays.finestError, w_.arrays.finestRms}; }
   std::optional<std::uint64_t> wholeError(double doubledArea, std::uint16_t code) const {
@@ -211,8 +214,7 @@ class WriterIo {
   }
   BoundBytes bounds(std::uint32_t id, std::uint32_t reference) {
     const std::uint32_t t = oldIdOf(id);
-    const BoundBytes bytes =
-        bytesOf(roundedBounds(boundStep(a_.below[t]), boundStep(a_.above[t])), reference);
+    const BoundBytes bytes = bytesOf(roundedBounds(boundStep(below_[t]), boundStep(above_[t])), reference);
     streams_.boundBytes.push_back(static_cast<std::byte>(bytes.first));
     if (bytes.isFar()) streams_.boundBytes.push_back(static_cast<std::byte>(bytes.second));
     return bytes;
@@ -284,6 +286,7 @@ class WriterIo {
   Walk& w_;
   const MultiTriangulation& mt_;
   const MtArrays& a_;
+  std::span<const std::uint16_t> below_, above_, rms_;
   std::uint32_t roots_, packet_;
   Streams& streams_;
   std::array<std::vector<std::uint32_t>, MultiTriangulation::kBands> listed_;

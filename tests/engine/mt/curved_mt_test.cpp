@@ -107,7 +107,7 @@ TEST(CurvedMt, GrowsErrorsKeepsLaw6AndTheTopology) {
     const MtArrays &a = made.arrays(), &before = mt.arrays();
     EXPECT_TRUE(std::ranges::equal(a.link, before.link)) << m.name;
     EXPECT_TRUE(std::ranges::equal(a.remover, before.remover)) << m.name;
-    EXPECT_TRUE(a.below.empty() && a.above.empty()) << m.name;
+    EXPECT_TRUE(a.columns.of(kBelow).empty() && a.columns.of(kAbove).empty()) << m.name;
     for (std::uint32_t t = 0; t < mt.triangleIdCount(); ++t) {
       if (mt.remover(TriangleId(t)).isValid() && mt.remover(TriangleId(t)) == mt.creator(TriangleId(t)))
         continue;  // the last slot of an open star

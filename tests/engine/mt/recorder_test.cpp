@@ -204,8 +204,8 @@ TEST(MtRecorder, FinishesIntoTheArraysByTheirDefinitions) {
     for (std::uint32_t t = 0; t < recorded.size(); ++t) {
       const FloorCodes expected = codes.contains(recorded[t]) ? codes[recorded[t]] : FloorCodes{};
       EXPECT_EQ(a.error[t], expected.error);
-      EXPECT_EQ(a.below[t], expected.below);
-      EXPECT_EQ(a.above[t], expected.above);
+      EXPECT_EQ(a.columns.of(kBelow)[t], expected.below);
+      EXPECT_EQ(a.columns.of(kAbove)[t], expected.above);
       const NodeId owner = t < r.surviving.size() ? NodeId() : ownerOfSlot[t - r.surviving.size()];
       EXPECT_EQ(NodeId(a.remover[t]), !recorded[t].isValid()          ? owner
                                       : remover.contains(recorded[t]) ? remover[recorded[t]]

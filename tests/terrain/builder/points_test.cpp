@@ -157,9 +157,9 @@ TEST(BuildPoints, StoresBoundsThatContainTheDifferenceEverywhereInATriangle) {
           if (std::isnan(z)) continue;
           const double difference = a * p[0].z + b * p[1].z + c * p[2].z - z;
           const double slack = 1e-9 * magnitude;
-          ASSERT_LE(difference, mt.arrays().scale.decode(mt.arrays().above[t]) + slack)
+          ASSERT_LE(difference, mt.arrays().scale.decode(mt.arrays().columns.of(kAbove)[t]) + slack)
               << family.name << " triangle " << t;
-          ASSERT_GE(difference, -double(mt.arrays().scale.decode(mt.arrays().below[t])) - slack)
+          ASSERT_GE(difference, -double(mt.arrays().scale.decode(mt.arrays().columns.of(kBelow)[t])) - slack)
               << family.name << " triangle " << t;
         }
       }

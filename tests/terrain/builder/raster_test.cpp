@@ -222,8 +222,8 @@ TEST(BuildRaster, StoresErrorsThatAreThoseOfAPlainScanRoundedOutwards) {
         const double floorMagnitude = double(mt.arrays().scale.decode(1));
         ASSERT_LE(stored, std::max(error * (1 + 1.0 / 1024) + 100 * slack, floorMagnitude))
             << family.name << " triangle " << t;
-        const double below = mt.arrays().scale.decode(mt.arrays().below[t]),
-                     above = mt.arrays().scale.decode(mt.arrays().above[t]);
+        const double below = mt.arrays().scale.decode(mt.arrays().columns.of(kBelow)[t]),
+                     above = mt.arrays().scale.decode(mt.arrays().columns.of(kAbove)[t]);
         ASSERT_GE(below, -low - slack) << family.name << " triangle " << t;
         ASSERT_GE(above, high - slack) << family.name << " triangle " << t;
       }
@@ -274,9 +274,9 @@ TEST(BuildRaster, StoresBoundsThatContainTheDifferenceEverywhereInATriangle) {
           if (std::isnan(z)) continue;
           const double difference = p[0].z + u * (p[1].z - p[0].z) + w * (p[2].z - p[0].z) - z;
           const double slack = 1e-11 * std::max(1.0, magnitude);
-          ASSERT_LE(difference, mt.arrays().scale.decode(mt.arrays().above[t]) + slack)
+          ASSERT_LE(difference, mt.arrays().scale.decode(mt.arrays().columns.of(kAbove)[t]) + slack)
               << family.name << " triangle " << t;
-          ASSERT_GE(difference, -double(mt.arrays().scale.decode(mt.arrays().below[t])) - slack)
+          ASSERT_GE(difference, -double(mt.arrays().scale.decode(mt.arrays().columns.of(kBelow)[t])) - slack)
               << family.name << " triangle " << t;
         }
       }

@@ -26,8 +26,8 @@ TerrainModel with(const TerrainModel& model, std::shared_ptr<const Codes> codes)
   TerrainModel changed = model;
   MtArrays arrays = model.mt.arrays();
   arrays.error = codes->error;
-  arrays.below = codes->below;
-  arrays.above = codes->above;
+  arrays.columns.set(kBelow, codes->below);
+  arrays.columns.set(kAbove, codes->above);
   const MultiTriangulation original = model.mt;
   changed.mt = MultiTriangulation(
       arrays, std::make_shared<std::pair<MultiTriangulation, std::shared_ptr<const Codes>>>(
@@ -39,8 +39,8 @@ std::shared_ptr<Codes> codesOf(const TerrainModel& model) {
   const MtArrays& a = model.mt.arrays();
   auto codes = std::make_shared<Codes>();
   codes->error.assign(a.error.begin(), a.error.end());
-  codes->below.assign(a.below.begin(), a.below.end());
-  codes->above.assign(a.above.begin(), a.above.end());
+  codes->below.assign(a.columns.of(kBelow).begin(), a.columns.of(kBelow).end());
+  codes->above.assign(a.columns.of(kAbove).begin(), a.columns.of(kAbove).end());
   return codes;
 }
 

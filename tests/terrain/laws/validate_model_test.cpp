@@ -69,7 +69,9 @@ struct FlatTriangle {
     a.slotBegin = slotBegin;
     a.link = link;
     a.remover = remover;
-    a.error = a.below = a.above = codes;
+    a.error = codes;
+    a.columns.set(kBelow, a.error);
+    a.columns.set(kAbove, a.error);
     a.floor = floor;
     a.saturatedError = std::span(codes).first(5);
     a.sphere = sphere;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "io/store/entropy/numbers.h"
@@ -16,15 +18,14 @@
 namespace arete::packed {
 
 inline MtKind kindOf(const TerrainModel& model) {
-  const MtArrays& a = model.mt.arrays();
   MtKind kind;
   kind.isLattice = model.isRaster;
   kind.hasFills = model.options.rimTolerance > 0;
   kind.columns = model.columns;
   kind.rows = model.rows;
-  kind.encoding = a.vertices.encoding;
-  kind.scale = a.scale;
-  kind.metric = a.metric;
+  kind.encoding = model.mt.vertices().encoding;
+  kind.scale = model.mt.scale();
+  kind.metric = model.mt.metric();
   return kind;
 }
 
@@ -37,6 +38,17 @@ struct HeightfieldForm {
   template <class Io>
   using Values = BoundedErrors<Real, Io>;
   static constexpr const char* kInvalidVertex = "has a vertex outside of its grid or without a height";
+
+  /// Gives the writer's arrays the root's vertices.
+  static void prepare(Arrays& a, const MultiTriangulation& from) {
+    const VertexArrays& vertices = from.vertices();
+    const std::size_t count = from.rootVertexCount();
+    if (a.isLattice)
+      std::copy_n(vertices.samples.begin(), count, a.samples.get());
+    else
+      std::copy_n(vertices.plan.begin(), count, a.plan.get());
+    std::copy_n(vertices.rawHeights.begin(), count * vertices.encoding.bytesPerHeight(), a.rawHeights.get());
+  }
 
   /// Codes the root's vertices: every number as the difference from the one before it. The writer's arrays
   /// hold them already; the reader's are filled.

@@ -20,45 +20,67 @@ namespace arete::packed {
 
 constexpr std::uint32_t kNone = MultiTriangulation::kNone;
 constexpr std::uint32_t kAhead = 8;
+constexpr std::size_t kReadable = 8;  // elements behind a column's end
+
+AmtFacts MtKind::facts() const {
+  AmtFacts facts;
+  facts.kind = model;
+  facts.isLattice = isLattice;
+  facts.heights = encoding.type;
+  facts.hasDoubles = hasDoubles;
+  return facts;
+}
 
 bool Arrays::allocate(const AmtCounts& counts, std::uint64_t borders) {
   rootVertices = static_cast<std::uint32_t>(counts.rootVertices);
   roots = static_cast<std::uint32_t>(counts.rootTriangles);
   nodes = static_cast<std::uint32_t>(counts.nodes);
   slots = static_cast<std::uint32_t>(counts.slots);
-  const std::size_t n = nodes, s = slots, ids = std::size_t{roots} + s, v = std::size_t{rootVertices} + n;
-  constexpr std::size_t k = MultiTriangulation::kSlotsPerHint;
+  AmtFacts facts = this->facts();
+  facts.counts = counts;
+  mtColumns.clear();
+  for (const AmtMtColumn& column : amtMtColumns(facts))
+    if (column.per != AmtPer::block) mtColumns.push_back({column, {}, amtCountOf(column.per, facts)});
+  const std::size_t n = nodes, v = std::size_t{rootVertices} + n;
   const bool hasMemory = stays.lay([&](const auto& array) {
-    array(rootTriangles, roots);
-    array(slotBegin, n + 1);
-    array(link, s);
-    array(remover, ids);
-    array(floor, s - 2 * n);
-    array(creatorHint, (s + k - 1) / k);
-    array(error, ids);
-    array(below, isSurface ? 0 : ids);
-    array(above, isSurface ? 0 : ids);
-    array(rms, isSurface ? ids : 0);
-    array(saturatedError, n);
-    array(sphere, n);
-    array(samples, !isSurface && isLattice ? v : 0);
-    array(plan, isSurface || isLattice ? 0 : v);
-    array(rawHeights, isSurface ? 0 : v * encoding.bytesPerHeight());
-    array(places32, isSurface && !hasDoubles ? v : 0);
-    array(places64, isSurface && hasDoubles ? v : 0);
+    for (Column& column : mtColumns)
+      array(column.memory, (column.elements + kReadable) * column.elementBytes());
   }) && goes.lay([&](const auto& array) {
-    array(floatPlaces, !isSurface && holdsFloats() ? v : 0);
-    array(doublePlaces, isSurface || holdsFloats() ? 0 : v);
+    array(floatPlaces, hasPlan() && holdsFloats() ? v : 0);
+    array(doublePlaces, hasPlan() && !holdsFloats() ? v : 0);
     array(star, n);
     array(border, roots + borders);
   });
   if (!hasMemory) return false;
-  if (isSurface) return true;
+  bindColumns();
+  if (!hasPlan()) return true;
   wholeErrors.assign((kLatticeErrorArea + 1) * 16, 0);
   for (unsigned area = 1; area <= kLatticeErrorArea; ++area)
     for (unsigned whole = 0; whole < 16; ++whole)
       wholeErrors[area * 16 + whole] = wholeErrorCode(scale, encoding, whole, area);
   return true;
+}
+
+void Arrays::bindColumns() {
+  bind(amt_tag::kRootTriangles, rootTriangles);
+  bind(amt_tag::kSlotBegin, slotBegin);
+  bind(amt_tag::kLink, link);
+  bind(amt_tag::kRemover, remover);
+  bind(amt_tag::kFloor, floor);
+  bind(amt_tag::kCreatorHint, creatorHint);
+  bind(amt_tag::kError, error);
+  bind(amt_tag::kBelow, below);
+  bind(amt_tag::kAbove, above);
+  bind(amt_tag::kRms, rms);
+  bind(amt_tag::kSaturatedError, saturatedError);
+  bind(amt_tag::kSphere, sphere);
+  bind(amt_tag::kSamples, samples);
+  bind(amt_tag::kPlan, plan);
+  bind(amt_tag::kHeights, rawHeights);
+  if (hasDoubles)
+    bind(amt_tag::kPlaces, places64);
+  else
+    bind(amt_tag::kPlaces, places32);
 }
 
 void Arrays::joinRoot() {
@@ -113,29 +135,14 @@ MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
   from.blocks = makeNodeBlocks(from.saturatedError.view(), from.sphere.view());
   MtArrays a;
   a.rootVertices = from.rootVertices;
-  a.rootTriangles = from.rootTriangles.view();
-  a.slotBegin = from.slotBegin.view();
-  a.link = from.link.view();
-  a.remover = from.remover.view();
-  a.error = from.error.view();
-  a.below = from.below.view();
-  a.above = from.above.view();
-  a.rms = from.rms.view();
-  a.floor = from.floor.view();
-  a.saturatedError = from.saturatedError.view();
-  a.sphere = from.sphere.view();
+  for (const Column& column : from.mtColumns)
+    column.mt.put(a, column.memory.view().first(column.elements * column.elementBytes()));
   a.blockError = from.blocks.error;
   a.blockSphere = from.blocks.sphere;
-  a.creatorHint = from.creatorHint.view();
   a.scale = from.scale;
   a.metric = from.metric;
-  a.vertices.samples = from.samples.view();
-  a.vertices.columns = !from.isSurface && from.isLattice ? from.columns : 0;
-  a.vertices.plan = from.plan.view();
-  a.vertices.places32 = from.places32.view();
-  a.vertices.places64 = from.places64.view();
+  a.vertices.columns = from.hasPlan() && from.isLattice ? from.columns : 0;
   a.vertices.encoding = from.encoding;
-  a.vertices.rawHeights = from.rawHeights.view();
   return MultiTriangulation(a, std::move(arrays));
 }
 

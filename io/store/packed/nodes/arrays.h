@@ -8,7 +8,7 @@
 
 #include "engine/mt/multitriangulation.h"
 #include "engine/mt/node_blocks.h"
-#include "io/store/format/metadata.h"
+#include "io/store/format/schema.h"
 #include "io/store/packed/nodes/errors.h"
 #include "io/store/packed/nodes/heights.h"
 #include "io/store/packed/nodes/layout.h"
@@ -36,7 +36,7 @@ struct alignas(4 * sizeof(Real)) Place {
 
 /// What the vertices and triangles of an MT are, as its metadata says.
 struct MtKind {
-  bool isSurface = false;
+  ModelKind model = ModelKind::terrain;
 
   // Of a heightfield.
   bool isLattice = true;
@@ -51,25 +51,36 @@ struct MtKind {
 
   OutwardScale scale;
   MetricFrame metric;
+
+  bool hasPlan() const { return model == ModelKind::terrain; }
+  /// Those that decide which columns the MT has.
+  AmtFacts facts() const;
 };
 
-/// The MT that grows while a packed file is read, or while one is written: the arrays of MtArrays, and what
-/// is needed only on the way.
+/// The MT that grows while a packed file is read, or while one is written: its columns, and what is needed
+/// only on the way.
 struct Arrays : MtKind {
   std::uint32_t rootVertices = 0, roots = 0, nodes = 0, slots = 0;
 
-  /// Memory of the arrays of the MT, and of those that are only needed while packets are coded.
+  /// Memory of the columns of the MT, and of the arrays that are only needed while packets are coded.
   ZeroedArena stays, goes;
+  struct Column : AmtMtColumn {
+    ZeroedArray<std::byte> memory = {};
+    std::size_t elements = 0;
+  };
+  std::vector<Column> mtColumns;  ///< of the kind's schema, but for those of blocks
+
+  // The same by their types; those that the kind does not have are empty.
   ZeroedArray<std::array<std::uint32_t, 3>> rootTriangles;
   ZeroedArray<std::uint32_t> slotBegin, link, remover, floor, creatorHint;
   ZeroedArray<std::uint16_t> error, below, above, rms, saturatedError;
   ZeroedArray<Sphere> sphere;
-  NodeBlocks blocks;
   ZeroedArray<std::uint32_t> samples;
   ZeroedArray<Vec2> plan;
   ZeroedArray<std::byte> rawHeights;
   ZeroedArray<std::array<float, 3>> places32;
   ZeroedArray<Vec3> places64;
+  NodeBlocks blocks;
 
   /// Positions of the vertices of a heightfield: floats where these are exact (holdsFloats()), otherwise
   /// doubles.
@@ -90,9 +101,11 @@ struct Arrays : MtKind {
   static constexpr std::uint32_t kMark = 1u << 31, kLeft = 1u << 30, kMarks = kMark | kLeft;
   static bool isLeft(std::uint32_t remover) { return (remover & kMarks) == kMarks; }
 
-  /// Allocates all arrays, with the sizes stated in MtArrays, and the borders of the packets.
+  /// Allocates all arrays, with the sizes that the counts call for, and the borders of the packets.
   /// @return false if there is not enough memory
   bool allocate(const AmtCounts& counts, std::uint64_t borders);
+  /// Sets the typed arrays to the memory of their columns.
+  void bindColumns();
   /// Fills the root's borders from rootTriangles.
   void joinRoot();
   /// Fills the root's removers, creatorHint, the end of slotBegin and the errors of triangles that stay.
@@ -112,6 +125,13 @@ struct Arrays : MtKind {
       return floatPlaces.get();
     else
       return doublePlaces.get();
+  }
+  /// Gives a typed array the memory of the column of that tag; none if the kind does not have it.
+  template <class T>
+  void bind(const AmtTag& tag, ZeroedArray<T>& to) const {
+    for (const Column& column : mtColumns)
+      if (column.tag == tag)
+        to = {reinterpret_cast<T*>(column.memory.get()), column.elements * column.elementBytes() / sizeof(T)};
   }
   /// The place of a vertex of a surface.
   Vec3 place(std::uint32_t vertex) const {

@@ -42,7 +42,7 @@ constexpr int kMostClasses = 12;
 /// The place of a vertex, by which nodes are put into packets. The third coordinate of one of a heightfield
 /// is 0.
 Vec3 placeOf(const VertexArrays& vertices, VertexId v) {
-  if (vertices.isSurface()) return vertices.place(v);
+  if (!vertices.hasPlan()) return vertices.place(v);
   const Vec2 p = vertices.planPosition(v);
   return {p.x, p.y, 0};
 }
@@ -123,9 +123,9 @@ double finestArea(const MultiTriangulation& mt) {
 
 Tiling tilingOf(const MultiTriangulation& mt, const MtKind& kind) {
   Tiling tiling;
-  tiling.hasLayers = kind.isSurface;
+  tiling.hasLayers = !kind.hasPlan();
   double width = std::max(kind.columns, kind.rows);
-  if (!kind.isSurface && kind.isLattice) {
+  if (kind.hasPlan() && kind.isLattice) {
     tiling.size = kTileSamples;
   } else {
     const std::uint32_t count = mt.vertices().size();
@@ -134,7 +134,8 @@ Tiling tilingOf(const MultiTriangulation& mt, const MtKind& kind) {
     for (std::uint32_t v = 0; v < count; ++v) box.include(placeOf(mt.vertices(), VertexId(v)));
     tiling.origin = box.low;
     width = box.longestSide();
-    const double area = kind.isSurface ? finestArea(mt) : (box.high.x - box.low.x) * (box.high.y - box.low.y);
+    const double area =
+        !kind.hasPlan() ? finestArea(mt) : (box.high.x - box.low.x) * (box.high.y - box.low.y);
     const double fit = std::sqrt(area / static_cast<double>(count)) * kTileSamples;
     // Long thin clouds: never more than a million tiles along a side.
     const double size = std::fmax(fit, width / 1e6);
@@ -170,10 +171,7 @@ Descent ownOf(const MultiTriangulation& mt, NodeId n, const Tiling& tiling) {
 class Parents {
  public:
   Parents(const MultiTriangulation& mt, const SlotToNode& owners)
-      : floor_(mt.arrays().floor),
-        owners_(owners),
-        roots_(mt.rootTriangleCount()),
-        slots_(static_cast<std::uint32_t>(mt.arrays().link.size())) {}
+      : floor_(mt.arrays().floor), owners_(owners), roots_(mt.rootTriangleCount()), slots_(mt.slotTotal()) {}
 
   /// Calls visit(parent) for the i-th entry of all floors, unless that is a triangle of the root.
   /// @param step       1 or -1: the direction of the visits
@@ -357,7 +355,7 @@ void describe(const MultiTriangulation& mt, std::uint32_t c, std::span<const std
 Plan planPackets(const MultiTriangulation& mt, const MtKind& kind) {
   const std::uint32_t nodes = mt.nodeCount();
   Plan plan(mt.arrays());
-  plan.directory.isOfSurface = kind.isSurface;
+  plan.directory.isOfSurface = !kind.hasPlan();
   std::vector<std::uint32_t> order;
   {
     const Tiling tiling = tilingOf(mt, kind);

@@ -53,7 +53,7 @@ template <class Io>
 void codeReaches(const MultiTriangulation& mt, SurfaceDisplacement& d, Io& io) {
   unsigned before = 0;
   for (std::uint32_t t = 0; t < mt.triangleIdCount(); ++t) {
-    if (mt.arrays().error[t] == 0) continue;
+    if (mt.errorCode(TriangleId(t)) == 0) continue;
     std::uint8_t& reach = d.reaches[t];
     reach = static_cast<std::uint8_t>(io.code(kSymbols, kReachTable + before, [&] { return reach; }));
     before = classOf(reach);

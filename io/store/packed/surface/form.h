@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -89,6 +90,24 @@ struct SurfaceForm {
   template <class Io>
   using Values = ErrorsWithRms<Io>;
   static constexpr const char* kInvalidVertex = "has a vertex that is nowhere";
+
+  /// Gives the writer's arrays the root's vertices, and what is one number of all triangles.
+  static void prepare(Arrays& a, const MultiTriangulation& from) {
+    for (std::uint32_t v = 0; v < from.rootVertexCount(); ++v)
+      a.setPlace(v, from.vertices().place(VertexId(v)));
+    const std::span<const std::uint16_t> rms = from.column(kRms);
+    unsigned codes = 1u << ((1u << kShiftBits) - 1);
+    bool isFirst = true;
+    for (std::uint32_t t = 0; t < from.triangleIdCount(); ++t) {
+      const std::uint16_t error = from.errorCode(TriangleId(t));
+      codes |= unsigned{error} | rms[t];
+      if (!isFirst || from.remover(TriangleId(t)).isValid()) continue;
+      isFirst = false;
+      a.finestError = error;
+      a.finestRms = rms[t];
+    }
+    a.errorShift = static_cast<unsigned>(std::countr_zero(codes));
+  }
 
   /// Codes the root's vertices: every coordinate as the difference from that of the vertex before. The
   /// writer's arrays hold them already; the reader's are filled.

@@ -131,9 +131,9 @@ Result<RoundedSurface> roundedSurface(const MultiTriangulation& mt, int position
                  most = largest == a.error.end() ? by : static_cast<double>(a.scale.decode(*largest)) + by;
     const OutwardScale scale(most * 1.01);  // room for a coarse step
     rounded->error = raised(a.error, a.scale, by, scale);
-    rounded->rms = raised(a.rms, a.scale, by, scale);
+    rounded->rms = raised(a.columns.of(kRms), a.scale, by, scale);
     a.error = rounded->error;
-    a.rms = rounded->rms;
+    a.columns.set(kRms, rounded->rms);
     a.scale = scale;
   }
   result.mt = MultiTriangulation(a, rounded);

@@ -135,7 +135,9 @@ TEST(AmtFile, KeepsAModelWithoutNodes) {
   a.slotBegin = begin;
   a.remover = none;
   a.link = a.floor = a.creatorHint = {};
-  a.error = a.below = a.above = a.error.first(2);
+  a.error = a.error.first(2);
+  a.columns.set(kBelow, a.error);
+  a.columns.set(kAbove, a.error);
   a.saturatedError = {};
   a.sphere = a.blockSphere = {};
   a.blockError = {};
@@ -331,7 +333,9 @@ TEST(AmtFile, TouchesOnlyTheFirstPagesOnOpening) {
     a.slotBegin = w.first(kNodes + 1);
     a.link = w.first(kSlots);
     a.remover = w;
-    a.error = a.below = a.above = halves;
+    a.error = halves;
+    a.columns.set(kBelow, a.error);
+    a.columns.set(kAbove, a.error);
     a.floor = w.first(kSlots - 2 * kNodes);
     a.saturatedError = std::span(halves).first(kNodes);
     a.sphere = spheres;

@@ -91,7 +91,7 @@ void expectEqual(const SurfaceModel& a, const SurfaceModel& b) {
   EXPECT_TRUE(std::ranges::equal(x.link, y.link));
   EXPECT_TRUE(std::ranges::equal(x.remover, y.remover));
   EXPECT_TRUE(std::ranges::equal(x.error, y.error));
-  EXPECT_TRUE(std::ranges::equal(x.rms, y.rms));
+  EXPECT_TRUE(std::ranges::equal(x.columns.of(kRms), y.columns.of(kRms)));
   EXPECT_TRUE(std::ranges::equal(x.floor, y.floor));
   EXPECT_TRUE(std::ranges::equal(x.saturatedError, y.saturatedError));
   EXPECT_EQ(x.scale.base(), y.scale.base());
@@ -178,7 +178,7 @@ std::vector<NumberFreeTriangle> trianglesOf(const SurfaceModel& model) {
     auto& around = std::get<0>(one);
     std::rotate(around.begin(), std::ranges::min_element(around), around.end());
     std::get<1>(one) = mt.arrays().error[t];
-    std::get<2>(one) = mt.arrays().rms[t];
+    std::get<2>(one) = mt.arrays().columns.of(kRms)[t];
     // Of coarse triangles without faces of their own, any face that they stand for.
     std::get<3>(one) = !remover.isValid() || model.hasFaceAttributes() ? model.faceOf[t] : 0;
     std::get<4>(one) = remover.isValid();

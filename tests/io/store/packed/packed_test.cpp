@@ -103,7 +103,8 @@ std::map<Facet, std::pair<double, double>> boundsOf(const MultiTriangulation& mt
   const MtArrays& a = mt.arrays();
   for (std::uint32_t n = 0; n < mt.nodeCount(); ++n)
     for (const std::uint32_t t : mt.floor(NodeId(n)))
-      bounds[facetOf(mt, t)] = {a.scale.decode(a.below[t]), a.scale.decode(a.above[t])};
+      bounds[facetOf(mt, t)] = {a.scale.decode(a.columns.of(kBelow)[t]),
+                                a.scale.decode(a.columns.of(kAbove)[t])};
   return bounds;
 }
 

@@ -88,8 +88,8 @@ class KnowingIo {
     return code == 0 ? std::optional<std::uint64_t>(0) : std::nullopt;
   }
   BoundBytes bounds(std::uint32_t id, std::uint32_t reference) {
-    const BoundBytes bytes =
-        bytesOf(roundedBounds(boundStep(a_.below[id]), boundStep(a_.above[id])), reference);
+    const BoundBytes bytes = bytesOf(
+        roundedBounds(boundStep(a_.columns.of(kBelow)[id]), boundStep(a_.columns.of(kAbove)[id])), reference);
     recording.bounds.push_back(bytes);
     return bytes;
   }

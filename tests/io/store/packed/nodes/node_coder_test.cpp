@@ -60,8 +60,8 @@ TEST_F(NodeCoderTest, GrowsTheModelOfItsSymbolsAlone) {
   for (const std::uint32_t t : {0u, 1u, 2u, 8u}) EXPECT_EQ(arrays.remover[t], a.remover[t]) << t;
   for (const std::uint32_t t : {0u, 1u, 2u}) {
     EXPECT_EQ(arrays.error[t], a.error[t]) << t;
-    EXPECT_GE(arrays.below[t], a.below[t]) << t;
-    EXPECT_GE(arrays.above[t], a.above[t]) << t;
+    EXPECT_GE(arrays.below[t], a.columns.of(kBelow)[t]) << t;
+    EXPECT_GE(arrays.above[t], a.columns.of(kAbove)[t]) << t;
   }
   EXPECT_EQ(arrays.saturatedError[0], std::max(a.error[0], a.error[1]));
   EXPECT_EQ(arrays.saturatedError[1], a.error[2]);

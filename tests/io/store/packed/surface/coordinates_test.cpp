@@ -12,7 +12,7 @@ namespace {
 
 MtKind kindOf(bool hasDoubles, double step) {
   MtKind kind;
-  kind.isSurface = true;
+  kind.model = ModelKind::surface;
   kind.hasDoubles = hasDoubles;
   kind.step = step;
   return kind;

@@ -69,7 +69,8 @@ TEST(RoundedSurface, HasAsManyStepsAsItsBitsAllowAndErrorsThatGrowByTwiceTheMove
         const double was = a.scale.decode(a.error[t]), is = b.scale.decode(b.error[t]);
         EXPECT_GE(is, was + 2 * rounded->moved);
         EXPECT_LE(is, (was + 2 * rounded->moved) * 1.009);
-        EXPECT_GE(b.scale.decode(b.rms[t]), a.scale.decode(a.rms[t]) + 2 * rounded->moved);
+        EXPECT_GE(b.scale.decode(b.columns.of(kRms)[t]),
+                  a.scale.decode(a.columns.of(kRms)[t]) + 2 * rounded->moved);
       }
     }
 }
