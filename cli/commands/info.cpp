@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/columns_json.h"
 #include "cli/surface/info.h"
 #include "engine/base/counted.h"
 #include "io/files/text/stated_size.h"
@@ -182,7 +183,9 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
   ARETE_TRY(auto curve, errorCurve(model.mt, tolerances, session.context()));
   facts.curve = std::move(curve);
   sayFacts(arguments, model, facts, session);
-  session.answer(factsJson(arguments, model, facts));
+  Json answer = factsJson(arguments, model, facts);
+  answer["columns"] = columnsJson(file.container());
+  session.answer(answer);
   return {};
 }
 

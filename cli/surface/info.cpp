@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/columns_json.h"
 #include "cli/mesh/tolerance.h"
 #include "cli/surface/mending.h"
 #include "engine/base/counted.h"
@@ -125,6 +126,7 @@ Status sayAboutSurface(const AmtContainer& file, const std::string& at, std::siz
                   {"rootError", mt.largestError()},
                   {"levels", model.levels},
                   {"mended", mendedJson(model.mending)},
+                  {"columns", columnsJson(file)},
                   {"curve", std::move(points)}});
   return {};
 }

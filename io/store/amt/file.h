@@ -32,7 +32,7 @@ struct AmtWriteOptions {
 
 /// Writes the model. The same model and writer give the same bytes. The file appears under its name whole or
 /// not at all (OutputFile); a model that is mapped from `path` may be written to it.
-/// Errors, naming the path: invalidData: arrays or numbers that contradict MtArrays (nothing that openAmt()
+/// Errors, naming the path: invalidData: arrays or numbers that contradict each other (nothing that openAmt()
 /// would refuse is written); notFound, unreadable: folder, permissions, disk full; interrupted. Every byte is
 /// read twice: for the checksums, in parallel by chunks, and for writing.
 Status writeAmt(const std::string& path, const TerrainModel& model, const RunContext& context = {},
@@ -86,8 +86,8 @@ class AmtFile {
   /// part); O(triangles) if everything is required, or the file is plain and has no checksums of segments.
   Result<TerrainModel> read(const AmtReadOptions& options = {}, const RunContext& context = {}) const;
 
-  /// The model without its isolated samples and fixed vertices. Its arrays have the sizes stated in MtArrays.
-  /// Their content is unchecked: no algorithm may follow their indices before checkAmtIndices().
+  /// The model without its isolated samples and fixed vertices. Its arrays have the sizes that engine/mt
+  /// states. Their content is unchecked: no algorithm may follow their indices before checkAmtIndices().
   const TerrainModel& model() const { return model_; }
 
   std::span<const std::uint32_t> isolatedSamples() const { return isolatedSamples_; }

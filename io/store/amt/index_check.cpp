@@ -31,7 +31,7 @@
 #include "engine/parallel/first_bad.h"
 #include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
-#include "io/store/format/layout.h"
+#include "io/store/format/schema.h"
 #include "io/store/format/slot_to_node.h"
 
 namespace arete {
@@ -334,25 +334,38 @@ class MtIndexCheck {
 
   Status vertices() const {
     const VertexArrays& v = a_.vertices;
-    const std::size_t count = v.size();
-    if (!v.hasPlan()) {
-      if (const auto bad = firstBad(count, [&](std::uint32_t i) { return !isFinite(v.place(VertexId(i))); }))
-        return refuse(amt_tag::kPlaces, fmt::format("vertex {} has coordinates that are not finite", *bad));
-      return {};
-    }
-    if (v.isLattice()) {
-      if (const auto bad = firstBad(count, [&](std::uint32_t i) { return v.samples[i] >= gridSamples_; }))
+    if (v.isLattice())
+      if (const auto bad = firstBad(v.size(), [&](std::uint32_t i) { return v.samples[i] >= gridSamples_; }))
         return refuse(amt_tag::kSamples,
                       fmt::format("vertex {} is sample {} of {}", *bad, v.samples[*bad], gridSamples_));
-    } else if (const auto bad = firstBad(count, [&](std::uint32_t i) {
-                 return !std::isfinite(v.plan[i].x) || !std::isfinite(v.plan[i].y);
-               })) {
-      return refuse(amt_tag::kPlan, fmt::format("vertex {} has coordinates that are not finite", *bad));
+    for (const AmtMtColumn& column : amtMtColumns(a_)) {
+      if (column.tag == amt_tag::kHeights || column.tag == amt_tag::kSphere || !column.isFloating()) continue;
+      if (const auto bad = firstNotFinite(column))
+        return refuse(column.tag,
+                      fmt::format("{} {} has {} not finite", toString(column.per), *bad,
+                                  column.components > 1 ? "coordinates that are" : "a number that is"));
     }
+    if (!v.hasPlan()) return {};
+    // A raw height may be finite and its height not.
     if (const auto bad =
-            firstBad(count, [&](std::uint32_t i) { return !std::isfinite(v.height(VertexId(i))); }))
+            firstBad(v.size(), [&](std::uint32_t i) { return !std::isfinite(v.height(VertexId(i))); }))
       return refuse(amt_tag::kHeights, fmt::format("vertex {} has a height that is not finite", *bad));
     return {};
+  }
+
+  /// The first element of a column of floating-point numbers that has one that is not finite. Columns of
+  /// blocks are checked with them.
+  std::optional<std::uint32_t> firstNotFinite(const AmtMtColumn& column) const {
+    if (column.per == AmtPer::block) return std::nullopt;
+    const std::span<const std::byte> bytes = column.mt.bytes(a_);
+    const auto find = [&]<class T>(T) {
+      const std::span<const T> all(reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T));
+      return firstBad(
+          bytes.size() / column.elementBytes(), [&, n = std::size_t{column.components}](std::uint32_t i) {
+            return !std::ranges::all_of(all.subspan(i * n, n), [](T x) { return std::isfinite(x); });
+          });
+    };
+    return column.scalar == AmtScalar::f32 ? find(float{}) : find(double{});
   }
 
   /// The first node with a bad slot.

@@ -9,9 +9,9 @@
 
 namespace arete {
 
-/// Parts of an MT from an unchecked file: its arrays have the sizes stated in MtArrays and arbitrary content.
-/// The parts have such sizes too and must be checked (checkMtIndices()). The parts of an MT that keeps its
-/// laws keep them.
+/// Parts of an MT from an unchecked file: its arrays have the sizes that engine/mt states and arbitrary
+/// content. The parts have such sizes too and must be checked (checkMtIndices()). The parts of an MT that
+/// keeps its laws keep them.
 
 /// The first nodes of an MT, with their numbers: spans of the arrays of the whole, which is kept alive, and
 /// copies of the removers and of the clusters' errors and spheres. Precondition: `nodes` is the number of all

@@ -75,6 +75,10 @@ enum class AmtCoding : std::uint8_t {
   packed         ///< a plain file does not have it: it is what the others are packed in
 };
 
+/// As a file's description says it.
+std::string_view toString(AmtPer per);
+std::string_view toString(AmtCoding coding);
+
 /// Whether a file must have a column that its facts call for.
 enum class AmtNeed : std::uint8_t { always, whereFound };
 

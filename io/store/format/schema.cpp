@@ -56,6 +56,20 @@ std::uint64_t amtCountOf(AmtPer per, const AmtFacts& facts) {
   }
 }
 
+std::string_view toString(AmtPer per) {
+  constexpr std::array<std::string_view, 14> kNames = {
+      "root triangle",   "node",         "node and end", "slot",   "triangle",
+      "floor triangle",  "block",        "hint",         "vertex", "finest triangle",
+      "isolated sample", "fixed vertex", "segment",      "any"};
+  return kNames[static_cast<std::size_t>(per)];
+}
+
+std::string_view toString(AmtCoding coding) {
+  constexpr std::array<std::string_view, 9> kNames = {
+      "raw", "walked", "outward", "delta", "derived", "numbers", "displacement", "dropped", "packed"};
+  return kNames[static_cast<std::size_t>(coding)];
+}
+
 std::vector<AmtMtColumn> amtMtColumns(const AmtFacts& facts) {
   return facts.kind == ModelKind::terrain ? mtColumnsOf<TerrainModel>(facts)
                                           : mtColumnsOf<SurfaceModel>(facts);

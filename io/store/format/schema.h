@@ -170,6 +170,13 @@ inline constexpr auto kAmtSchema<SurfaceModel> = amt_rows::joined(
     amt_rows::kSourceRows, amt_rows::kPackedRows<SurfaceModel>, amt_rows::kLookRows,
     amt_rows::kSegmentRows<SurfaceModel>);
 
+/// The nodes of a packed file are in another order, so that no column of the MT is as in a plain one.
+template <class Model>
+inline constexpr bool kIsPackable = std::ranges::none_of(kAmtSchema<Model>, [](const AmtRow<Model>& row) {
+  return row.mt && row.coding == AmtCoding::raw;
+});
+static_assert(kIsPackable<TerrainModel> && kIsPackable<SurfaceModel>);
+
 /// The version of the files of a kind of model: the first one that has all of its columns.
 template <class Model>
 inline constexpr std::uint32_t kAmtVersionOf =

@@ -20,7 +20,7 @@ struct SurfaceMetadata : AmtHead {
   bool hasAllFaces = false;  ///< every triangle has a face number, not only those of the finest front
   std::uint64_t finestTriangles = 0;
   double positionStep = 0;  ///< of a packed file: see io/store/packed/packed.h
-  SurfaceModel model;  ///< without mt, arrays and attributes
+  SurfaceModel model;       ///< without mt, arrays and attributes
 };
 
 /// As those of terrain (io/store/format/metadata.h).

@@ -38,7 +38,7 @@ struct PackedMt {
 Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context = {});
 
 /// Unpacks an MT, or the part of it that a query requires. Whatever the bytes are, the result is an error or
-/// an MT whose indices are in range and whose floors, removers, links and spheres are related as MtArrays
+/// an MT whose indices are in range and whose floors, removers, links and spheres are related as engine/mt
 /// states; the counts of the metadata are compared with the bytes before memory is allocated. Packets are
 /// decoded in parallel; the result does not depend on the threads.
 ///
