@@ -9,8 +9,8 @@
 namespace arete {
 
 /// Arrays beside the core of a multitriangulation, of one kind of model or of both: one element for each
-/// triangle id, vertex or node. Who asks for a column that a multitriangulation does not have gets an empty
-/// span. What a column is per, and how files hold it, is in the schema (io/store/format/schema.h).
+/// triangle id, vertex or node. The span of a column that a multitriangulation does not have is
+/// empty. What a column is per, and how files hold it, is in the schema (io/store/format/schema.h).
 
 /// Names a column: its place among all, and the type of its elements.
 template <class T>

@@ -135,7 +135,7 @@ class MultiTriangulation {
 
   VertexId apex(NodeId n) const { return VertexId(a_.rootVertices + n.index()); }
   std::uint32_t slotCount(NodeId n) const { return a_.slotBegin[n.index() + 1] - a_.slotBegin[n.index()]; }
-  /// The first slot of a node, among those of all.
+  /// The first slot of a node, counted over all nodes.
   std::uint32_t firstSlot(NodeId n) const { return a_.slotBegin[n.index()]; }
   TriangleId slotTriangle(NodeId n, std::uint32_t slot) const {
     return TriangleId(rootTriangleCount() + a_.slotBegin[n.index()] + slot);

@@ -10,7 +10,7 @@ namespace arete {
 
 /// The columns of an open file, of either kind of model, by walking over its schema.
 
-/// Adds to the facts of the metadata those of the directory, and checks that the file has each column that
+/// Adds what the directory says to the facts of the metadata, and checks that the file has each column that
 /// they call for, of its type and size. Errors: corrupt: names the chunk.
 template <class Model>
 Status checkColumns(const AmtContainer& file, AmtFacts& facts) {

@@ -46,7 +46,7 @@ class AmtModelWriter {
   }
 
   /// Writes the chunks of the schema, in its order. Precondition: describe() was successful; what the schema
-  /// says is made for a file of such facts was made. Errors: those of AmtChunkWriter::write().
+  /// says is made for a file of such facts was made. Errors: as AmtChunkWriter::write().
   Status write(const Model& model, const AmtFacts& facts) {
     for (const AmtRow<Model>& row : kAmtSchema<Model>) {
       if (!row.isIn(facts)) continue;

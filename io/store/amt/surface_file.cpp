@@ -219,7 +219,7 @@ class Reading {
     model_.attributes.wedgeCount = static_cast<std::uint32_t>(metadata_.wedges);
   }
 
-  /// Of a file that has those of the finest triangles alone.
+  /// Where the file has faces of the finest triangles alone.
   void takeFinestFaces() {
     const auto faces = all_.elements<std::uint32_t>(amt_tag::kFaceNumbers);
     model_.faceOf.assign(model_.mt.triangleIdCount(), 0);

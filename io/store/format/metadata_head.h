@@ -47,7 +47,7 @@ void visitMtCounts(Visitor& fields, Counts& counts) {
   fields.field("nodes", counts.nodes);
   fields.field("slots", counts.slots);
 }
-/// @param scaleBase that of the scale, which has no member for it
+/// @param scaleBase the base of the scale, which has no member for it
 template <class Visitor, class Metadata, class Base>
 void visitFrameFields(Visitor& top, Metadata& m, Base& scaleBase) {
   top.field("errorScaleBase", scaleBase);

@@ -190,8 +190,8 @@ struct AmtMtColumn : AmtColumn {
 std::vector<AmtMtColumn> amtMtColumns(const AmtFacts& facts);
 std::vector<AmtMtColumn> amtMtColumns(const MtArrays& arrays);
 
-/// The shapes of the chunks that a file of such facts has, but for those of any number of bytes, in their
-/// order.
+/// The shapes of the chunks that a file of such facts has, in their order; chunks of any number of bytes are
+/// left out.
 template <class Model>
 std::vector<AmtShape> amtShapes(const AmtFacts& facts) {
   std::vector<AmtShape> shapes;

@@ -23,7 +23,7 @@ struct SurfaceMetadata : AmtHead {
   SurfaceModel model;       ///< without mt, arrays and attributes
 };
 
-/// As those of terrain (io/store/format/metadata.h).
+/// As for terrain (io/store/format/metadata.h).
 SurfaceMetadata amtMetadataOf(const SurfaceModel& model, std::string writer);
 std::optional<std::string> findAmtProblem(const SurfaceMetadata& metadata);
 std::string toAmtJson(const SurfaceMetadata& metadata);

@@ -68,7 +68,7 @@ struct Arrays : MtKind {
     ZeroedArray<std::byte> memory = {};
     std::size_t elements = 0;
   };
-  std::vector<Column> mtColumns;  ///< of the kind's schema, but for those of blocks
+  std::vector<Column> mtColumns;  ///< of the kind's schema, without columns of blocks
 
   // The same by their types; those that the kind does not have are empty.
   ZeroedArray<std::array<std::uint32_t, 3>> rootTriangles;
