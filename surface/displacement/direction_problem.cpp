@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/base/conjugate_gradients.h"
+#include "surface/algebra/conjugate_gradients.h"
 
 namespace arete {
 namespace {
@@ -15,34 +15,27 @@ constexpr double kStiffness = 1e-3;
 constexpr int kMostSteps = 100;
 constexpr double kAccuracy = 1e-3;
 
-Vec3 times(const std::array<float, 6>& m, const Vec3& v) {
-  return arete::times(Symmetric3{m[0], m[1], m[2], m[3], m[4], m[5]}, v);
-}
-
 }  // namespace
 
 DirectionProblem::DirectionProblem(const MultiTriangulation& mt)
     : mt_(mt),
-      diagonal_(mt.vertexCount(), Symmetric3{}),
-      right_(mt.vertexCount(), Vec3{0, 0, 0}),
-      ofSlot_(mt.slotTotal(), Block{}) {
+      diagonal_(mt.vertexCount(), Symmetric3::Zero()),
+      right_(Eigen::Matrix3Xd::Zero(3, mt.vertexCount())),
+      ofSlot_(mt.slotTotal(), Block::Zero()) {
   for (const auto& t : mt.rootTriangles())
     for (std::size_t i = 0; i < 3; ++i)
       rootEdges_.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
   std::ranges::sort(rootEdges_);
   const auto last = std::unique(rootEdges_.begin(), rootEdges_.end());
   rootEdges_.erase(last, rootEdges_.end());
-  ofRootEdge_.assign(rootEdges_.size(), Block{});
+  ofRootEdge_.assign(rootEdges_.size(), Block::Zero());
 }
 
 void DirectionProblem::Part::add(const std::array<double, 3>& shares, const Symmetric3& metric,
                                  const Vec3& residual) {
-  const Vec3 pull = arete::times(metric, residual);
-  for (std::size_t b = 0; b < 6; ++b) {
-    const double weight = shares[kPairs[b][0]] * shares[kPairs[b][1]];
-    for (std::size_t k = 0; k < 6; ++k) blocks[b][k] += weight * metric[k];
-  }
-  for (std::size_t c = 0; c < 3; ++c) right[c] = right[c] + shares[c] * pull;
+  const Eigen::Vector3d pull = unpacked(metric) * toEigen(residual);
+  for (std::size_t b = 0; b < 6; ++b) blocks[b] += shares[kPairs[b][0]] * shares[kPairs[b][1]] * metric;
+  for (Eigen::Index c = 0; c < 3; ++c) right.col(c) += shares[static_cast<std::size_t>(c)] * pull;
 }
 
 DirectionProblem::Block& DirectionProblem::blockOf(std::uint32_t a, std::uint32_t b) {
@@ -57,19 +50,22 @@ DirectionProblem::Block& DirectionProblem::blockOf(std::uint32_t a, std::uint32_
 
 void DirectionProblem::add(const std::array<std::uint32_t, 3>& corners, const Part& part) {
   for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t k = 0; k < 6; ++k) diagonal_[corners[c]][k] += part.blocks[c][k];
-    right_[corners[c]] = right_[corners[c]] + part.right[c];
-    Block& block = blockOf(corners[c], corners[(c + 1) % 3]);
-    for (std::size_t k = 0; k < 6; ++k) block[k] += static_cast<float>(part.blocks[3 + c][k]);
+    diagonal_[corners[c]] += part.blocks[c];
+    right_.col(corners[c]) += part.right.col(static_cast<Eigen::Index>(c));
+    blockOf(corners[c], corners[(c + 1) % 3]) += part.blocks[3 + c].cast<float>();
   }
 }
 
-void DirectionProblem::multiply(std::span<const Symmetric3> diagonal, std::span<const Vec3> x,
-                                std::span<Vec3> y) const {
-  for (std::size_t v = 0; v < x.size(); ++v) y[v] = arete::times(diagonal[v], x[v]);
+void DirectionProblem::multiply(std::span<const Symmetric3> diagonal, const Eigen::Matrix3Xd& x,
+                                Eigen::Matrix3Xd& y) const {
+  for (std::size_t v = 0; v < diagonal.size(); ++v) {
+    const auto column = static_cast<Eigen::Index>(v);
+    y.col(column) = unpacked(diagonal[v]) * x.col(column);
+  }
   const auto across = [&](const Block& block, std::uint32_t a, std::uint32_t b) {
-    y[a] = y[a] + times(block, x[b]);
-    y[b] = y[b] + times(block, x[a]);
+    const Eigen::Matrix3d m = unpacked(block);
+    y.col(a) += m * x.col(b);
+    y.col(b) += m * x.col(a);
   };
   for (std::size_t e = 0; e < rootEdges_.size(); ++e)
     across(ofRootEdge_[e], rootEdges_[e][0], rootEdges_[e][1]);
@@ -81,16 +77,14 @@ void DirectionProblem::multiply(std::span<const Symmetric3> diagonal, std::span<
 }
 
 std::vector<Vec3> DirectionProblem::solve() const {
-  const std::size_t size = right_.size();
-  std::vector<Symmetric3> diagonal = diagonal_, preconditioner(size);
-  for (std::size_t v = 0; v < size; ++v) {
-    Symmetric3& d = diagonal[v];
-    const double trace = d[0] + d[3] + d[5], more = trace > 0 ? kStiffness * trace / 3 : 1;
-    for (const std::size_t k : {0, 3, 5}) d[k] += more;
-    preconditioner[v] = inverse(d);
+  BlockMatrix matrix;
+  matrix.diagonal = diagonal_;
+  for (Symmetric3& d : matrix.diagonal) {
+    const double trace = d[0] + d[3] + d[5];
+    d += (trace > 0 ? kStiffness * trace / 3 : 1) * identity3();
   }
-  return conjugateGradients([&](std::span<const Vec3> x, std::span<Vec3> y) { multiply(diagonal, x, y); },
-                            preconditioner, right_, kAccuracy, kMostSteps);
+  matrix.multiply = [&](const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& y) { multiply(matrix.diagonal, x, y); };
+  return conjugateGradients(matrix, right_, kAccuracy, kMostSteps);
 }
 
 }  // namespace arete

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/symmetric3.h"
 #include "engine/base/vec.h"
 #include "engine/mt/multitriangulation.h"
+#include "surface/algebra/symmetric3.h"
 
 namespace arete {
 
@@ -25,8 +25,10 @@ class DirectionProblem {
 
   /// What the samples of a triangle add: blocks of corners 00, 11, 22, 01, 12, 20, and right sides.
   struct Part {
-    std::array<Symmetric3, 6> blocks{};
-    std::array<Vec3, 3> right{};
+    Part() { blocks.fill(Symmetric3::Zero()); }
+
+    std::array<Symmetric3, 6> blocks;
+    Eigen::Matrix3d right = Eigen::Matrix3d::Zero();  ///< a column for each corner
     void add(const std::array<double, 3>& shares, const Symmetric3& metric, const Vec3& residual);
   };
   void add(const std::array<std::uint32_t, 3>& corners, const Part& part);
@@ -35,15 +37,15 @@ class DirectionProblem {
   std::vector<Vec3> solve() const;
 
  private:
-  using Block = std::array<float, 6>;
+  using Block = Symmetric3Of<float>;
   using RootEdge = std::array<std::uint32_t, 2>;
 
   Block& blockOf(std::uint32_t a, std::uint32_t b);
-  void multiply(std::span<const Symmetric3> diagonal, std::span<const Vec3> x, std::span<Vec3> y) const;
+  void multiply(std::span<const Symmetric3> diagonal, const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& y) const;
 
   const MultiTriangulation& mt_;
   std::vector<Symmetric3> diagonal_;  // by vertex
-  std::vector<Vec3> right_;           // by vertex
+  Eigen::Matrix3Xd right_;            // a column for each vertex
   std::vector<Block> ofSlot_;
   std::vector<RootEdge> rootEdges_;  // sorted, the lower vertex first
   std::vector<Block> ofRootEdge_;

@@ -68,8 +68,8 @@ class Pulls final : public CoarseTriangleVisitor {
       const std::array<double, 3> shares = sharesAt(nearestOnTriangle(sample.place, place), place);
       const Vec3 r = sample.place - (shares[0] * place[0] + shares[1] * place[1] + shares[2] * place[2]);
       const bool isInside = std::min({shares[0], shares[1], shares[2]}) > kOnBoundary;
-      Symmetric3 metric = isInside ? along : kUnit3;
-      for (double& m : metric) m *= life * sample.area * areaUnit_;
+      Symmetric3 metric = isInside ? along : identity3();
+      metric *= life * sample.area * areaUnit_;
       entry.part.add(shares, metric, r / scale);
     }
   }

@@ -13,7 +13,6 @@
 #include <optional>
 
 #include "engine/base/box3.h"
-#include "engine/base/symmetric3.h"
 #include "engine/base/triangle_bvh.h"
 #include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
@@ -35,13 +34,6 @@ constexpr std::uint64_t kSamplesPerTriangle = 40, kSamplesPerFace = 16, kMostFor
 constexpr std::size_t kPerSum = 1024;  // samples
 constexpr double kLeastGain = 0.01;    // of the sum of squares, in a step
 constexpr int kHalvings = 3;
-
-/// The complement of metricAlong().
-Symmetric3 beside(const Vec3& t, double across) {
-  const double a = 1 - across;
-  return {1 - a * t.x * t.x, -a * t.x * t.y, -a * t.x * t.z,
-          1 - a * t.y * t.y, -a * t.y * t.z, 1 - a * t.z * t.z};
-}
 
 class Fitting {
  public:
@@ -190,14 +182,14 @@ class Fitting {
       const auto& [a, b, c] = triangles_[t];
       const Vec3 normal = cross(positions_[b] - positions_[a], positions_[c] - positions_[a]);
       problem.add(t, shares,
-                  isInside && dot(normal, normal) > 0 ? metricAlong(unit(normal), kAcross) : kUnit3,
+                  isInside && dot(normal, normal) > 0 ? metricAlong(unit(normal), kAcross) : identity3(),
                   residual);
     }
     for (const auto& [e, shares, residual] : samples.ofBorder) {
       const Vec3 along = positions_[borders_[e][1]] - positions_[borders_[e][0]];
       const bool isInside = std::min(shares[0], shares[1]) > kOnBoundary && dot(along, along) > 0;
       problem.add(static_cast<std::uint32_t>(triangles_.size()) + e, shares,
-                  isInside ? beside(unit(along), kAcross) : kUnit3, residual);
+                  isInside ? metricAcross(unit(along), kAcross) : identity3(), residual);
     }
     return problem;
   }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface/fit/least_squares.h"
 
-#include <utility>
-
-#include "engine/base/conjugate_gradients.h"
+#include "surface/algebra/conjugate_gradients.h"
 
 namespace arete {
 namespace {
@@ -19,55 +17,48 @@ constexpr double kAccuracy = 1e-6;
 
 MoveProblem::MoveProblem(std::size_t vertices, std::span<const std::array<std::uint32_t, 3>> elements)
     : elements_(elements),
-      blocks_(elements.size(), std::array<Symmetric3, 6>{}),
-      right_(vertices, Vec3{0, 0, 0}) {}
+      blocks_(elements.size()),
+      right_(Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(vertices))) {
+  for (auto& blocks : blocks_) blocks.fill(Symmetric3::Zero());
+}
 
 void MoveProblem::add(std::uint32_t element, const std::array<double, 3>& shares, const Symmetric3& metric,
                       const Vec3& residual) {
-  const Vec3 pull = times(metric, residual);
-  for (std::size_t b = 0; b < 6; ++b) {
-    const double weight = shares[kPairs[b][0]] * shares[kPairs[b][1]];
-    for (std::size_t k = 0; k < 6; ++k) blocks_[element][b][k] += weight * metric[k];
-  }
-  for (std::size_t c = 0; c < 3; ++c) {
-    Vec3& r = right_[elements_[element][c]];
-    r = r + shares[c] * pull;
-  }
+  const Eigen::Vector3d pull = unpacked(metric) * toEigen(residual);
+  for (std::size_t b = 0; b < 6; ++b)
+    blocks_[element][b] += shares[kPairs[b][0]] * shares[kPairs[b][1]] * metric;
+  for (std::size_t c = 0; c < 3; ++c) right_.col(elements_[element][c]) += shares[c] * pull;
   stiffness_ += kStiffness * (metric[0] + metric[3] + metric[5]) / 3;
 }
 
-void MoveProblem::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
-  const double stiffness = stiffness_ / static_cast<double>(right_.size());
-  for (std::size_t v = 0; v < x.size(); ++v) y[v] = stiffness * x[v];
+void MoveProblem::multiply(const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& y) const {
+  y = stiffness() * x;
   for (std::size_t e = 0; e < elements_.size(); ++e)
     for (std::size_t b = 0; b < 6; ++b) {
       const std::uint32_t i = elements_[e][kPairs[b][0]], j = elements_[e][kPairs[b][1]];
-      y[i] = y[i] + times(blocks_[e][b], x[j]);
-      if (kPairs[b][0] != kPairs[b][1]) y[j] = y[j] + times(blocks_[e][b], x[i]);
+      const Eigen::Matrix3d block = unpacked(blocks_[e][b]);
+      y.col(i) += block * x.col(j);
+      if (kPairs[b][0] != kPairs[b][1]) y.col(j) += block * x.col(i);
     }
 }
 
 std::vector<Vec3> MoveProblem::solve(std::span<const std::uint8_t> isHeld) const {
-  const std::size_t count = right_.size();
-  const double stiffness = stiffness_ / static_cast<double>(count);
-  std::vector<Symmetric3> diagonal(count, Symmetric3{stiffness, 0, 0, stiffness, 0, stiffness});
+  BlockMatrix matrix;
+  matrix.diagonal.assign(isHeld.size(), stiffness() * identity3());
   for (std::size_t e = 0; e < elements_.size(); ++e)
     for (std::size_t b = 0; b < 6; ++b)
-      if (kPairs[b][0] == kPairs[b][1])
-        for (std::size_t k = 0; k < 6; ++k) diagonal[elements_[e][kPairs[b][0]]][k] += blocks_[e][b][k];
-  for (Symmetric3& d : diagonal) d = inverse(d);
-  const auto hold = [&](std::span<Vec3> x) {
-    for (std::size_t v = 0; v < count; ++v)
-      if (isHeld[v] != 0) x[v] = {0, 0, 0};
+      if (kPairs[b][0] == kPairs[b][1]) matrix.diagonal[elements_[e][kPairs[b][0]]] += blocks_[e][b];
+  const auto hold = [&](Eigen::Matrix3Xd& x) {
+    for (std::size_t v = 0; v < isHeld.size(); ++v)
+      if (isHeld[v] != 0) x.col(static_cast<Eigen::Index>(v)).setZero();
   };
-  std::vector<Vec3> right = right_;
+  matrix.multiply = [&](const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& y) {
+    multiply(x, y);
+    hold(y);
+  };
+  Eigen::Matrix3Xd right = right_;
   hold(right);
-  return conjugateGradients(
-      [&](std::span<const Vec3> x, std::span<Vec3> y) {
-        multiply(x, y);
-        hold(y);
-      },
-      diagonal, std::move(right), kAccuracy, kMostSteps);
+  return conjugateGradients(matrix, right, kAccuracy, kMostSteps);
 }
 
 }  // namespace arete

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/symmetric3.h"
 #include "engine/base/vec.h"
+#include "surface/algebra/symmetric3.h"
 
 namespace arete {
 
@@ -30,12 +30,13 @@ class MoveProblem {
   std::vector<Vec3> solve(std::span<const std::uint8_t> isHeld) const;
 
  private:
-  void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;
+  void multiply(const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& y) const;
+  double stiffness() const { return stiffness_ / static_cast<double>(right_.cols()); }
 
   std::span<const std::array<std::uint32_t, 3>> elements_;
   std::vector<std::array<Symmetric3, 6>> blocks_;  ///< by element: of corners 00, 01, 02, 11, 12, 22
-  std::vector<Vec3> right_;                        ///< by vertex
-  double stiffness_ = 0;                           ///< of |d|^2
+  Eigen::Matrix3Xd right_;                         ///< a column for each vertex
+  double stiffness_ = 0;                           ///< of |d|^2, summed over the vertices
 };
 
 }  // namespace arete
