@@ -71,8 +71,7 @@ Status translate(GDALDataset& source, const Box2& box, const std::string& output
 }  // namespace
 
 Status fetchPublicDem(const PublicDem& dem, const Box2& degrees, std::string_view mirror,
-                      const std::string& output, std::vector<std::string>& warnings,
-                      const RunContext& context) {
+                      const std::string& output, Warnings& warnings, const RunContext& context) {
   registerGdal();
   // No listing of remote folders: publishers' buckets have thousands of files in one.
   CPLSetConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");
@@ -88,8 +87,9 @@ Status fetchPublicDem(const PublicDem& dem, const Box2& degrees, std::string_vie
       continue;
     }
     if (cause.empty()) cause = errors.firstFailure();
-    warnings.push_back(fmt::format("{}: this tile is left out: {}", path,
-                                   errors.anyFailure() ? errors.firstFailure() : "it cannot be opened"));
+    warnings.push_back({WarningCode::omitted,
+                        fmt::format("{}: this tile is left out: {}", path,
+                                    errors.anyFailure() ? errors.firstFailure() : "it cannot be opened")});
   }
   if (tiles.empty())
     return failure(

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "datasets/catalogue.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 
 namespace arete {
@@ -16,7 +17,6 @@ namespace arete {
 /// Errors: usage (the box), notFound (no tile could be read: no network, or only sea), unreadable (the output
 /// cannot be written), interrupted.
 Status fetchPublicDem(const PublicDem& dem, const Box2& degrees, std::string_view mirror,
-                      const std::string& output, std::vector<std::string>& warnings,
-                      const RunContext& context = {});
+                      const std::string& output, Warnings& warnings, const RunContext& context = {});
 
 }  // namespace arete

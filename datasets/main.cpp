@@ -119,7 +119,7 @@ int fetch(const std::string& name, const std::vector<double>& box, const std::st
     return exitCodeOf(
         {ErrorCode::usage, "this is a whole collection: say which part of it with --bbox", name});
   const Box2 degrees = box.empty() ? *dem->scene : Box2{box[0], box[1], box[2], box[3]};
-  std::vector<std::string> warnings;
+  Warnings warnings;
   const Status fetched = fetchPublicDem(*dem, degrees, mirror, output, warnings, contextOf(quiet));
   for (const std::string& warning : warnings) fmt::print(stderr, "arete-datasets: warning: {}\n", warning);
   if (!fetched) return exitCodeOf(fetched.error());

@@ -266,9 +266,11 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
   result.triangleErrors.clear();
   result.warnings.clear();
   if (outcome->dropsFlatNormals)
-    result.warnings.emplace_back("normals of corners are left out: they are those of flat faces");
+    result.warnings.push_back(
+        {WarningCode::omitted, "normals of corners are left out: they are those of flat faces"});
   for (const std::string& lost : outcome->lost)
-    result.warnings.push_back(fmt::format("{} cannot carry {}: left out", arguments.method, lost));
+    result.warnings.push_back(
+        {WarningCode::omitted, fmt::format("{} cannot carry {}: left out", arguments.method, lost)});
   ARETE_TRY(const ConvertedMesh converted, convertMesh(std::move(result), target.path,
                                                        {.format = arguments.output.format,
                                                         .existing = arguments.existing,

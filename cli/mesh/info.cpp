@@ -187,7 +187,12 @@ Json factsJson(const std::string& path, const MeshInput& input, const Facts& fac
                {"area", facts.area},
                {"volume", facts.volume ? Json(*facts.volume) : Json()}};
   json.update(diagnosisJson(d, input.numbers));
-  json["warnings"] = input.file.warnings;
+  json["warnings"] = Json::array();
+  json["warningCodes"] = Json::array();
+  for (const Warning& warning : input.file.warnings) {
+    json["warnings"].push_back(warning.sentence);
+    json["warningCodes"].push_back(nameOf(warning.code));
+  }
   return json;
 }
 

@@ -76,7 +76,8 @@ void carryErrors(MeshFile& file, const std::vector<std::uint32_t>& triangleOf, b
   if (file.triangleErrors.empty()) return;
   if (hasMoved || std::ranges::find(triangleOf, RepairedMesh::kNone) != triangleOf.end()) {
     file.triangleErrors.clear();
-    file.warnings.emplace_back("the errors of its triangles do not hold for the mended surface: left out");
+    file.warnings.push_back(
+        {WarningCode::omitted, "the errors of its triangles do not hold for the mended surface: left out"});
     return;
   }
   std::vector<float> errors;

@@ -195,8 +195,8 @@ void Session::warn(const std::string& sentence) const {
   tell(fmt::format("arete: warning: {}\n", withoutControls(withoutQueries(withOptionNames(sentence)))));
 }
 
-void Session::warn(const std::vector<std::string>& sentences, const std::string& culprit) const {
-  for (const std::string& sentence : sentences) warn(fmt::format("{}: {}", culprit, sentence));
+void Session::warn(const Warnings& warnings, const std::string& culprit) const {
+  for (const Warning& warning : warnings) warn(fmt::format("{}: {}", culprit, warning.sentence));
 }
 
 ExitCode Session::fail(const Error& failed) {

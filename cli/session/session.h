@@ -10,6 +10,7 @@
 
 #include "cli/session/exit_code.h"
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 
 namespace arete {
@@ -57,7 +58,7 @@ class Session {
   void note(const std::string& sentence) const;
   /// Writes "arete: warning: ..." to stderr, not with --quiet. Fields in backquotes become options.
   void warn(const std::string& sentence) const;
-  void warn(const std::vector<std::string>& sentences, const std::string& culprit) const;
+  void warn(const Warnings& warnings, const std::string& culprit) const;
 
   /// The words of the command line, behind the program's name: among them are the files that --confined
   /// allows.

@@ -209,7 +209,7 @@ Result<PlacedGrid> gridOf(const Question& q, Session& session) {
   if (a.like.empty()) return PlacedGrid{q.model.columns, q.model.rows, q.model.georeference, {}};
   if (!q.isOfOne())
     return failure(ErrorCode::usage, "requires a single observer, and no --mode count or server", "--like");
-  std::vector<std::string> warnings;
+  Warnings warnings;
   auto grid = readPlacedGrid(a.like, q.model, warnings, session.context());
   session.warn(warnings, a.like);
   if (!grid && grid.error().code == ErrorCode::usage) grid.error().culprit = "--like " + a.like;

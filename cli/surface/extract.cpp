@@ -217,8 +217,9 @@ class Extraction {
     ARETE_CHECK(dropNamed(front.mesh, arguments_.dropAttributes));
     ARETE_TRY(const MeshWriteReport written,
               writeMesh(front.mesh, request.output, options, session_.context()));
-    std::vector<std::string> warnings;
-    for (const std::string& lost : written.lost) warnings.push_back(fmt::format("cannot hold {}", lost));
+    Warnings warnings;
+    for (const std::string& lost : written.lost)
+      warnings.push_back({WarningCode::omitted, fmt::format("cannot hold {}", lost)});
     session_.warn(warnings, request.output);
     if (!request.map.empty()) {
       std::vector<std::uint32_t> faces = facesOf(model_, whole);

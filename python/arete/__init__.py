@@ -13,5 +13,6 @@ from ._cuts import Camera, SurfaceCamera, Tin
 from ._files import open
 from ._model import Model, Profile, Sight, build
 from ._surface import Surface, build_surface
+from ._warning import AreteWarning
 
-__all__ = ["Camera", "Model", "Profile", "Sight", "Surface", "SurfaceCamera", "Tin", "build", "build_surface", "open"]
+__all__ = ["AreteWarning", "Camera", "Model", "Profile", "Sight", "Surface", "SurfaceCamera", "Tin", "build", "build_surface", "open"]

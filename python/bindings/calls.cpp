@@ -42,10 +42,13 @@ void raise(const Error& error) {
   throw py::error_already_set();
 }
 
-void warn(std::span<const std::string> warnings) {
-  for (const std::string& warning : warnings)
-    if (PyErr_WarnEx(PyExc_UserWarning, withoutQueries(warning).c_str(), 2) != 0)
-      throw py::error_already_set();
+void warn(const Warnings& warnings) {
+  if (warnings.empty()) return;
+  const py::object category = py::module_::import("arete._warning").attr("AreteWarning");
+  const py::object warnPython = py::module_::import("warnings").attr("warn");
+  using namespace py::literals;
+  for (const Warning& warning : warnings)
+    warnPython(category(withoutQueries(warning.sentence), nameOf(warning.code)), "stacklevel"_a = 2);
 }
 
 Error inPython(Error error) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 
 namespace arete::python {
@@ -18,8 +19,9 @@ namespace arete::python {
 /// KeyboardInterrupt, and RuntimeError for data that is damaged, invalid or not supported.
 [[noreturn]] void raise(const Error& error);
 
-/// Raises each as a UserWarning of the caller. Errors: what Python makes of it where warnings are errors.
-void warn(std::span<const std::string> warnings);
+/// Raises each as an AreteWarning of the caller, with its code. Errors: what Python makes of it where
+/// warnings are errors.
+void warn(const Warnings& warnings);
 
 /// An error whose culprit is a field of ours, named as the argument that it comes from: maxTriangles as
 /// max_triangles.

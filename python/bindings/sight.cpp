@@ -173,9 +173,10 @@ py::array_t<std::uint8_t> viewshed(const Terrain& terrain, const std::array<doub
     return maker.from({end.first, end.second}, options, context);
   });
   if (seen.withoutLine > 0)
-    warn(std::array{fmt::format("{} passes a pole or a seam of the CRS",
-                                counted(seen.withoutLine, "sample is unknown: the shortest way to it",
-                                        "samples are unknown: the shortest way to them"))});
+    warn({{WarningCode::omitted,
+           fmt::format("{} passes a pole or a seam of the CRS",
+                       counted(seen.withoutLine, "sample is unknown: the shortest way to it",
+                               "samples are unknown: the shortest way to them"))}});
   // Of the source's columns: a first one that is repeated is left out.
   const std::uint32_t columns = sourceColumns(terrain.model());
   py::array_t<std::uint8_t> cells(

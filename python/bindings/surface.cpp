@@ -86,9 +86,10 @@ void sayWhatRoundingLeft(const SurfaceModel& model, const SurfaceCutRequest& req
   if (left == 0) return;
   tin.isComplete = false;
   tin.warnings.push_back(
-      fmt::format("the tolerance is not kept everywhere: rounding (position_bits) has moved vertices of the "
-                  "source by up to {:.6g}, and with it no error is below {:.6g}",
-                  model.positionError, left));
+      {WarningCode::bound,
+       fmt::format("the tolerance is not kept everywhere: rounding (position_bits) has moved vertices of the "
+                   "source by up to {:.6g}, and with it no error is below {:.6g}",
+                   model.positionError, left)});
 }
 
 Result<Tin> takeSurfaceTin(const SurfaceModel& model, const SurfaceCutRequest& request,

@@ -67,13 +67,6 @@ Result<TerrainModel> buildFrom(DemRead dem, const std::string& source, const Bui
       dem.heightfield);
 }
 
-/// Whether a warning is about the position of a raster without one: arrays have no position, so it is left
-/// out.
-bool isOfPlace(const std::string& warning) {
-  return warning.find("has no georeference") != std::string::npos ||
-         warning.find("look like degrees") != std::string::npos;
-}
-
 /// The error of a build from an array, whose file in memory the caller never saw.
 Error ofArray(Error error, const std::string& path) {
   if (error.culprit == path) error.culprit = "array";
@@ -85,7 +78,7 @@ Error ofArray(Error error, const std::string& path) {
 /// @param hasPlace false: warnings about its position are left out
 TerrainPtr buildFile(const std::string& path, const BuildRequest& request, const std::string& source,
                      bool hasPlace, const py::object& progress) {
-  std::vector<std::string> warnings;
+  Warnings warnings;
   TerrainModel model = call(progress, [&](const RunContext& context) -> Result<TerrainModel> {
     // Its vertices alone are another thing.
     if (const Result<MeshFormat> format = meshFormatOf(path);
@@ -99,8 +92,10 @@ TerrainPtr buildFile(const std::string& path, const BuildRequest& request, const
     return built;
   });
   if (!source.empty())
-    for (std::string& warning : warnings) warning = ofArray({ErrorCode::internal, warning, {}}, path).message;
-  if (!hasPlace) std::erase_if(warnings, isOfPlace);
+    for (Warning& warning : warnings)
+      warning.sentence = ofArray({ErrorCode::internal, warning.sentence, {}}, path).message;
+  // An array without a transform has no position, and its caller knows it.
+  if (!hasPlace) std::erase_if(warnings, [](const Warning& w) { return w.code == WarningCode::position; });
   warn(warnings);
   return std::make_shared<Terrain>(std::move(model));
 }
@@ -143,8 +138,7 @@ Result<Camera> cameraOf(const CameraNumbers& n, const Terrain& terrain) {
                 .heightPixels = n.heightOfPicture};
 }
 
-Result<Region> planRegionOf(const AskedRegion& asked, const TerrainModel& model,
-                            std::vector<std::string>& warnings) {
+Result<Region> planRegionOf(const AskedRegion& asked, const TerrainModel& model, Warnings& warnings) {
   StatedRegion stated;
   if (const Box* box = std::get_if<Box>(&asked)) {
     stated.box = *box;
@@ -177,7 +171,7 @@ struct CutRequest {
 };
 
 Tin takeTinOf(const Terrain& terrain, const CutRequest& request, const py::object& progress) {
-  std::vector<std::string> warnings;
+  Warnings warnings;
   Tin taken = call(progress, [&](const RunContext& context) -> Result<Tin> {
     const TerrainModel& model = terrain.model();
     ExtractCriterion criterion;
@@ -207,7 +201,7 @@ Tin takeTinOf(const Terrain& terrain, const CutRequest& request, const py::objec
                said.pixels,
                model.georeference.crsWkt};
   });
-  for (std::string& warning : warnings) warning.insert(0, "region: ");
+  for (Warning& warning : warnings) warning = warning.behind("region: ");
   warn(warnings);
   return taken;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/vec.h"
+#include "engine/base/warning.h"
 
 namespace arete::python {
 
@@ -22,7 +23,7 @@ struct Tin {
   bool isComplete = true;
   std::optional<double> pixels;  ///< of a camera: the worst error in its picture
   std::string crsWkt;
-  std::vector<std::string> warnings = {};
+  Warnings warnings = {};
 };
 
 void defineTin(pybind11::module_& module);

@@ -29,11 +29,11 @@ constexpr std::array kMembers = {"crs",      "heightUnitMetres", "speed",       
 constexpr std::array kFrameMembers = {"x", "y", "height", "azimuth", "pitch", "fov", "comment"};
 
 template <class Names>
-void warnOfStrangers(const json& object, const Names& known, const std::string& where,
-                     std::vector<std::string>& warnings) {
+void warnOfStrangers(const json& object, const Names& known, const std::string& where, Warnings& warnings) {
   for (const auto& member : object.items())
     if (std::ranges::find(known, member.key()) == known.end())
-      warnings.push_back(fmt::format("{}knows no \"{}\"; it is passed over", where, member.key()));
+      warnings.push_back(
+          {WarningCode::omitted, fmt::format("{}knows no \"{}\"; it is passed over", where, member.key())});
 }
 
 /// Takes numbers out of an object; keeps the first sentence of what is wrong.
@@ -74,12 +74,12 @@ class Numbers {
 };
 
 /// Nothing where the CRS of the file fits the DEM's.
-std::optional<std::string> findCrsProblem(const json& object, const Georeference& dem,
-                                          std::vector<std::string>& warnings) {
+std::optional<std::string> findCrsProblem(const json& object, const Georeference& dem, Warnings& warnings) {
   const auto member = object.find("crs");
   if (member == object.end() || (member->is_string() && member->get<std::string>().empty())) {
     if (!dem.crsWkt.empty())
-      warnings.push_back("says no CRS; its coordinates are taken for those of the DEM");
+      warnings.push_back(
+          {WarningCode::position, "says no CRS; its coordinates are taken for those of the DEM"});
     return std::nullopt;
   }
   if (!member->is_string()) return "its crs is not a text";

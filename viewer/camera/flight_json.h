@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "terrain/model/georeference.h"
 #include "viewer/camera/flight.h"
@@ -16,7 +17,7 @@ namespace arete {
 /// A flight as it was read.
 struct FlightRead {
   FlightPlan plan;
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 /// Reads a flight in the format of docs/topics/flights.md for a DEM. Heights in another unit are brought into

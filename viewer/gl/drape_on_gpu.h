@@ -8,6 +8,7 @@
 
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "io/geo/drape/reader.h"
 #include "viewer/gl/gl_objects.h"
@@ -38,7 +39,7 @@ class DrapeOnGpu {
   Vec2 scale() const { return scale_; }
   Vec2 shift() const { return shift_; }
   /// Differences from the file as sentences: read coarser, bands chosen.
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const Warnings& warnings() const { return warnings_; }
 
   /// The texture and the uniforms of shaders/terrain.frag.glsl, for an eye over a plan position and so many
   /// units of metric space a unit of the plan.
@@ -57,7 +58,7 @@ class DrapeOnGpu {
   std::uint32_t columns_ = 0, rows_ = 0, side_ = 0, layers_ = 0;
   std::vector<Level> grid_;
   Vec2 scale_, shift_;
-  std::vector<std::string> warnings_;
+  Warnings warnings_;
 };
 
 }  // namespace arete

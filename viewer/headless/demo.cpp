@@ -350,7 +350,7 @@ class Demo {
     options.settings.look.hazeKilometres = box.diagonal() / 1000;
     Result<HeadlessView> view = HeadlessView::create(model_, options, quiet());
     if (!view) {
-      report_.warnings.push_back("no view.png: " + view.error().describe());
+      report_.warnings.push_back({WarningCode::display, "no view.png: " + view.error().describe()});
       return {};
     }
     ARETE_CHECK(view->draw(camera));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "terrain/model/build_options.h"
 #include "terrain/model/error_curve.h"
@@ -46,10 +47,10 @@ struct DemoReport {
   std::uint64_t isolated = 0;
   double buildSeconds = 0;
   double totalSeconds = 0;
-  std::vector<DemoResult> results;    ///< by rising tolerance
-  std::vector<CurvePoint> curve;      ///< triangles over the whole range of tolerances
-  std::vector<std::string> files;     ///< in the order in which they were written
-  std::vector<std::string> warnings;  ///< of reading the DEM
+  std::vector<DemoResult> results;  ///< by rising tolerance
+  std::vector<CurvePoint> curve;    ///< triangles over the whole range of tolerances
+  std::vector<std::string> files;   ///< in the order in which they were written
+  Warnings warnings;                ///< of reading the DEM
 };
 
 /// All of Arete on one DEM: reads it, builds, writes the .amt, takes minimal cuts at several tolerances,

@@ -36,7 +36,7 @@ struct HeadlessView::State {
   FrameTarget target;
   TerrainView view;
   HeadlessOptions options;
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 Result<HeadlessView> HeadlessView::create(const TerrainModel& model, const HeadlessOptions& options,
@@ -49,7 +49,8 @@ Result<HeadlessView> HeadlessView::create(const TerrainModel& model, const Headl
   ARETE_TRY(TerrainView view, TerrainView::create(model, viewOptions, context));
   auto state = std::make_unique<State>(State{std::move(gl), std::move(target), std::move(view), options, {}});
   if (options.settings.path == CutPath::device && !state->view.deviceRefusal().empty()) {
-    state->warnings.push_back("the processor takes the cuts: " + state->view.deviceRefusal());
+    state->warnings.push_back(
+        {WarningCode::display, "the processor takes the cuts: " + state->view.deviceRefusal()});
     state->options.settings.path = CutPath::processor;
   }
   return HeadlessView(std::move(state));
@@ -115,7 +116,7 @@ TerrainView& HeadlessView::view() {
 const std::string& HeadlessView::description() const {
   return state_->context.description();
 }
-const std::vector<std::string>& HeadlessView::warnings() const {
+const Warnings& HeadlessView::warnings() const {
   return state_->warnings;
 }
 

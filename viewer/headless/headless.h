@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "terrain/model/camera.h"
 #include "viewer/camera/flight.h"
@@ -44,7 +45,7 @@ class HeadlessView {
   /// The renderer's name and the version of OpenGL.
   const std::string& description() const;
   /// Settings that the device does not support, as sentences.
-  const std::vector<std::string>& warnings() const;
+  const Warnings& warnings() const;
 
  private:
   struct State;

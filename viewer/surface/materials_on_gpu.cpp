@@ -65,8 +65,9 @@ MaterialsOnGpu MaterialsOnGpu::load(const SurfaceModel& model) {
     const Result<PicturePixels> pixels = bytes ? decodePicture(bytes->bytes, std::uint32_t(mostSide))
                                                : Result<PicturePixels>(tl::unexpected(bytes.error()));
     if (!pixels) {
-      gpu.warnings_.push_back(fmt::format("the picture {} is not shown: {}",
-                                          bytes ? bytes->name : use.picture, pixels.error().message));
+      gpu.warnings_.push_back(
+          {WarningCode::display, fmt::format("the picture {} is not shown: {}",
+                                             bytes ? bytes->name : use.picture, pixels.error().message)});
       return 0;
     }
     name = gpu.textures_.emplace_back(textureOf(*pixels));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/warning.h"
 #include "surface/model/surface_model.h"
 #include "viewer/gl/gl_objects.h"
 
@@ -30,12 +31,12 @@ class MaterialsOnGpu {
 
   /// One for each material, and one more for triangles without any.
   const std::vector<DrawnMaterial>& materials() const { return materials_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const Warnings& warnings() const { return warnings_; }
 
  private:
   std::vector<DrawnMaterial> materials_;
   std::vector<GlTexture> textures_;
-  std::vector<std::string> warnings_;
+  Warnings warnings_;
 };
 
 }  // namespace arete

@@ -144,7 +144,7 @@ bool SurfaceView::showsSurface() const {
   return any != 0;
 }
 
-const std::vector<std::string>& SurfaceView::warnings() const {
+const Warnings& SurfaceView::warnings() const {
   return state_->materials.warnings();
 }
 const Upright& SurfaceView::upright() const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "surface/model/surface_model.h"
 #include "terrain/model/camera.h"
@@ -49,7 +50,7 @@ class SurfaceView {
   bool showsSurface() const;
 
   /// Pictures that are not shown, as sentences.
-  const std::vector<std::string>& warnings() const;
+  const Warnings& warnings() const;
   const Upright& upright() const;
   const UprightShape& shape() const;
 

@@ -164,9 +164,11 @@ class TwoDmReader final : public MeshTextReader {
       return unsupported("holds more nodes than an index can name");
     takeMaterials();
     if (elementsWithMore_ > 0)
-      mesh().warnings.push_back(fmt::format(
-          "{} of its {} {} values that are no number of a material; these are left out", elementsWithMore_,
-          counted(faces().size(), "element", "elements"), agreeing(elementsWithMore_, "has", "have")));
+      mesh().warnings.push_back(
+          {WarningCode::omitted,
+           fmt::format("{} of its {} {} values that are no number of a material; these are left out",
+                       elementsWithMore_, counted(faces().size(), "element", "elements"),
+                       agreeing(elementsWithMore_, "has", "have"))});
     warnOfLeftOut("cards");
     return areInOrder_ ? indexDirectly() : indexBySortedNumbers();
   }

@@ -25,7 +25,7 @@ namespace arete {
 namespace {
 
 /// Replaces the CRS of the mesh by the stated one.
-Status stateCrs(MeshFile& mesh, const std::string& text, std::vector<std::string>& warnings) {
+Status stateCrs(MeshFile& mesh, const std::string& text, Warnings& warnings) {
   if (text.empty()) return {};
   registerGdal();
   ARETE_TRY(const auto crs, crsFromUser(text));
@@ -35,8 +35,9 @@ Status stateCrs(MeshFile& mesh, const std::string& text, std::vector<std::string
     return ok;
   }
   if (compareCrs(mesh.crsWkt, described.crsWkt) == CrsAgreement::different)
-    warnings.push_back(fmt::format("the CRS of the file, {}, is replaced by the one stated, {}",
-                                   crsName(mesh.crsWkt), crsName(described.crsWkt)));
+    warnings.push_back(
+        {WarningCode::position, fmt::format("the CRS of the file, {}, is replaced by the one stated, {}",
+                                            crsName(mesh.crsWkt), crsName(described.crsWkt))});
   mesh.crsWkt = described.crsWkt;
   mesh.up = MeshUp::z;
   if (mesh.verticalUnit.empty()) mesh.verticalUnit = described.verticalUnit;
@@ -85,7 +86,7 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   ARETE_CHECK(stateCrs(mesh, options.crs, converted.warnings));
   if (!format.holds.isYUp)
     for (std::string& sentence : applyTextureTransforms(mesh.mesh, !format.holds.holdsTextureTransforms))
-      converted.warnings.push_back(std::move(sentence));
+      converted.warnings.push_back({WarningCode::omitted, std::move(sentence)});
   converted.triangles = mesh.mesh.triangles.size();
   converted.vertices = mesh.mesh.positions.size();
   converted.joinedVertices = mesh.joinedVertices;
@@ -127,10 +128,12 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   lose(isNamed, isRounded,
        fmt::format("coordinates finer than {:.2g}, {:.2g}, {:.2g} (x, y, height)", r.x, r.y, r.z));
   if (const Vec3& off = mesh.frame.rounding; format.holds.isExact && !wasExact && isTerrain)
-    converted.warnings.push_back(fmt::format(
-        "its coordinates are rounded, by up to {:.2g}, {:.2g}, {:.2g} (x, y, height), which {} cannot "
-        "record: arete measure takes them as exact and may find samples in no triangle",
-        off.x, off.y, off.z, format.name));
+    converted.warnings.push_back(
+        {WarningCode::completed,
+         fmt::format(
+             "its coordinates are rounded, by up to {:.2g}, {:.2g}, {:.2g} (x, y, height), which {} cannot "
+             "record: arete measure takes them as exact and may find samples in no triangle",
+             off.x, off.y, off.z, format.name)});
   converted.crsWkt = std::move(mesh.crsWkt);
   converted.verticalUnit = std::move(mesh.verticalUnit);
   return converted;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "io/formats/exchange/axes.h"
 #include "io/formats/exchange/mesh_formats.h"
@@ -33,7 +34,7 @@ struct ConvertedMesh {
   std::uint64_t triangles = 0, vertices = 0;       ///< of the mesh
   std::uint64_t joinedVertices = 0;                ///< MeshFile::joinedVertices
   std::vector<std::uint32_t> triangleOf;           ///< trianglesOfFile()
-  std::vector<std::string> warnings;
+  Warnings warnings;
   /// Of a PLY with doubles of a source with floats, which so takes twice the bytes for its coordinates: how
   /// far floats would have moved one; otherwise 0.
   double movedByFloats = 0;

@@ -85,8 +85,9 @@ void nameInUtf8(MeshFile& file) {
   SurfaceMesh& mesh = file.mesh;
   for (auto* const attributes : {&mesh.vertexAttributes, &mesh.wedgeAttributes, &mesh.triangleAttributes})
     for (Attribute& attribute : *attributes) change(attribute.name);
-  for (auto* const names : {&mesh.objects, &mesh.groups, &file.warnings})
+  for (auto* const names : {&mesh.objects, &mesh.groups})
     for (std::string& name : *names) change(name);
+  for (Warning& warning : file.warnings) change(warning.sentence);
   for (Material& material : mesh.materials) {
     change(material.name);
     change(material.alphaMode);

@@ -75,10 +75,11 @@ class GpkgReader {
     if (!hasErrors) result_.triangleErrors.clear();
     result_.mesh.positions = welder_.take();
     if (crossing_ > 0)
-      result_.warnings.push_back(fmt::format("{} are a guess (the first is feature {})",
-                                             counted(crossing_, "polygon crosses itself, so its triangles",
-                                                     "polygons cross themselves, so their triangles"),
-                                             firstCrossing_));
+      result_.warnings.push_back(
+          {WarningCode::geometry, fmt::format("{} are a guess (the first is feature {})",
+                                              counted(crossing_, "polygon crosses itself, so its triangles",
+                                                      "polygons cross themselves, so their triangles"),
+                                              firstCrossing_)});
     return std::move(result_);
   }
 

@@ -201,10 +201,12 @@ Status MeshFaces::triangulate(MeshFile& file, const RunContext& context) {
   rewriter.finish();
   fans_.clear();
   if (crossing > 0)
-    file.warnings.push_back(fmt::format(
-        "{} of its {} {} an outline that crosses itself, so that triangles are a guess (the "
-        "first is face {})",
-        crossing, counted(faces_, "face", "faces"), agreeing(crossing, "has", "have"), firstCrossing));
+    file.warnings.push_back(
+        {WarningCode::geometry,
+         fmt::format("{} of its {} {} an outline that crosses itself, so that triangles are a guess (the "
+                     "first is face {})",
+                     crossing, counted(faces_, "face", "faces"), agreeing(crossing, "has", "have"),
+                     firstCrossing)});
   return {};
 }
 

@@ -11,6 +11,7 @@
 
 #include "engine/base/result.h"
 #include "engine/base/triangle_mesh.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "io/files/existing_file.h"
 #include "surface/model/surface_mesh.h"
@@ -47,7 +48,7 @@ struct MeshFile {
   /// By vertex: its number in the file, from 0, where vertices were joined; empty: its own.
   std::vector<std::uint32_t> vertexOf;
   /// What was left out or guessed, each a sentence about the file.
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 /// What to write besides the mesh. A value is left out if the format has no field for it.

@@ -58,9 +58,10 @@ void leaveOutUnusedNumbers(MeshFile& file) {
     for (std::uint32_t& v : triangle) v = numberOf[v];
   file.vertexOf = std::move(vertexOf);
   file.warnings.push_back(
-      fmt::format("{} left out",
-                  counted(count - kept.size(), "vertex without a face has a coordinate that is not finite:",
-                          "vertices without a face have coordinates that are not finite:")));
+      {WarningCode::omitted,
+       fmt::format("{} left out",
+                   counted(count - kept.size(), "vertex without a face has a coordinate that is not finite:",
+                           "vertices without a face have coordinates that are not finite:"))});
 }
 
 }  // namespace arete

@@ -156,7 +156,8 @@ Result<std::string> PicturePlacer::place(const std::string& picture) {
   if (const auto known = placed_.find(picture); known != placed_.end()) return known->second;
   const bool isEmbedded = picture.starts_with('#');
   const auto leave = [&](std::string_view reason) {
-    warnings_.push_back(fmt::format("the picture {}, which {}", text::quotedToken(picture), reason));
+    warnings_.push_back(
+        {WarningCode::omitted, fmt::format("the picture {}, which {}", text::quotedToken(picture), reason)});
     return placed_[picture] = isEmbedded ? std::string() : picture;
   };
   const Result<PictureBytes> bytes = source_.read(picture);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "io/formats/mesh/file.h"
 #include "io/formats/mesh/files_beside.h"
 
@@ -55,7 +56,7 @@ class PicturePlacer {
 
   const std::vector<std::filesystem::path>& files() const { return files_; }  ///< that were written or used
   /// Each a noun, as in MeshWriteReport::lost.
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const Warnings& warnings() const { return warnings_; }
 
  private:
   Result<std::string> write(const PictureBytes& picture);
@@ -65,7 +66,7 @@ class PicturePlacer {
   std::map<std::string, std::string> placed_;
   std::set<std::string> taken_;  // in lower case: some file systems tell no case apart
   std::vector<std::filesystem::path> files_;
-  std::vector<std::string> warnings_;
+  Warnings warnings_;
 };
 
 }  // namespace arete

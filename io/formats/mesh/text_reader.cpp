@@ -74,7 +74,7 @@ void MeshTextReader::warnOfLeftOut(std::string_view lines) {
   for (const auto& [keyword, count] : leftOut_)
     list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", text::quotedToken(keyword), count);
   if (leftOutOthers_ > 0) list += fmt::format(" and {} more", leftOutOthers_);
-  mesh_.warnings.push_back(fmt::format("its {} {} are left out", lines, list));
+  mesh_.warnings.push_back({WarningCode::omitted, fmt::format("its {} {} are left out", lines, list)});
 }
 
 tl::unexpected<Error> MeshTextReader::corrupt(const char* place, std::string_view what) const {

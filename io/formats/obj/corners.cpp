@@ -70,15 +70,19 @@ struct Named {
   }
   bool isAny() const { return std::ranges::find(isNamed, true) != isNamed.end(); }
 
-  void warn(std::vector<std::string>& warnings) const {
+  void warn(Warnings& warnings) const {
     const auto unnamed = std::ranges::count(isNamed, false);
     if (unnamed > 0)
       warnings.push_back(
-          fmt::format("{} of its {} {} belong to no corner and are left out", unnamed, isNamed.size(), what));
+          {WarningCode::omitted, fmt::format("{} of its {} {} belong to no corner and are left out", unnamed,
+                                             isNamed.size(), what)});
     if (beyond > 0)
-      warnings.push_back(fmt::format("corners name {} that are not there; they count as without any", what));
+      warnings.push_back(
+          {WarningCode::completed,
+           fmt::format("corners name {} that are not there; they count as without any", what)});
     if (isAny() && missing + beyond > 0)
-      warnings.push_back(fmt::format("some corners have {} and some have none; those get zeros", what));
+      warnings.push_back({WarningCode::completed,
+                          fmt::format("some corners have {} and some have none; those get zeros", what)});
   }
 };
 

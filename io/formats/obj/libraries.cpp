@@ -27,22 +27,24 @@ constexpr std::size_t kMostWarnings = 8;
 constexpr std::size_t kMostMaterialsOfAll = 1 << 20;
 
 /// Adds a warning unless there are many of its kind.
-class Warnings {
+class LibraryWarnings {
  public:
-  explicit Warnings(std::vector<std::string>& to) : to_(to) {}
-  ~Warnings() {
+  explicit LibraryWarnings(Warnings& to) : to_(to) {}
+  ~LibraryWarnings() {
     if (count_ > kMostWarnings)
-      to_.push_back(counted(count_ - kMostWarnings, "more library of materials is missing or odd",
-                            "more libraries of materials are missing or odd"));
+      to_.push_back({WarningCode::omitted,
+                     counted(count_ - kMostWarnings, "more library of materials is missing or odd",
+                             "more libraries of materials are missing or odd")});
   }
-  Warnings(const Warnings&) = delete;
-  Warnings& operator=(const Warnings&) = delete;
-  void add(std::string text) {
-    if (count_++ < kMostWarnings) to_.push_back(std::move(text));
+  LibraryWarnings(const LibraryWarnings&) = delete;
+  LibraryWarnings& operator=(const LibraryWarnings&) = delete;
+  void add(Warning warning) {
+    if (count_++ < kMostWarnings) to_.push_back(std::move(warning));
   }
+  void addOmitted(std::string sentence) { add({WarningCode::omitted, std::move(sentence)}); }
 
  private:
-  std::vector<std::string>& to_;
+  Warnings& to_;
   std::size_t count_ = 0;
 };
 
@@ -137,11 +139,11 @@ std::uint32_t ObjMaterials::use(std::string_view name) {
 
 Status ObjMaterials::finish(MeshFile& file, const std::filesystem::path& folder, const RunContext& context) {
   std::vector<Material>& materials = file.mesh.materials;
-  Warnings warnings(file.warnings);
-  if (libraries_.size() > kMostLibraries) warnings.add("it names too many libraries of materials");
+  LibraryWarnings warnings(file.warnings);
+  if (libraries_.size() > kMostLibraries) warnings.addOmitted("it names too many libraries of materials");
   if (tooMany_ > 0)
-    warnings.add(fmt::format("it names more than {} materials; a further one is left out {}",
-                             kMostMaterialsOfAll, counted(tooMany_, "time", "times")));
+    warnings.addOmitted(fmt::format("it names more than {} materials; a further one is left out {}",
+                                    kMostMaterialsOfAll, counted(tooMany_, "time", "times")));
   const FilesBeside files(folder);
   std::set<std::string> isRead;
   std::map<std::string, std::uint32_t> known;
@@ -149,18 +151,18 @@ Status ObjMaterials::finish(MeshFile& file, const std::filesystem::path& folder,
     if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was interrupted");
     const FoundFiles found = filesOf(line, files);
     for (const std::string& missing : found.missing)
-      warnings.add(fmt::format("its materials are in {}", missing));
+      warnings.addOmitted(fmt::format("its materials are in {}", missing));
     for (const std::string& path : found.paths) {
       if (!isRead.insert(path).second) continue;
       const Result<FileBytes> bytes = FileBytes::readText(folder / path);
       if (!bytes) {
-        warnings.add(fmt::format("its materials are in {}, which {}", text::quotedToken(path),
-                                 text::printable(bytes.error().message, 200)));
+        warnings.addOmitted(fmt::format("its materials are in {}, which {}", text::quotedToken(path),
+                                        text::printable(bytes.error().message, 200)));
         continue;
       }
       MtlMaterials library = readMtl(bytes->view());
-      for (const std::string& warning : library.warnings)
-        warnings.add(fmt::format("of {}: {}", text::quotedToken(path), warning));
+      for (const Warning& warning : library.warnings)
+        warnings.add(warning.behind(fmt::format("of {}: ", text::quotedToken(path))));
       for (Material& material : library.materials) {
         // The library that is named first is searched first.
         if (!known.emplace(material.name, static_cast<std::uint32_t>(materials.size())).second) continue;
@@ -180,9 +182,9 @@ Status ObjMaterials::finish(MeshFile& file, const std::filesystem::path& folder,
     numberOfUse.push_back(at->second);
   }
   if (unknown > 0 && !isRead.empty())
-    warnings.add(fmt::format("{} of its materials {} in no library (the first is {})", unknown,
-                             agreeing(unknown, "is", "are"),
-                             text::quotedToken(materials[materials.size() - unknown].name)));
+    warnings.addOmitted(fmt::format("{} of its materials {} in no library (the first is {})", unknown,
+                                    agreeing(unknown, "is", "are"),
+                                    text::quotedToken(materials[materials.size() - unknown].name)));
   for (std::uint32_t& material : file.mesh.materialOf)
     if (material != MeshAttributes::kNone) material = numberOfUse[material];
   return {};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "surface/model/surface_mesh.h"
 
 namespace arete {
@@ -21,8 +22,8 @@ namespace arete {
 /// its keyword ("map_Bump"). Options of a texture are kept as Material::verbatim["mtl:<role>"], all other
 /// statements, line by line, as verbatim["mtl"].
 struct MtlMaterials {
-  std::vector<Material> materials;    ///< in their order; of several of one name the first
-  std::vector<std::string> warnings;  ///< each a sentence about the file
+  std::vector<Material> materials;  ///< in their order; of several of one name the first
+  Warnings warnings;                ///< each a sentence about the file
 };
 
 /// Reads the text of an MTL. A texture that a material states twice is the later one, as most programs have

@@ -124,19 +124,23 @@ class MtlReader {
     }
     endMaterial();
     if (strays_ > 0)
-      result_.warnings.push_back(counted(strays_, "statement before its first material is left out",
-                                         "statements before its first material are left out"));
+      result_.warnings.push_back(
+          {WarningCode::omitted, counted(strays_, "statement before its first material is left out",
+                                         "statements before its first material are left out")});
     if (doubles_ > 0)
-      result_.warnings.push_back(fmt::format("{} of its materials {} left out (the first is {})", doubles_,
+      result_.warnings.push_back(
+          {WarningCode::omitted, fmt::format("{} of its materials {} left out (the first is {})", doubles_,
                                              agreeing(doubles_, "has a name that an earlier one has, and is",
                                                       "have a name that an earlier one has, and are"),
-                                             text::quotedToken(firstDouble_)));
+                                             text::quotedToken(firstDouble_))});
     if (tooMany_ > 0)
-      result_.warnings.push_back(fmt::format("{} of its materials, beyond the first {}, {} left out",
-                                             tooMany_, kMostMaterials, agreeing(tooMany_, "is", "are")));
+      result_.warnings.push_back(
+          {WarningCode::omitted, fmt::format("{} of its materials, beyond the first {}, {} left out",
+                                             tooMany_, kMostMaterials, agreeing(tooMany_, "is", "are"))});
     if (replaced_ > 0)
-      result_.warnings.push_back(fmt::format("{} stated twice for one material; the later one stays",
-                                             counted(replaced_, "texture is", "textures are")));
+      result_.warnings.push_back(
+          {WarningCode::completed, fmt::format("{} stated twice for one material; the later one stays",
+                                               counted(replaced_, "texture is", "textures are"))});
     return std::move(result_);
   }
 

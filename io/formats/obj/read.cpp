@@ -315,17 +315,19 @@ class ObjReader final : public MeshTextReader {
   }
 
   void warn() {
-    std::vector<std::string>& warnings = mesh().warnings;
+    Warnings& warnings = mesh().warnings;
     if (shortFaces_ > 0)
-      warnings.push_back(fmt::format(
-          "{} of its {} {} fewer than three corners and {} left out (the "
-          "first is face {})",
-          shortFaces_, counted(faces().size(), "face", "faces"), agreeing(shortFaces_, "has", "have"),
-          agreeing(shortFaces_, "is", "are"), firstShortFace_));
+      warnings.push_back(
+          {WarningCode::omitted, fmt::format("{} of its {} {} fewer than three corners and {} left out (the "
+                                             "first is face {})",
+                                             shortFaces_, counted(faces().size(), "face", "faces"),
+                                             agreeing(shortFaces_, "has", "have"),
+                                             agreeing(shortFaces_, "is", "are"), firstShortFace_)});
     if (notFinite_ > 0)
-      warnings.push_back(counted(notFinite_,
-                                 "number of texture coordinates and normals is not finite and counts as 0",
-                                 "numbers of texture coordinates and normals are not finite and count as 0"));
+      warnings.push_back(
+          {WarningCode::completed,
+           counted(notFinite_, "number of texture coordinates and normals is not finite and counts as 0",
+                   "numbers of texture coordinates and normals are not finite and count as 0")});
     warnOfLeftOut("statements");
   }
 

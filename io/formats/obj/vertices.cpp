@@ -79,17 +79,19 @@ void ObjVertexExtras::add(std::size_t vertex, std::span<const double> numbers) {
 void ObjVertexExtras::finish(MeshFile& file) const {
   const auto left = [&](std::uint64_t count, const char* what) {
     if (count > 0)
-      file.warnings.push_back(fmt::format("{} of {} left out", what,
-                                          count == 1 ? std::string("one of its vertices are")
-                                                     : fmt::format("{} of its vertices are", count)));
+      file.warnings.push_back(
+          {WarningCode::omitted, fmt::format("{} of {} left out", what,
+                                             count == 1 ? std::string("one of its vertices are")
+                                                        : fmt::format("{} of its vertices are", count))});
   };
   left(weights_, "the weights");
   left(odd_, "numbers behind the coordinates");
   if (colored_ == 0) return;
   const std::size_t vertices = file.mesh.positions.size();
   if (colored_ < vertices)
-    file.warnings.push_back(fmt::format("{} of its {} vertices {} a colour; the others are white", colored_,
-                                        vertices, agreeing(colored_, "has", "have")));
+    file.warnings.push_back(
+        {WarningCode::completed, fmt::format("{} of its {} vertices {} a colour; the others are white",
+                                             colored_, vertices, agreeing(colored_, "has", "have"))});
   const std::uint8_t components = hasAlpha_ ? 4 : 3;
   std::vector<double> numbers;
   numbers.reserve(components * vertices);

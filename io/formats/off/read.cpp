@@ -261,8 +261,9 @@ class OffReader final : public MeshTextReader {
     if (mesh().mesh.triangles.empty() && !unusable_.empty())
       return corrupt(unusable_.begin()->second, "has a coordinate that is not finite");
     if (smallFaces_ > 0)
-      mesh().warnings.push_back(counted(smallFaces_, "face of fewer than three corners is left out",
-                                        "faces of fewer than three corners are left out"));
+      mesh().warnings.push_back(
+          {WarningCode::omitted, counted(smallFaces_, "face of fewer than three corners is left out",
+                                         "faces of fewer than three corners are left out")});
     if (!isOurs() && mesh().mesh.triangles.empty())
       return unsupported("holds no face of three or more corners");
     if (behind_) behind_->finish(mesh().mesh, isOurs(), withoutAlpha_, mesh().warnings);
@@ -273,17 +274,20 @@ class OffReader final : public MeshTextReader {
   /// Listed by face (io/formats/mesh/faces.h).
   void takeColors() {
     if (indexedFaces_ > 0)
-      mesh().warnings.push_back(counted(indexedFaces_,
-                                        "face has the index of a colour in a map, which is left out",
-                                        "faces have the index of a colour in a map, which is left out"));
+      mesh().warnings.push_back(
+          {WarningCode::omitted,
+           counted(indexedFaces_, "face has the index of a colour in a map, which is left out",
+                   "faces have the index of a colour in a map, which is left out")});
     if (oddFaces_ > 0)
       mesh().warnings.push_back(
-          counted(oddFaces_, "face has values behind its corners that are no colour; these are left out",
-                  "faces have values behind their corners that are no colour; these are left out"));
+          {WarningCode::omitted,
+           counted(oddFaces_, "face has values behind its corners that are no colour; these are left out",
+                   "faces have values behind their corners that are no colour; these are left out")});
     if (colors_.isEmpty()) return;
     if (const std::size_t missing = colors_.missing(facesRead_); missing > 0)
-      mesh().warnings.push_back(counted(missing, "face has no colour, others have; it is white",
-                                        "faces have no colour, others have; they are white"));
+      mesh().warnings.push_back(
+          {WarningCode::completed, counted(missing, "face has no colour, others have; it is white",
+                                           "faces have no colour, others have; they are white")});
     mesh().mesh.triangleAttributes.push_back(colors_.attribute(facesRead_, isOurs()));
   }
 

@@ -132,7 +132,7 @@ class BinaryOffReader {
 
   Result<MeshFile> finish(std::uint32_t faces) {
     const auto warn = [&](std::uint64_t count, const char* one, const char* many) {
-      if (count > 0) result_.warnings.push_back(counted(count, one, many));
+      if (count > 0) result_.warnings.push_back({WarningCode::omitted, counted(count, one, many)});
     };
     warn(small_, "face of fewer than three corners is left out",
          "faces of fewer than three corners are left out");

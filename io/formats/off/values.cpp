@@ -109,19 +109,20 @@ void OffVertices::takeMeshLabOrder() {
   });
 }
 
-void OffVertices::finish(SurfaceMesh& mesh, bool isExact, bool withoutAlpha,
-                         std::vector<std::string>& warnings) {
+void OffVertices::finish(SurfaceMesh& mesh, bool isExact, bool withoutAlpha, Warnings& warnings) {
   if (keyword_.values() > 0 && misfits_ == vertices_) {
     if (vertices_ > 0)
-      warnings.push_back("its vertices do not have the values that its keyword states; these are left out");
+      warnings.push_back({WarningCode::omitted,
+                          "its vertices do not have the values that its keyword states; these are left out"});
     return;
   }
   if (keyword_.namesNormalsFirst && keyword_.hasColors && misfits_ == 0 && areMeshLabs_ && !areGeomviews_)
     takeMeshLabOrder();
   if (misfits_ > 0)
     warnings.push_back(
-        fmt::format("{} not have the values that its keyword states; these are 0, and colours are white",
-                    counted(misfits_, "vertex does", "vertices do")));
+        {WarningCode::completed,
+         fmt::format("{} not have the values that its keyword states; these are 0, and colours are white",
+                     counted(misfits_, "vertex does", "vertices do"))});
   if (keyword_.hasNormals)
     mesh.vertexAttributes.push_back(
         attributeOfTextNumbers(std::string(kNormalName), AttributeMeaning::normal, 3, normals_));
@@ -142,10 +143,11 @@ void OffVertices::finish(SurfaceMesh& mesh, bool isExact, bool withoutAlpha,
   if (surplus_ == 0) return;
   if (!unannounced_.isEmpty() && unannounced_.missing(vertices_) == 0) {
     mesh.vertexAttributes.push_back(unannounced_.attribute(vertices_, false));
-    warnings.push_back("its vertices have colours that its keyword does not state");
+    warnings.push_back({WarningCode::completed, "its vertices have colours that its keyword does not state"});
   } else {
-    warnings.push_back(fmt::format("{} values that its keyword does not state; these are left out",
-                                   counted(surplus_, "vertex has", "vertices have")));
+    warnings.push_back(
+        {WarningCode::omitted, fmt::format("{} values that its keyword does not state; these are left out",
+                                           counted(surplus_, "vertex has", "vertices have"))});
   }
 }
 

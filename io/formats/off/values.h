@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/warning.h"
 #include "io/formats/off/keyword.h"
 #include "surface/model/surface_mesh.h"
 
@@ -61,7 +62,7 @@ class OffVertices {
   /// are colors if all vertices have them.
   ///
   /// @param isExact the file is Arete's own. @param withoutAlpha it has the comment kOffWithoutAlpha.
-  void finish(SurfaceMesh& mesh, bool isExact, bool withoutAlpha, std::vector<std::string>& warnings);
+  void finish(SurfaceMesh& mesh, bool isExact, bool withoutAlpha, Warnings& warnings);
 
  private:
   void takeMeshLabOrder();

@@ -74,18 +74,20 @@ void PlyCorners::take(List& list, std::size_t corners, std::uint64_t face) {
   attribute.values.insert(attribute.values.end(), list.values.begin(), list.values.end());
 }
 
-void PlyCorners::join(SurfaceMesh& mesh, std::vector<std::string>& warnings) {
+void PlyCorners::join(SurfaceMesh& mesh, Warnings& warnings) {
   for (const List& list : lists_) {
     const std::string name = text::quotedToken(list.attribute.name);
     if (list.isDropped || (list.attribute.components == 0 && list.hadValues))
       warnings.push_back(
-          fmt::format("of its faces the lists {} have other lengths than their corners; they are "
-                      "left out",
-                      name));
+          {WarningCode::omitted,
+           fmt::format("of its faces the lists {} have other lengths than their corners; they are "
+                       "left out",
+                       name)});
     else if (list.misfits > 0 && list.attribute.components > 0)
       warnings.push_back(
-          fmt::format("{} no list {} that fits the corners, which are 0 there (the first is face {})",
-                      counted(list.misfits, "face has", "faces have"), name, list.firstMisfit));
+          {WarningCode::completed,
+           fmt::format("{} no list {} that fits the corners, which are 0 there (the first is face {})",
+                       counted(list.misfits, "face has", "faces have"), name, list.firstMisfit)});
   }
   std::erase_if(lists_, [](const List& l) { return l.isDropped || l.attribute.components == 0; });
   if (lists_.empty()) {

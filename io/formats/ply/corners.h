@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "surface/model/surface_mesh.h"
 
 namespace arete {
@@ -33,7 +34,7 @@ class PlyCorners {
 
   /// Replaces the corners in mesh.wedges by wedges, in the order of their first corners. Lists that fit no
   /// face are left out, named in `warnings` with those of the wrong length. O(corners) expected.
-  void join(SurfaceMesh& mesh, std::vector<std::string>& warnings);
+  void join(SurfaceMesh& mesh, Warnings& warnings);
 
  private:
   struct List {

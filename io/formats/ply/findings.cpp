@@ -24,36 +24,45 @@ std::string listOf(const std::vector<std::string>& names) {
 
 }  // namespace
 
-void PlyFindings::warn(std::vector<std::string>& warnings) const {
+void PlyFindings::warn(Warnings& warnings) const {
   if (linesWithMore > 0)
     warnings.push_back(
-        fmt::format("{} more values than the header states; these are left out (the first is line {})",
-                    counted(linesWithMore, "line has", "lines have"), firstLineWithMore));
+        {WarningCode::omitted,
+         fmt::format("{} more values than the header states; these are left out (the first is line {})",
+                     counted(linesWithMore, "line has", "lines have"), firstLineWithMore)});
   if (scalarMisfits > 0)
-    warnings.push_back(counted(
-        scalarMisfits, "number does not fit the type that the header states; the nearest that does is taken",
-        "numbers do not fit the types that the header states; the nearest that do are taken"));
+    warnings.push_back(
+        {WarningCode::completed,
+         counted(scalarMisfits,
+                 "number does not fit the type that the header states; the nearest that does is taken",
+                 "numbers do not fit the types that the header states; the nearest that do are taken")});
   if (smallFaces > 0)
-    warnings.push_back(counted(smallFaces, "face of fewer than three corners is left out",
-                               "faces of fewer than three corners are left out"));
+    warnings.push_back(
+        {WarningCode::omitted, counted(smallFaces, "face of fewer than three corners is left out",
+                                       "faces of fewer than three corners are left out")});
   std::vector<std::string> names;
   for (const auto& [name, count] : elementsLeftOut)
     names.push_back(fmt::format("{} ({})", text::quotedToken(name), count));
-  if (!names.empty()) warnings.push_back(fmt::format("its elements {} are left out", listOf(names)));
+  if (!names.empty())
+    warnings.push_back({WarningCode::omitted, fmt::format("its elements {} are left out", listOf(names))});
   names.clear();
   for (const std::string& name : varyingLists) names.push_back(text::quotedToken(name));
   if (!names.empty())
-    warnings.push_back(fmt::format("its lists {}, whose lengths differ, are left out", listOf(names)));
+    warnings.push_back({WarningCode::omitted,
+                        fmt::format("its lists {}, whose lengths differ, are left out", listOf(names))});
   if (surplusProperties > 0)
-    warnings.push_back(counted(surplusProperties,
-                               "property of vertices and faces is left out, since there are too many",
-                               "properties of vertices and faces are left out, since there are too many"));
+    warnings.push_back(
+        {WarningCode::omitted,
+         counted(surplusProperties, "property of vertices and faces is left out, since there are too many",
+                 "properties of vertices and faces are left out, since there are too many")});
   if (facesLoseProperties)
-    warnings.push_back("its faces lose their properties, since there are triangle strips as well");
+    warnings.push_back(
+        {WarningCode::omitted, "its faces lose their properties, since there are triangle strips as well"});
   if (badTextureNumbers > 0)
     warnings.push_back(
-        counted(badTextureNumbers, "face has a texnumber without a comment TextureFile; it has no material",
-                "faces have a texnumber without a comment TextureFile; they have no material"));
+        {WarningCode::omitted,
+         counted(badTextureNumbers, "face has a texnumber without a comment TextureFile; it has no material",
+                 "faces have a texnumber without a comment TextureFile; they have no material")});
 }
 
 }  // namespace arete

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/warning.h"
+
 namespace arete {
 
 /// What a PLY has that is left out or guessed when it is read.
@@ -22,7 +24,7 @@ struct PlyFindings {
   std::uint64_t badTextureNumbers = 0;
 
   /// Adds a sentence for each kind.
-  void warn(std::vector<std::string>& warnings) const;
+  void warn(Warnings& warnings) const;
 };
 
 }  // namespace arete

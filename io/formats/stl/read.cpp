@@ -63,9 +63,9 @@ Result<MeshFile> readStl(const std::filesystem::path& path, const RunContext& co
   if (count > 0 && spare % kStlRecordSize != 0) {
     Result<MeshFile> mesh = readBinaryStl(file.substr(0, binarySize(count)), count, path.string(), context);
     if (mesh)
-      mesh->warnings.push_back(fmt::format("{} left out behind its {}",
-                                           counted(spare, "byte is", "bytes are"),
-                                           counted(count, "triangle", "triangles")));
+      mesh->warnings.push_back({WarningCode::omitted, fmt::format("{} left out behind its {}",
+                                                                  counted(spare, "byte is", "bytes are"),
+                                                                  counted(count, "triangle", "triangles"))});
     return mesh;
   }
   if (file.size() < kStlPreambleSize)

@@ -159,14 +159,15 @@ Result<OGRSpatialReference> crsFromUser(const std::string& text) {
 }
 
 Result<OGRSpatialReference> chooseCrs(const OGRSpatialReference* own, const std::string& text,
-                                      std::vector<std::string>& warnings) {
+                                      Warnings& warnings) {
   OGRSpatialReference chosen;
   if (isKnownCrs(own)) chosen = *own;
   if (!text.empty()) {
     ARETE_TRY(auto stated, crsFromUser(text));
     if (isKnownCrs(own) && !own->IsSame(&stated))
-      warnings.push_back(fmt::format("the CRS of the file, {}, is replaced by the one stated, {}",
-                                     nameOf(*own), nameOf(stated)));
+      warnings.push_back(
+          {WarningCode::position, fmt::format("the CRS of the file, {}, is replaced by the one stated, {}",
+                                              nameOf(*own), nameOf(stated))});
     chosen = std::move(stated);
   }
   chosen.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);

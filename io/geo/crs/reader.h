@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "terrain/model/georeference.h"
 
 namespace arete {
@@ -39,7 +40,7 @@ std::string wktOf(const OGRSpatialReference& crs);
 /// @param text Stated by a person; empty: none.
 /// @return An empty CRS if there is no CRS. Errors: those of crsFromUser().
 Result<OGRSpatialReference> chooseCrs(const OGRSpatialReference* own, const std::string& text,
-                                      std::vector<std::string>& warnings);
+                                      Warnings& warnings);
 
 /// Fills the CRS part of a georeference: WKT 2, kind, units, ellipsoid and, from a compound or
 /// three-dimensional CRS, the vertical unit and datum. An empty CRS changes nothing.

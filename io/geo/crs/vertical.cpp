@@ -19,8 +19,7 @@ std::string attributeOf(const OGRSpatialReference& crs, const char* name) {
   return value ? value : "";
 }
 
-void warnOfUnknownUnit(const OGRSpatialReference& crs, const Georeference& georeference,
-                       std::vector<std::string>& warnings) {
+void warnOfUnknownUnit(const OGRSpatialReference& crs, const Georeference& georeference, Warnings& warnings) {
   if (crs.IsEmpty() || georeference.isGeographic || std::abs(georeference.linearUnitMetres - 1) < 1e-9)
     return;
   OGRSpatialReference horizontal = crs;
@@ -28,25 +27,28 @@ void warnOfUnknownUnit(const OGRSpatialReference& crs, const Georeference& geore
   const char* unit = nullptr;
   horizontal.GetLinearUnits(&unit);
   warnings.push_back(
-      fmt::format("its CRS counts in {} ({:.6g} m) and nothing states the unit of its heights: they are "
-                  "taken as metres where "
-                  "metres are needed; `verticalUnit` states theirs",
-                  unit && *unit ? unit : "a unit without a name", georeference.linearUnitMetres));
+      {WarningCode::unit,
+       fmt::format("its CRS counts in {} ({:.6g} m) and nothing states the unit of its heights: they are "
+                   "taken as metres where "
+                   "metres are needed; `verticalUnit` states theirs",
+                   unit && *unit ? unit : "a unit without a name", georeference.linearUnitMetres)});
 }
 
 /// The unit of the source takes precedence over that of the CRS, which describeCrs() has set.
-void takeUnit(const std::string& unit, Georeference& georeference, std::vector<std::string>& warnings) {
+void takeUnit(const std::string& unit, Georeference& georeference, Warnings& warnings) {
   if (unit.empty()) return;
   const bool crsSays = !georeference.verticalUnit.empty();
   const auto metres = metresPerUnit(unit);
   if (!metres) {
-    warnings.push_back(fmt::format(
-        "the unit of height '{}' is not known; {}", unit,
-        crsSays ? "that of the CRS is used" : "heights are taken as metres where metres are needed"));
+    warnings.push_back(
+        {WarningCode::unit, fmt::format("the unit of height '{}' is not known; {}", unit,
+                                        crsSays ? "that of the CRS is used"
+                                                : "heights are taken as metres where metres are needed")});
     if (crsSays) return;
   } else if (crsSays && std::abs(*metres - georeference.verticalUnitMetres) > 1e-9) {
-    warnings.push_back(fmt::format("the band's unit of height is '{}', the CRS's '{}'; the band's is used",
-                                   unit, georeference.verticalUnit));
+    warnings.push_back({WarningCode::unit,
+                        fmt::format("the band's unit of height is '{}', the CRS's '{}'; the band's is used",
+                                    unit, georeference.verticalUnit)});
   }
   georeference.verticalUnit = unit;
   georeference.verticalUnitMetres = metres.value_or(1);
@@ -65,7 +67,7 @@ bool pointsDown(const OGRSpatialReference& crs) {
 
 Result<bool> describeVertical(const OGRSpatialReference& crs, const VerticalSigns& signs,
                               const VerticalOptions& options, Georeference& georeference,
-                              std::vector<std::string>& warnings) {
+                              Warnings& warnings) {
   std::optional<double> statedMetres;
   if (!options.unit.empty()) {
     statedMetres = metresPerUnit(options.unit);
@@ -92,13 +94,17 @@ Result<bool> describeVertical(const OGRSpatialReference& crs, const VerticalSign
                                : "";
   const bool isDepth = options.isDepth.value_or(!reason.empty() && !signs.isUp);
   if (!options.isDepth && isDepth)
-    warnings.push_back(fmt::format(
-        "{}: depths are negated, so that heights count upwards; `isDepth` up takes them as they are",
-        reason));
+    warnings.push_back(
+        {WarningCode::unit,
+         fmt::format(
+             "{}: depths are negated, so that heights count upwards; `isDepth` up takes them as they are",
+             reason)});
   else if (!options.isDepth && !reason.empty())
-    warnings.push_back(fmt::format(
-        "{}, but its format demands heights: they are taken as they are; `isDepth` down negates them",
-        reason));
+    warnings.push_back(
+        {WarningCode::unit,
+         fmt::format(
+             "{}, but its format demands heights: they are taken as they are; `isDepth` down negates them",
+             reason)});
 
   takeUnit(signs.unit, georeference, warnings);
   if (georeference.verticalDatum.empty()) georeference.verticalDatum = signs.datum;
@@ -106,8 +112,9 @@ Result<bool> describeVertical(const OGRSpatialReference& crs, const VerticalSign
     if (!georeference.verticalUnit.empty() &&
         std::abs(*statedMetres - georeference.verticalUnitMetres) > 1e-9)
       warnings.push_back(
-          fmt::format("the unit of height of the file, '{}', is replaced by the one stated, '{}'",
-                      georeference.verticalUnit, options.unit));
+          {WarningCode::unit,
+           fmt::format("the unit of height of the file, '{}', is replaced by the one stated, '{}'",
+                       georeference.verticalUnit, options.unit)});
     georeference.verticalUnit = options.unit;
     georeference.verticalUnitMetres = *statedMetres;
   }

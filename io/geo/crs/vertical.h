@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "terrain/model/georeference.h"
 
 namespace arete {
@@ -38,7 +39,6 @@ bool pointsDown(const OGRSpatialReference& crs);
 ///
 /// @return Whether the values are depths. Errors: those of describeCrs(). usage: an unknown unit is stated.
 Result<bool> describeVertical(const OGRSpatialReference& crs, const VerticalSigns& signs,
-                              const VerticalOptions& options, Georeference& georeference,
-                              std::vector<std::string>& warnings);
+                              const VerticalOptions& options, Georeference& georeference, Warnings& warnings);
 
 }  // namespace arete

@@ -235,17 +235,19 @@ Status BandReader::read(int firstRow, int rowCount, std::span<double> heights) {
   return {};
 }
 
-void BandReader::report(std::vector<std::string>& warnings) const {
-  if (!saidBefore_.empty()) warnings.push_back("GDAL: " + saidBefore_);
+void BandReader::report(Warnings& warnings) const {
+  if (!saidBefore_.empty()) warnings.push_back({WarningCode::library, "GDAL: " + saidBefore_});
   if (absent_ > 0)
-    warnings.push_back(counted(absent_, "sample lies in a block that the file leaves out: it is NODATA",
-                               "samples lie in blocks that the file leaves out: they are NODATA"));
+    warnings.push_back({WarningCode::heights,
+                        counted(absent_, "sample lies in a block that the file leaves out: it is NODATA",
+                                "samples lie in blocks that the file leaves out: they are NODATA")});
   if (infinite_ > 0)
-    warnings.push_back(
-        counted(infinite_, "infinite height is taken as NODATA", "infinite heights are taken as NODATA"));
+    warnings.push_back({WarningCode::heights, counted(infinite_, "infinite height is taken as NODATA",
+                                                      "infinite heights are taken as NODATA")});
   if (huge_ > 0)
-    warnings.push_back(fmt::format("{} as large as {}: an undeclared NODATA value? `nodata` states it",
-                                   counted(huge_, "height is", "heights are"), hugeExample_));
+    warnings.push_back({WarningCode::heights,
+                        fmt::format("{} as large as {}: an undeclared NODATA value? `nodata` states it",
+                                    counted(huge_, "height is", "heights are"), hugeExample_)});
 }
 
 }  // namespace arete

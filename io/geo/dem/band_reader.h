@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 
 namespace arete {
 
@@ -35,7 +36,7 @@ class BandReader {
 
   /// Warnings about the rows read so far: infinite and huge heights, and samples in blocks that the file
   /// leaves out.
-  void report(std::vector<std::string>& warnings) const;
+  void report(Warnings& warnings) const;
 
  private:
   /// Decides whether a raw value means NODATA.

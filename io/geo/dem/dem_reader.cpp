@@ -54,7 +54,7 @@ bool isPointCloud(const std::string& path) {
 
 /// True if GDAL reads the file as a raster, with what GDAL says meanwhile: some of its messages come once in
 /// a process. Otherwise sets `opensAsVector`.
-bool isRaster(const std::string& path, bool& opensAsVector, std::vector<std::string>& said) {
+bool isRaster(const std::string& path, bool& opensAsVector, Warnings& said) {
   GdalErrors errors;
   GDALDriverH driver = GDALIdentifyDriverEx(networkPathOf(path).c_str(), GDAL_OF_RASTER, nullptr, nullptr);
   const bool identified = driver && !isTextDriver(driver);
@@ -116,8 +116,9 @@ Result<DemRead> readAsPoints(const std::string& path, bool text, const SourceRea
   if (text) {
     if (auto raster = asRaster(read.heightfield)) {
       read.warnings.push_back(
-          fmt::format("the points fill a grid of {} columns and {} rows: read as a raster", raster->columns,
-                      raster->rows));
+          {WarningCode::choice,
+           fmt::format("the points fill a grid of {} columns and {} rows: read as a raster", raster->columns,
+                       raster->rows)});
       return DemRead{std::move(*raster), std::move(read.warnings)};
     }
   }
@@ -137,8 +138,8 @@ Result<DemRead> readZipped(const std::string& archive, const SourceReading& read
   return readAsRaster(archive, reading, context);
 }
 
-void addOnce(std::vector<std::string>& warnings, const std::vector<std::string>& more) {
-  for (const std::string& warning : more)
+void addOnce(Warnings& warnings, const Warnings& more) {
+  for (const Warning& warning : more)
     if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
 }
 
@@ -152,14 +153,14 @@ Result<DemRead> readSeveral(const std::string& path, const std::vector<std::stri
   for (const auto& [name, value] : {std::pair{"layer", &reading.layer}, std::pair{"zField", &reading.zField}})
     if (!value->empty())
       return failure(ErrorCode::usage, "is for points, and several files are read as one raster", name);
-  std::vector<std::string> said;
+  Warnings said;
   for (const std::string& file : files) {
     if (isPlainZip(file)) continue;
     GdalErrors errors;
     bool opensAsVector = false;
-    std::vector<std::string> own;
+    Warnings own;
     if (isRaster(file, opensAsVector, own)) {
-      for (const std::string& line : own) said.push_back(fmt::format("{}: {}", fileNameOf(file), line));
+      for (const Warning& warning : own) said.push_back(warning.behind(fileNameOf(file) + ": "));
       continue;
     }
     if (opensAsVector || looksLikePointText(file))
@@ -195,7 +196,7 @@ Result<DemRead> readFrom(const std::string& given, const SourceReading& reading,
           path);
   if (isPlainZip(path)) return readZipped(path, reading, context);
   bool opensAsVector = false;
-  std::vector<std::string> said;
+  Warnings said;
   if (isRaster(path, opensAsVector, said)) {
     auto read = readAsRaster(path, reading, context);
     if (read) addOnce(read->warnings, said);
@@ -309,10 +310,10 @@ Result<DemRead> readDem(const std::string& path, const SourceReading& reading,
     std::visit([&](auto& field) { field.source = nameWithoutQuery(path); }, read->heightfield);
   if (auto* raster = std::get_if<RasterHeightfield>(&read->heightfield)) repeatFirstColumn(*raster);
   if (auto warning = std::visit([](const auto& field) { return crsWarning(field); }, read->heightfield))
-    read->warnings.push_back(std::move(*warning));
+    read->warnings.push_back({WarningCode::position, std::move(*warning)});
   if (auto warning =
           std::visit([](const auto& field) { return loneHeightsWarning(field); }, read->heightfield))
-    read->warnings.push_back(std::move(*warning));
+    read->warnings.push_back({WarningCode::heights, std::move(*warning)});
   std::visit([](auto& field) { stateMapScale(field.georeference, middleOf(extentOf(field))); },
              read->heightfield);
   return read;

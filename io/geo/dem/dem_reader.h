@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "io/geo/dem/point_reader.h"
 #include "io/geo/dem/raster_reader.h"
@@ -19,7 +20,7 @@ using DemHeightfield = std::variant<RasterHeightfield, PointHeightfield>;
 
 struct DemRead {
   DemHeightfield heightfield;
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 /// Reads elevation data of any kind: a raster as readRaster() does, or scattered points as readPoints() does.

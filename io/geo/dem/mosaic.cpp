@@ -35,7 +35,7 @@ struct Part {
   double rawScale = 1, rawOffset = 0;
   std::uint32_t stripRows = 1;
   std::optional<RasterFile> file;  ///< while it is open
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 tl::unexpected<Error> differs(const Part& part, const std::string& sentence) {
@@ -166,20 +166,19 @@ struct DemMosaic::Parts {
   Georeference georeference;
   double rawScale = 1, rawOffset = 0;
   std::vector<double> strip;
-  std::vector<std::string> leftOut;  ///< a warning of each part that was
+  Warnings leftOut;  ///< a warning of each part that was
   // Where parts differ: how many samples, by how much at most, and the last two files.
   std::size_t different = 0;
   double largestDifference = 0;
   std::string differentFiles;
 
-  Result<RasterFile> openPart(Part& part, std::vector<std::string>& warnings,
-                              const RunContext& context) const {
+  Result<RasterFile> openPart(Part& part, Warnings& warnings, const RunContext& context) const {
     return RasterFile::open(part.path, options, warnings, context);
   }
 
   /// Whether no sample of a part is valid. O(samples) then.
   Result<bool> isEmpty(const Part& part, const RunContext& context) const {
-    std::vector<std::string> ignored;
+    Warnings ignored;
     ARETE_TRY(auto file, RasterFile::open(part.path, options, ignored, context));
     std::vector<double> heights;
     for (std::uint32_t row = 0; row < file.rows(); row += file.stripRows()) {
@@ -195,7 +194,9 @@ struct DemMosaic::Parts {
 
   /// Leaves a part out, which has no valid sample.
   void leaveOut(std::size_t i) {
-    leftOut.push_back(nameOf(parts[i]) + ": has no valid sample and does not fit the others: it is left out");
+    leftOut.push_back(
+        {WarningCode::omitted,
+         nameOf(parts[i]) + ": has no valid sample and does not fit the others: it is left out"});
     parts.erase(parts.begin() + std::ptrdiff_t(i));
   }
 
@@ -240,7 +241,7 @@ struct DemMosaic::Parts {
     }
     ARETE_CHECK(fit(context));
     if (Part& only = parts.front(); parts.size() == 1 && !only.file) {
-      std::vector<std::string> repeated;
+      Warnings repeated;
       ARETE_TRY(auto file, openPart(only, repeated, context));
       only.file = std::move(file);
     }
@@ -355,7 +356,7 @@ Status DemMosaic::read(std::uint32_t firstRow, std::uint32_t rowCount, std::span
     if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
     const std::int64_t begin = std::max(first, part.row), end = std::min(stop, part.row + part.rows);
     if (begin < end) {
-      std::vector<std::string> repeated;  // the warnings of the first opening suffice
+      Warnings repeated;  // the warnings of the first opening suffice
       if (!part.file) {
         ARETE_TRY(auto file, all.openPart(part, repeated, context));
         if (file.columns() != part.columns || file.rows() != part.rows)
@@ -379,21 +380,22 @@ Status DemMosaic::read(std::uint32_t firstRow, std::uint32_t rowCount, std::span
   return {};
 }
 
-void DemMosaic::report(std::vector<std::string>& warnings) const {
+void DemMosaic::report(Warnings& warnings) const {
   const bool isOne = parts_->parts.size() == 1 && parts_->leftOut.empty();
   for (const Part& part : parts_->parts) {
-    std::vector<std::string> own = part.warnings;
+    Warnings own = part.warnings;
     if (part.file) part.file->report(own);
-    for (const std::string& warning : own)
-      warnings.push_back(isOne ? warning : nameOf(part) + ": " + warning);
+    for (const Warning& warning : own)
+      warnings.push_back(isOne ? warning : warning.behind(nameOf(part) + ": "));
   }
   warnings.insert(warnings.end(), parts_->leftOut.begin(), parts_->leftOut.end());
   if (parts_->different > 0)
     warnings.push_back(
-        fmt::format("{} different heights in several files, by up to {:.6g}: those of the file named "
-                    "later count (the first of them: {})",
-                    counted(parts_->different, "sample has", "samples have"), parts_->largestDifference,
-                    parts_->differentFiles));
+        {WarningCode::heights,
+         fmt::format("{} different heights in several files, by up to {:.6g}: those of the file named "
+                     "later count (the first of them: {})",
+                     counted(parts_->different, "sample has", "samples have"), parts_->largestDifference,
+                     parts_->differentFiles)});
 }
 
 }  // namespace arete

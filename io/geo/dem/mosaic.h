@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "io/geo/dem/raster_reader.h"
 #include "terrain/model/georeference.h"
@@ -49,7 +50,7 @@ class DemMosaic {
               const RunContext& context);
 
   /// Warnings about the files and about what was read.
-  void report(std::vector<std::string>& warnings) const;
+  void report(Warnings& warnings) const;
 
  private:
   struct Parts;

@@ -12,8 +12,8 @@
 
 namespace arete {
 
-Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& model,
-                                  std::vector<std::string>& warnings, const RunContext& context) {
+Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& model, Warnings& warnings,
+                                  const RunContext& context) {
   // Any band has the grid. Without a stated band readRaster() refuses colour images.
   RasterReadOptions options;
   options.band = 1;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "terrain/model/terrain_model.h"
 
@@ -23,7 +24,7 @@ struct PlacedGrid {
 ///
 /// Errors: those of readRaster() for its first band, and of CrsTransform. invalidData: only one of the two
 /// has a CRS. usage: no sample is within the borders of the model. O(samples).
-Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& model,
-                                  std::vector<std::string>& warnings, const RunContext& context = {});
+Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& model, Warnings& warnings,
+                                  const RunContext& context = {});
 
 }  // namespace arete

@@ -125,7 +125,7 @@ Result<int> findZField(OGRLayer& layer, const std::string& name) {
 }
 
 Result<PointRows> readLayer(GDALDataset& dataset, OGRLayer& layer, const PointReadOptions& options,
-                            std::vector<std::string>& warnings, const RunContext& context) {
+                            Warnings& warnings, const RunContext& context) {
   ARETE_TRY(auto zField, findZField(layer, options.zField));
   GdalErrors errors;
   FeatureCollector collector(layer, zField);
@@ -133,12 +133,13 @@ Result<PointRows> readLayer(GDALDataset& dataset, OGRLayer& layer, const PointRe
                           [&](OGRFeature& feature) { return collector.add(feature); }));
   errors.moveTo(warnings);
   if (collector.skipped > 0)
-    warnings.push_back(counted(collector.skipped, "feature without a position or a height is left out",
-                               "features without a position or a height are left out"));
+    warnings.push_back({WarningCode::omitted,
+                        counted(collector.skipped, "feature without a position or a height is left out",
+                                "features without a position or a height are left out")});
   return std::move(collector.rows);
 }
 
-void dropNodata(PointRows& rows, double nodata, std::vector<std::string>& warnings) {
+void dropNodata(PointRows& rows, double nodata, Warnings& warnings) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < rows.heights.size(); ++i) {
     if (rows.heights[i] == nodata) continue;
@@ -147,9 +148,9 @@ void dropNodata(PointRows& rows, double nodata, std::vector<std::string>& warnin
     rows.origins[kept++] = rows.origins[i];
   }
   if (const std::size_t dropped = rows.heights.size() - kept; dropped > 0)
-    warnings.push_back(fmt::format("{} of the height {} {} left out as NODATA",
-                                   counted(dropped, "point", "points"), nodata,
-                                   agreeing(dropped, "is", "are")));
+    warnings.push_back({WarningCode::omitted, fmt::format("{} of the height {} {} left out as NODATA",
+                                                          counted(dropped, "point", "points"), nodata,
+                                                          agreeing(dropped, "is", "are"))});
   rows.positions.resize(kept);
   rows.heights.resize(kept);
   rows.origins.resize(kept);
@@ -181,8 +182,7 @@ class PlaceHeight {
 /// Keeps the first of each set of equal points, and one point of each set at one place, with the height by
 /// the rule. Without a rule equal positions with different heights are an error, which names the first such
 /// pair in the file.
-Status mergeEqual(PointRows& rows, SamePlace rule, std::string_view originName,
-                  std::vector<std::string>& warnings) {
+Status mergeEqual(PointRows& rows, SamePlace rule, std::string_view originName, Warnings& warnings) {
   const std::size_t count = rows.heights.size();
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
@@ -222,13 +222,15 @@ Status mergeEqual(PointRows& rows, SamePlace rule, std::string_view originName,
                                p[a].x, p[a].y, rows.heights[a], originName, rows.origins[a], rows.heights[b],
                                originName, rows.origins[b]));
   if (merged > 0)
-    warnings.push_back(counted(merged, "point repeats another one exactly and is left out",
-                               "points repeat another one exactly and are left out"));
+    warnings.push_back(
+        {WarningCode::omitted, counted(merged, "point repeats another one exactly and is left out",
+                                       "points repeat another one exactly and are left out")});
   if (joined > 0)
     warnings.push_back(
-        fmt::format("{} several heights, up to {:.6g} from the first; each gets one, {}, and {} left out",
-                    counted(places, "place has", "places have"), widest, samePlaceClause(rule),
-                    counted(joined, "point is", "points are")));
+        {WarningCode::omitted,
+         fmt::format("{} several heights, up to {:.6g} from the first; each gets one, {}, and {} left out",
+                     counted(places, "place has", "places have"), widest, samePlaceClause(rule),
+                     counted(joined, "point is", "points are"))});
   if (merged + joined == 0) return {};
   std::size_t kept = 0;
   for (std::size_t i = 0; i < count; ++i) {

@@ -9,6 +9,7 @@
 
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "terrain/model/heightfield.h"
 
@@ -33,7 +34,7 @@ struct PointReadOptions {
 
 struct PointRead {
   PointHeightfield heightfield;
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 /// Reads scattered points: text (.csv, .tsv, .txt, .xyz, or any file that looks like it) or points and

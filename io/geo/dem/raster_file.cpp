@@ -52,7 +52,7 @@ bool isColourImage(GDALDataset& dataset) {
 }
 
 Result<GDALRasterBand*> chooseBand(GDALDataset& dataset, const RasterReadOptions& options,
-                                   std::vector<std::string>& warnings) {
+                                   Warnings& warnings) {
   const int count = dataset.GetRasterCount();
   const std::vector<std::string> parts = subdatasetNames(dataset);
   if (count == 0 && !parts.empty()) {
@@ -74,11 +74,14 @@ Result<GDALRasterBand*> chooseBand(GDALDataset& dataset, const RasterReadOptions
                     "bands as heights",
                     count, bands));
   if (!options.band && countOfBandsBesideOpacity(dataset) > 1)
-    warnings.push_back(fmt::format("has {} bands; band 1 is read", count));
-  if (parts.size() > 1) warnings.push_back(fmt::format("holds {} rasters; the first is read", parts.size()));
+    warnings.push_back({WarningCode::choice, fmt::format("has {} bands; band 1 is read", count)});
+  if (parts.size() > 1)
+    warnings.push_back(
+        {WarningCode::choice, fmt::format("holds {} rasters; the first is read", parts.size())});
   GDALRasterBand* band = dataset.GetRasterBand(options.band.value_or(1));
   if (band->GetColorTable())
-    warnings.push_back("the band has a colour table: its values may be classes or colours, not heights");
+    warnings.push_back({WarningCode::heights,
+                        "the band has a colour table: its values may be classes or colours, not heights"});
   return band;
 }
 
@@ -125,7 +128,7 @@ RasterFile& RasterFile::operator=(RasterFile&&) noexcept = default;
 RasterFile::~RasterFile() = default;
 
 Result<RasterFile> RasterFile::open(const std::string& path, const RasterReadOptions& options,
-                                    std::vector<std::string>& warnings, const RunContext& context) {
+                                    Warnings& warnings, const RunContext& context) {
   registerGdal();
   GdalErrors errors;
   const auto blame = [&](Error error) {
@@ -188,7 +191,7 @@ Status RasterFile::read(std::uint32_t firstRow, std::uint32_t rowCount, std::spa
   return opened_->reader->read(int(firstRow), int(rowCount), heights);
 }
 
-void RasterFile::report(std::vector<std::string>& warnings) const {
+void RasterFile::report(Warnings& warnings) const {
   opened_->reader->report(warnings);
 }
 

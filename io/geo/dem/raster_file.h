@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "io/geo/dem/raster_reader.h"
 #include "terrain/model/georeference.h"
@@ -19,7 +20,7 @@ class RasterFile {
   /// Errors: those of readRaster(), with a culprit; interrupted while an archive is searched. Warnings go to
   /// `warnings`.
   static Result<RasterFile> open(const std::string& path, const RasterReadOptions& options,
-                                 std::vector<std::string>& warnings, const RunContext& context);
+                                 Warnings& warnings, const RunContext& context);
 
   std::uint32_t columns() const;
   std::uint32_t rows() const;
@@ -32,7 +33,7 @@ class RasterFile {
   /// Reads whole rows. Errors: unreadable, invalidData.
   Status read(std::uint32_t firstRow, std::uint32_t rowCount, std::span<double> heights);
   /// Warnings about what was read.
-  void report(std::vector<std::string>& warnings) const;
+  void report(Warnings& warnings) const;
 
   RasterFile(RasterFile&&) noexcept;
   RasterFile& operator=(RasterFile&&) noexcept;

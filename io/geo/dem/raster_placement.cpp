@@ -31,7 +31,7 @@ bool fits(const GDAL_GCP* points, int count, const std::array<double, 6>& g) {
 }  // namespace
 
 Result<OGRSpatialReference> placeRaster(GDALDataset& dataset, Georeference& georeference,
-                                        std::vector<std::string>& warnings) {
+                                        Warnings& warnings) {
   std::array<double, 6> transform{};
   const auto crsOf = [](const OGRSpatialReference* crs) {
     return isKnownCrs(crs) ? *crs : OGRSpatialReference();
@@ -68,8 +68,9 @@ Result<OGRSpatialReference> placeRaster(GDALDataset& dataset, Georeference& geor
   georeference.geoTransform = {0, 1, 0, double(dataset.GetRasterYSize()), 0, -1};
   const bool hasCrs = isKnownCrs(dataset.GetSpatialRef());
   warnings.push_back(
-      fmt::format("has no georeference{}: x counts its columns, y its rows upwards from the last one",
-                  hasCrs ? ", so its CRS is not used" : ""));
+      {WarningCode::position,
+       fmt::format("has no georeference{}: x counts its columns, y its rows upwards from the last one",
+                   hasCrs ? ", so its CRS is not used" : "")});
   return OGRSpatialReference();
 }
 

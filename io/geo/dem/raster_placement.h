@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "terrain/model/georeference.h"
 
 namespace arete {
@@ -20,7 +21,6 @@ namespace arete {
 ///
 /// Errors: unsupported: ground control points on no grid of equal steps, RPCs, or arrays of geolocation (a
 /// curvilinear grid); the message says how to resample.
-Result<OGRSpatialReference> placeRaster(GDALDataset& dataset, Georeference& georeference,
-                                        std::vector<std::string>& warnings);
+Result<OGRSpatialReference> placeRaster(GDALDataset& dataset, Georeference& georeference, Warnings& warnings);
 
 }  // namespace arete

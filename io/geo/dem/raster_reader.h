@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "terrain/model/heightfield.h"
 
@@ -26,7 +27,7 @@ struct RasterReadOptions {
 
 struct RasterRead {
   RasterHeightfield heightfield;
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 /// Reads one band of any raster that GDAL reads.

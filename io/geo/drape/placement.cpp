@@ -213,8 +213,7 @@ void TransformerCloser::operator()(void* transformer) const {
   GDALDestroyTransformer(transformer);
 }
 
-Result<TransformerPtr> drapeTransformer(GDALDataset& picture, const TerrainModel& model,
-                                        std::vector<std::string>& warnings) {
+Result<TransformerPtr> drapeTransformer(GDALDataset& picture, const TerrainModel& model, Warnings& warnings) {
   std::array<double, 6> transform{};
   const bool hasTransform = picture.GetGeoTransform(transform.data()) == CE_None;
   if (!hasTransform && picture.GetGCPCount() == 0)
@@ -228,7 +227,8 @@ Result<TransformerPtr> drapeTransformer(GDALDataset& picture, const TerrainModel
   CPLStringList options;
   if (dem.empty()) {
     if (hasOwn)
-      warnings.emplace_back("the DEM has no CRS: the coordinates of the image are taken as the DEM's");
+      warnings.push_back(
+          {WarningCode::position, "the DEM has no CRS: the coordinates of the image are taken as the DEM's"});
   } else if (!hasOwn) {
     return failure(ErrorCode::invalidData,
                    "has no CRS, and the DEM has one; gdal_translate -a_srs states it in a copy");

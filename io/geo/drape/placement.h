@@ -9,6 +9,7 @@
 
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
+#include "engine/base/warning.h"
 #include "io/geo/gdal/support.h"
 #include "terrain/model/terrain_model.h"
 
@@ -32,8 +33,7 @@ struct TransformerCloser {
 using TransformerPtr = std::unique_ptr<void, TransformerCloser>;
 
 /// Errors: invalidData: no georeference; no CRS while the terrain has one; no transformation between the two.
-Result<TransformerPtr> drapeTransformer(GDALDataset& picture, const TerrainModel& model,
-                                        std::vector<std::string>& warnings);
+Result<TransformerPtr> drapeTransformer(GDALDataset& picture, const TerrainModel& model, Warnings& warnings);
 
 /// @param maxPixels At least 1. A larger image is read at a coarser resolution, of about so many pixels.
 ///

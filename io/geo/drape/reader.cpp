@@ -148,7 +148,7 @@ struct DrapeReader::State {
   GdalDatasetPtr picture;  // derived from the source: destroyed first
   DrapePlacement placement;
   std::vector<Range> ranges;
-  std::vector<std::string> warnings;
+  Warnings warnings;
   std::vector<float> values;
 };
 
@@ -186,15 +186,16 @@ Result<DrapeReader> DrapeReader::open(const std::string& path, const TerrainMode
     }
   if (s.placement.coarser > 1) {
     s.warnings.push_back(
-        fmt::format("is read at a coarser resolution, {:.2f} times its pixel size, as {} x {} pixels: at "
-                    "most {} are read",
-                    s.placement.coarser, s.placement.columns, s.placement.rows, options.maxPixels));
+        {WarningCode::choice,
+         fmt::format("is read at a coarser resolution, {:.2f} times its pixel size, as {} x {} pixels: at "
+                     "most {} are read",
+                     s.placement.coarser, s.placement.columns, s.placement.rows, options.maxPixels)});
     way->reset();
     s.source.turned.reset();
     Result<DrapeSource> smaller = openDrapeOverview(path, std::move(s.source), s.placement.coarser);
     if (!smaller) return named(smaller.error());
     s.source = std::move(*smaller);
-    std::vector<std::string> said;
+    Warnings said;
     s.source.turned = turnedOnto(s.source.dataset(), model, said);
     way = drapeTransformer(s.source.dataset(), model, said);
     if (!way) return named(way.error());
@@ -221,7 +222,7 @@ Vec2 DrapeReader::scale() const {
 Vec2 DrapeReader::shift() const {
   return state_->placement.shift;
 }
-const std::vector<std::string>& DrapeReader::warnings() const {
+const Warnings& DrapeReader::warnings() const {
   return state_->warnings;
 }
 

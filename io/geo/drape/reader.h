@@ -10,6 +10,7 @@
 
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "terrain/model/terrain_model.h"
 
@@ -51,7 +52,7 @@ class DrapeReader {
   /// Plan position p is at p * scale() + shift(), in pixels from the first corner of the image.
   Vec2 scale() const;
   Vec2 shift() const;
-  const std::vector<std::string>& warnings() const;
+  const Warnings& warnings() const;
 
   /// Reads a window. Precondition: it lies in the image.
   ///

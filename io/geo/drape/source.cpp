@@ -59,7 +59,7 @@ Status expandColorTable(DrapeSource& source, int band) {
   return {};
 }
 
-Status chooseColors(DrapeSource& source, const std::vector<int>& stated, std::vector<std::string>& warnings) {
+Status chooseColors(DrapeSource& source, const std::vector<int>& stated, Warnings& warnings) {
   GDALDataset& dataset = source.dataset();
   const int count = dataset.GetRasterCount();
   if (count == 0) return failure(ErrorCode::unsupported, "holds no raster band");
@@ -89,12 +89,14 @@ Status chooseColors(DrapeSource& source, const std::vector<int>& stated, std::ve
   } else if (others.size() >= 3) {
     source.colors = {others[0], others[1], others[2]};
     if (others.size() > 3)
-      warnings.push_back(fmt::format("has {} bands; bands {} are taken as red, green and blue", count,
-                                     fmt::join(source.colors, ", ")));
+      warnings.push_back(
+          {WarningCode::choice, fmt::format("has {} bands; bands {} are taken as red, green and blue", count,
+                                            fmt::join(source.colors, ", "))});
   } else {
     source.colors = {others[0]};
     if (others.size() > 1)
-      warnings.push_back(fmt::format("has {} bands; band {} is shown in grey", count, others[0]));
+      warnings.push_back(
+          {WarningCode::choice, fmt::format("has {} bands; band {} is shown in grey", count, others[0])});
   }
   for (const int b : source.colors)
     if (GDALDataTypeIsComplex(dataset.GetRasterBand(b)->GetRasterDataType()))
@@ -107,7 +109,7 @@ Status chooseColors(DrapeSource& source, const std::vector<int>& stated, std::ve
 }
 
 Result<DrapeSource> openLevel(const std::string& path, const std::vector<int>& bands,
-                              std::optional<int> overview, std::vector<std::string>& warnings) {
+                              std::optional<int> overview, Warnings& warnings) {
   registerGdal();
   GdalErrors errors;
   if (auto problem = findPipeProblem(path)) return tl::unexpected(*problem);
@@ -130,7 +132,7 @@ Result<DrapeSource> openLevel(const std::string& path, const std::vector<int>& b
 }  // namespace
 
 Result<DrapeSource> openDrapeSource(const std::string& path, const std::vector<int>& bands,
-                                    std::vector<std::string>& warnings) {
+                                    Warnings& warnings) {
   return openLevel(path, bands, std::nullopt, warnings);
 }
 
@@ -149,7 +151,7 @@ Result<DrapeSource> openDrapeOverview(const std::string& path, DrapeSource sourc
     }
   }
   if (!best) return source;
-  std::vector<std::string> repeated;  // the warnings of the first opening suffice
+  Warnings repeated;  // the warnings of the first opening suffice
   const bool isExpanded = source.opened.isExpanded();
   Result<DrapeSource> smaller =
       openLevel(path, isExpanded ? std::vector<int>() : source.colors, best, repeated);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "io/geo/gdal/support.h"
 
 namespace arete {
@@ -51,7 +52,7 @@ struct DrapeSource {
 ///
 /// Errors: notFound, unreadable, corrupt. usage: no such bands. unsupported: no band, complex numbers.
 Result<DrapeSource> openDrapeSource(const std::string& path, const std::vector<int>& bands,
-                                    std::vector<std::string>& warnings);
+                                    Warnings& warnings);
 
 /// Reopens an image at the coarsest overview whose pixels are at most `coarser` times those of the file.
 /// Returns `source` if there is none.

@@ -40,8 +40,7 @@ GdalDatasetPtr sideBySide(GDALDataset& picture, int copies, double x) {
 
 }  // namespace
 
-GdalDatasetPtr turnedOnto(GDALDataset& picture, const TerrainModel& model,
-                          std::vector<std::string>& warnings) {
+GdalDatasetPtr turnedOnto(GDALDataset& picture, const TerrainModel& model, Warnings& warnings) {
   std::array<double, 6> t{};
   const OGRSpatialReference* crs = picture.GetSpatialRef();
   const double turn = model.georeference.isGeographic ? turnOf(model.georeference) : 0;
@@ -77,10 +76,11 @@ GdalDatasetPtr turnedOnto(GDALDataset& picture, const TerrainModel& model,
     return sideBySide(picture, int(copies.size()), t[0] + shift);
   }
   const Copy& largest = *std::ranges::max_element(copies, {}, &Copy::width);
-  warnings.push_back(fmt::format(
-      "lies on both ends of the DEM, whole turns apart; only its part from longitude {:.6g} to {:.6g} is "
-      "drawn",
-      std::max(west + largest.shift, demWest), std::min(east + largest.shift, demEast)));
+  warnings.push_back({WarningCode::choice, fmt::format("lies on both ends of the DEM, whole turns apart; "
+                                                       "only its part from longitude {:.6g} to {:.6g} is "
+                                                       "drawn",
+                                                       std::max(west + largest.shift, demWest),
+                                                       std::min(east + largest.shift, demEast))});
   if (largest.shift == 0) return nullptr;
   return sideBySide(picture, 1, t[0] + largest.shift);
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/warning.h"
 #include "io/geo/gdal/support.h"
 #include "terrain/model/terrain_model.h"
 
@@ -16,7 +17,6 @@ namespace arete {
 /// @param picture Outlives the result.
 /// @return null where the image itself is right: it meets the DEM where it lies and nowhere else, or nowhere,
 /// or it or the DEM is not in longitudes and latitudes, or its rows do not run along the parallels.
-GdalDatasetPtr turnedOnto(GDALDataset& picture, const TerrainModel& model,
-                          std::vector<std::string>& warnings);
+GdalDatasetPtr turnedOnto(GDALDataset& picture, const TerrainModel& model, Warnings& warnings);
 
 }  // namespace arete

@@ -223,18 +223,21 @@ Status checkLengthByContent(const std::string& path) {
   return checkTile(path, *there);
 }
 
-void warnOfLength(const std::string& path, std::vector<std::string>& warnings) {
+void warnOfLength(const std::string& path, Warnings& warnings) {
   const GdalErrors quiet;
   Head head;
   if (readHead(path, head) == 0) return;
   const auto wanted = pcidskLength(head, true), there = fileLength(path);
   if (there && !calsHeader(path, head).empty() && !hasCalsEnd(path, *there))
-    warnings.push_back("its picture does not end with the mark of its end (EOFB): it may have been cut off");
+    warnings.push_back(
+        {WarningCode::damaged,
+         "its picture does not end with the mark of its end (EOFB): it may have been cut off"});
   if (wanted && there && *wanted > *there)
-    warnings.push_back(fmt::format(
-        "its header counts {} bytes and {} are there: tiles that were not written, or have been cut off, "
-        "are heights of 0",
-        *wanted, *there));
+    warnings.push_back(
+        {WarningCode::damaged, fmt::format("its header counts {} bytes and {} are there: tiles that were not "
+                                           "written, or have been cut off, "
+                                           "are heights of 0",
+                                           *wanted, *there)});
 }
 
 }  // namespace arete

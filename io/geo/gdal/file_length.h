@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 
 namespace arete {
 
@@ -30,6 +31,6 @@ Status checkLengthByContent(const std::string& path);
 
 /// Warns where the length of a file does not say whether it is whole: PCIDSK in tiles, CALS without the mark
 /// of its end.
-void warnOfLength(const std::string& path, std::vector<std::string>& warnings);
+void warnOfLength(const std::string& path, Warnings& warnings);
 
 }  // namespace arete

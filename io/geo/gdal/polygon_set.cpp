@@ -133,7 +133,7 @@ OGRMultiPolygon polygonsOf(const std::vector<Ring>& rings) {
   return polygons;
 }
 
-OGRMultiPolygon repaired(const OGRMultiPolygon& polygons, std::vector<std::string>& warnings) {
+OGRMultiPolygon repaired(const OGRMultiPolygon& polygons, Warnings& warnings) {
   if (!OGRGeometryFactory::haveGEOS()) return polygons;
   const GdalErrors quiet;
   OGRMultiPolygon result;
@@ -148,7 +148,7 @@ OGRMultiPolygon repaired(const OGRMultiPolygon& polygons, std::vector<std::strin
     const auto made = goneAround(*polygon);
     if (made) collect(*made, valid);
     if (!made && !isWarned) {
-      warnings.emplace_back("a polygon crosses itself and cannot be repaired");
+      warnings.push_back({WarningCode::geometry, "a polygon crosses itself and cannot be repaired"});
       isWarned = true;
     }
     if (!made) result.addGeometry(polygon);
@@ -157,7 +157,7 @@ OGRMultiPolygon repaired(const OGRMultiPolygon& polygons, std::vector<std::strin
   return result;
 }
 
-OGRMultiPolygon united(const OGRMultiPolygon& polygons, std::vector<std::string>& warnings) {
+OGRMultiPolygon united(const OGRMultiPolygon& polygons, Warnings& warnings) {
   if (polygons.getNumGeometries() < 2) return polygons;
   const GdalErrors quiet;
   OGRMultiPolygon result;
@@ -165,12 +165,12 @@ OGRMultiPolygon united(const OGRMultiPolygon& polygons, std::vector<std::string>
                                                                          : nullptr);
   if (made) collect(*made, result);
   if (!result.IsEmpty()) return result;
-  warnings.emplace_back("the polygons cannot be united; where two of them overlap counts as outside");
+  warnings.push_back(
+      {WarningCode::geometry, "the polygons cannot be united; where two of them overlap counts as outside"});
   return polygons;
 }
 
-OGRMultiPolygon withinOneTurn(const OGRMultiPolygon& polygons, double turn,
-                              std::vector<std::string>& warnings) {
+OGRMultiPolygon withinOneTurn(const OGRMultiPolygon& polygons, double turn, Warnings& warnings) {
   OGREnvelope extent;
   polygons.getEnvelope(&extent);
   constexpr double kRounding = 1e-12, kMostTurns = 1000;
@@ -186,7 +186,8 @@ OGRMultiPolygon withinOneTurn(const OGRMultiPolygon& polygons, double turn,
     if (part) collect(*part, parts);
   }
   if (!parts.IsEmpty()) return united(parts, warnings);
-  warnings.emplace_back("the polygons reach over more than a turn and cannot be united");
+  warnings.push_back(
+      {WarningCode::geometry, "the polygons reach over more than a turn and cannot be united"});
   return polygons;
 }
 

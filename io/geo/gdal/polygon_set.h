@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/vec.h"
+#include "engine/base/warning.h"
 
 namespace arete {
 
@@ -21,15 +22,14 @@ OGRMultiPolygon polygonsOf(const std::vector<Ring>& rings);
 
 /// Replaces polygons that touch or cross themselves by valid ones that cover all that their rings go around,
 /// also what a ring goes around twice. One that cannot be repaired stays, with a warning.
-OGRMultiPolygon repaired(const OGRMultiPolygon& polygons, std::vector<std::string>& warnings);
+OGRMultiPolygon repaired(const OGRMultiPolygon& polygons, Warnings& warnings);
 
 /// The union of polygons; the polygons themselves, with a warning, where GEOS cannot make it.
-OGRMultiPolygon united(const OGRMultiPolygon& polygons, std::vector<std::string>& warnings);
+OGRMultiPolygon united(const OGRMultiPolygon& polygons, Warnings& warnings);
 
 /// The union of polygons whose x are known up to multiples of `turn`, with x from -turn/2 to turn/2. The
 /// polygons themselves where they reach over a turn at most, since then none covers another, or without a
 /// turn.
-OGRMultiPolygon withinOneTurn(const OGRMultiPolygon& polygons, double turn,
-                              std::vector<std::string>& warnings);
+OGRMultiPolygon withinOneTurn(const OGRMultiPolygon& polygons, double turn, Warnings& warnings);
 
 }  // namespace arete

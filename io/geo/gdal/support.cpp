@@ -111,19 +111,20 @@ std::string GdalErrors::firstMessage() const {
   return messages_.empty() ? std::string() : messages_.front().text;
 }
 
-void GdalErrors::moveTo(std::vector<std::string>& warnings) {
+void GdalErrors::moveTo(Warnings& warnings) {
   std::vector<std::string> distinct;
   for (const Message& message : messages_) {
     std::string line = "GDAL: " + message.text;
     if (std::ranges::find(distinct, line) == distinct.end() &&
-        std::ranges::find(warnings, line) == warnings.end())
+        std::ranges::find(warnings, line, &Warning::sentence) == warnings.end())
       distinct.push_back(std::move(line));
   }
   for (std::size_t i = 0; i < std::min(kWarningsKept, distinct.size()); ++i)
-    warnings.push_back(std::move(distinct[i]));
+    warnings.push_back({WarningCode::library, std::move(distinct[i])});
   if (distinct.size() > kWarningsKept)
-    warnings.push_back(fmt::format(
-        "GDAL: and {}", counted(distinct.size() - kWarningsKept, "more message", "more messages")));
+    warnings.push_back(
+        {WarningCode::library, fmt::format("GDAL: and {}", counted(distinct.size() - kWarningsKept,
+                                                                   "more message", "more messages"))});
   messages_.clear();
 }
 

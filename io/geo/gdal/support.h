@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "io/geo/gdal/crs_addresses.h"
 
 namespace arete {
@@ -41,7 +42,7 @@ class GdalErrors {
   std::string firstMessage() const;
   /// Appends the messages so far to `warnings` (the first few distinct ones that are not there yet) and
   /// clears them here.
-  void moveTo(std::vector<std::string>& warnings);
+  void moveTo(Warnings& warnings);
   void clear() { messages_.clear(); }
 
  private:

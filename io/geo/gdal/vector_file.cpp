@@ -10,7 +10,7 @@
 namespace arete {
 
 Result<GdalDatasetPtr> openVectors(const std::string& path, std::string_view kind, GdalErrors& errors,
-                                   std::vector<std::string>& warnings) {
+                                   Warnings& warnings) {
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
   ARETE_CHECK(checkLengthByContent(networkPathOf(path)));
   GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "io/geo/gdal/support.h"
 
 namespace arete {
@@ -23,7 +24,7 @@ namespace arete {
 ///
 /// Errors: those of explainOpenFailure(). unreadable, corrupt: a part of the file is missing.
 Result<GdalDatasetPtr> openVectors(const std::string& path, std::string_view kind, GdalErrors& errors,
-                                   std::vector<std::string>& warnings);
+                                   Warnings& warnings);
 
 /// Holds the features read against the count that the header of a FlatGeobuf states: GDAL ends without a word
 /// where a file is cut between two of them. Layers of other formats pass.

@@ -135,19 +135,19 @@ Status checkQuotes(const std::string& path) {
       fmt::format("is cut short or damaged: a quoted text begins on line {} and does not end", opened));
 }
 
-void warnOfLastLine(const std::string& path, std::vector<std::string>& warnings) {
+void warnOfLastLine(const std::string& path, Warnings& warnings) {
   char last = '\n';
   forCharacters(path, [&](char c) {
     last = c;
     return true;
   });
   if (last != '\n' && last != '\r' && last != '\x1a')
-    warnings.emplace_back("its last line has no end: the file may be cut short");
+    warnings.push_back({WarningCode::damaged, "its last line has no end: the file may be cut short"});
 }
 
 }  // namespace
 
-Status checkWholeText(const std::string& path, std::string_view driver, std::vector<std::string>& warnings) {
+Status checkWholeText(const std::string& path, std::string_view driver, Warnings& warnings) {
   constexpr std::array<std::string_view, 4> kLines = {"OGR_GMT", "Geoconcept", "VDV", "Interlis 1"};
   std::string name = networkPathOf(path);
   if (const std::string prefix = fmt::format("{}:", driver);

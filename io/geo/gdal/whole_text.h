@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 
 namespace arete {
 
@@ -18,6 +19,6 @@ namespace arete {
 /// @param driver GDAL's short name of the format.
 ///
 /// Errors: corrupt, with the number of the record and its line. O(file size) for the formats above.
-Status checkWholeText(const std::string& path, std::string_view driver, std::vector<std::string>& warnings);
+Status checkWholeText(const std::string& path, std::string_view driver, Warnings& warnings);
 
 }  // namespace arete

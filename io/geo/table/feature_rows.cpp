@@ -107,18 +107,18 @@ std::string fieldText(OGRFeature& feature, int field) {
 }
 
 Result<CrsTransform> transformOf(const OGRSpatialReference* own, const Georeference& dem, bool lonLat,
-                                 bool isTable, std::vector<std::string>& warnings) {
+                                 bool isTable, Warnings& warnings) {
   if (!isKnownCrs(own)) {
     if (lonLat) return CrsTransform::fromLonLat(dem);
     if (!isTable && !dem.crsWkt.empty())
-      warnings.push_back("has no CRS; its coordinates are taken as the DEM's");
+      warnings.push_back({WarningCode::position, "has no CRS; its coordinates are taken as the DEM's"});
     return CrsTransform();
   }
   if (dem.crsWkt.empty())
     return failure(ErrorCode::invalidData,
                    "has a CRS and the DEM has none, so the points cannot be transformed; "
                    "`crs` states the DEM's when it is built");
-  if (lonLat) warnings.push_back("has a CRS of its own, so `lonLat` is ignored");
+  if (lonLat) warnings.push_back({WarningCode::position, "has a CRS of its own, so `lonLat` is ignored"});
   return CrsTransform::between(wktOf(*own), dem.crsWkt);
 }
 

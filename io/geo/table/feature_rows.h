@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "io/geo/crs/transform.h"
 #include "io/geo/gdal/support.h"
@@ -41,6 +42,6 @@ std::string fieldText(OGRFeature& feature, int field);
 ///
 /// Errors: invalidData: the file has a CRS and the DEM has none. Also those of CrsTransform.
 Result<CrsTransform> transformOf(const OGRSpatialReference* own, const Georeference& dem, bool lonLat,
-                                 bool isTable, std::vector<std::string>& warnings);
+                                 bool isTable, Warnings& warnings);
 
 }  // namespace arete

@@ -23,9 +23,10 @@ namespace arete {
 namespace {
 
 Result<CrsTransform> transformation(const OGRSpatialReference* own, const std::string& targetCrs,
-                                    std::vector<std::string>& warnings) {
+                                    Warnings& warnings) {
   if (!isKnownCrs(own)) {
-    if (!targetCrs.empty()) warnings.push_back("has no CRS; its coordinates are taken as the DEM's");
+    if (!targetCrs.empty())
+      warnings.push_back({WarningCode::position, "has no CRS; its coordinates are taken as the DEM's"});
     return CrsTransform();
   }
   if (targetCrs.empty())

@@ -6,6 +6,7 @@
 
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 
 namespace arete {
@@ -13,7 +14,7 @@ namespace arete {
 /// Plan positions as read.
 struct PlanPoints {
   std::vector<Vec2> positions;  ///< in the target CRS, in the order of the file
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 /// Reads plan positions and ignores heights: from text as for readPoints(), where two columns suffice, or

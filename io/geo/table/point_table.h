@@ -7,6 +7,7 @@
 
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "io/geo/text/point_attributes.h"
 #include "terrain/model/georeference.h"
@@ -21,7 +22,7 @@ struct PointTable {
   std::vector<Vec2> positions;     ///< in the DEM's CRS; NaN without a position or outside its domain
   PointAttributes attributes;      ///< without the columns of x and y
   std::uint64_t withoutPlace = 0;  ///< rows without a position
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 struct PointTableOptions {

@@ -8,6 +8,7 @@
 
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "io/geo/crs/position_argument.h"
 #include "io/geo/table/point_table.h"
@@ -36,7 +37,7 @@ struct SightPairs {
   std::vector<SightBeam> beams;  ///< readSightSites(): one per row
   PointAttributes attributes;    ///< without the columns of the positions
   std::string crsWkt;            ///< of the stated positions; empty: unknown
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 /// Reads a layer of lines (their first and last vertices) or a table, CSV or any other that GDAL reads, with

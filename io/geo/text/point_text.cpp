@@ -79,7 +79,7 @@ std::optional<std::size_t> findField(std::span<const std::string_view> fields,
 }
 
 Result<Columns> columnsByName(std::span<const std::string_view> fields, const std::string& zColumn,
-                              PointTextColumns kind, std::vector<std::string>& warnings) {
+                              PointTextColumns kind, Warnings& warnings) {
   const auto x = findField(fields, ColumnNames::x()), y = findField(fields, ColumnNames::y()),
              wkt = findField(fields, ColumnNames::wkt());
   const bool isPlan = kind != PointTextColumns::spatial;
@@ -98,8 +98,9 @@ Result<Columns> columnsByName(std::span<const std::string_view> fields, const st
   if (x && y && z) return Columns{{*x, *y, *z}};
   if (wkt && !(x && y)) return Columns{{kNoColumn, kNoColumn, z.value_or(kNoColumn)}, *wkt};
   if (!x && !y && (!z || zColumn.empty()) && !z && fields.size() >= 3) {
-    warnings.push_back(fmt::format("no column is named x, y or z; the first three are taken: {}",
-                                   columnNames(fields.first(3))));
+    warnings.push_back(
+        {WarningCode::choice, fmt::format("no column is named x, y or z; the first three are taken: {}",
+                                          columnNames(fields.first(3)))});
     return Columns{};
   }
   return failure(ErrorCode::invalidData,
@@ -112,8 +113,8 @@ Result<Columns> columnsByName(std::span<const std::string_view> fields, const st
 
 class TextParser {
  public:
-  TextParser(const std::string& path, const std::string& zColumn, PointTextColumns kind,
-             std::vector<std::string>& warnings, PointAttributes* attributes)
+  TextParser(const std::string& path, const std::string& zColumn, PointTextColumns kind, Warnings& warnings,
+             PointAttributes* attributes)
       : path_(path), zColumn_(zColumn), kind_(kind), warnings_(warnings), attributes_(attributes) {
     if (isPlan()) columns_.at = {0, 1, 1};
   }
@@ -170,7 +171,8 @@ class TextParser {
     if (startsWithLabel(fields, needed)) {
       for (std::size_t& column : columns_.at) ++column;
       warnings_.push_back(
-          "has no line of column names; its first column is not a number and is taken for a label");
+          {WarningCode::choice,
+           "has no line of column names; its first column is not a number and is taken for a label"});
     }
     mayCountLines_ = columns_.at[0] == 0 && fields.size() > needed &&
                      std::all_of(fields.begin(), fields.begin() + std::ptrdiff_t(needed) + 1, isNumber);
@@ -184,19 +186,22 @@ class TextParser {
   PointRows takeRows() {
     if (withoutHeight_ > 0)
       warnings_.push_back(
-          withoutHeight_ == 1
-              ? fmt::format("1 point has no height and is left out (on line {})", lineWithoutHeight_)
-              : fmt::format("{} points have no height and are left out (the first is on line {})",
-                            withoutHeight_, lineWithoutHeight_));
-    if (lineWithComma_ > 0) warnings_.push_back("its numbers have a decimal comma");
+          {WarningCode::omitted,
+           withoutHeight_ == 1
+               ? fmt::format("1 point has no height and is left out (on line {})", lineWithoutHeight_)
+               : fmt::format("{} points have no height and are left out (the first is on line {})",
+                             withoutHeight_, lineWithoutHeight_)});
+    if (lineWithComma_ > 0) warnings_.push_back({WarningCode::choice, "its numbers have a decimal comma"});
     if (mayCountLines_ && rows_.positions.size() >= kLinesThatCount)
-      warnings_.push_back(
-          "has no line of column names, and its first column, which is taken for x, counts the points: if it "
-          "is a "
-          "number of the point, put a line of column names before the first");
+      warnings_.push_back({WarningCode::choice,
+                           "has no line of column names, and its first column, which is taken for x, counts "
+                           "the points: if it "
+                           "is a "
+                           "number of the point, put a line of column names before the first"});
     if (surplusFields_ > 0)
-      warnings_.push_back(counted(surplusFields_, "field stands beyond the last column and is left out",
-                                  "fields stand beyond the last column and are left out"));
+      warnings_.push_back({WarningCode::omitted,
+                           counted(surplusFields_, "field stands beyond the last column and is left out",
+                                   "fields stand beyond the last column and are left out")});
     return std::move(rows_);
   }
   /// Of the next record, counted from 1.
@@ -396,7 +401,7 @@ class TextParser {
   const std::string& path_;
   const std::string& zColumn_;
   PointTextColumns kind_;
-  std::vector<std::string>& warnings_;
+  Warnings& warnings_;
   PointAttributes* attributes_;
   std::size_t fieldCount_ = 0, surplusFields_ = 0;
   PointRows rows_;
@@ -442,9 +447,9 @@ bool looksLikePointText(const std::string& path) {
   return false;
 }
 
-Result<PointRows> readPointText(const std::string& path, const std::string& zColumn,
-                                std::vector<std::string>& warnings, const RunContext& context,
-                                PointTextColumns columns, PointAttributes* attributes) {
+Result<PointRows> readPointText(const std::string& path, const std::string& zColumn, Warnings& warnings,
+                                const RunContext& context, PointTextColumns columns,
+                                PointAttributes* attributes) {
   registerGdal();
   GdalErrors errors;
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "io/geo/text/point_attributes.h"
 #include "io/geo/text/point_rows.h"
@@ -34,8 +35,8 @@ enum class PointTextColumns {
 ///
 /// Errors: notFound, unreadable. usage: no column `zColumn`. invalidData: a record that does not parse (the
 /// culprit is "path:line"), a record of more than a mebibyte. interrupted. O(file size).
-Result<PointRows> readPointText(const std::string& path, const std::string& zColumn,
-                                std::vector<std::string>& warnings, const RunContext& context,
+Result<PointRows> readPointText(const std::string& path, const std::string& zColumn, Warnings& warnings,
+                                const RunContext& context,
                                 PointTextColumns columns = PointTextColumns::spatial,
                                 PointAttributes* attributes = nullptr);
 

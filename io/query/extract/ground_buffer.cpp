@@ -197,7 +197,7 @@ class GroundBuffer {
 }  // namespace
 
 Result<RegionShape> extendedOnGround(const RegionShape& shape, const Georeference& georeference,
-                                     std::vector<std::string>& warnings, const RunContext& context) try {
+                                     Warnings& warnings, const RunContext& context) try {
   const auto lonLat = CrsLonLat::of(georeference);
   if (!(shape.distance > 0) || !lonLat) return shape;
   if (shape.distance > kLargestGroundDistance)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/criteria/region.h"
 #include "engine/parallel/run_context.h"
 #include "terrain/model/georeference.h"
@@ -26,6 +27,6 @@ inline constexpr double kLargestGroundDistance = 1e6;
 /// Errors: usage: a distance above kLargestGroundDistance. invalidData: ground within the distance that the
 /// CRS cannot tell. unsupported: GDAL without GEOS. interrupted. O(n log n) for n vertices and kilometres.
 Result<RegionShape> extendedOnGround(const RegionShape& shape, const Georeference& georeference,
-                                     std::vector<std::string>& warnings, const RunContext& context = {});
+                                     Warnings& warnings, const RunContext& context = {});
 
 }  // namespace arete

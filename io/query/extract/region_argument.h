@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/criteria/region.h"
 #include "engine/parallel/run_context.h"
 #include "io/geo/crs/longitude_turns.h"
@@ -24,7 +25,7 @@ struct RegionText {
 /// A region as a person stated it.
 struct RegionArgument {
   RegionShape shape;  ///< in source coordinates
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 /// How a program states a region: in the DEM's CRS.

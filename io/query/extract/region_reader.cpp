@@ -70,7 +70,7 @@ void collect(const OGRGeometry& geometry, Shapes& all) {
   }
 }
 
-Status collectLayer(GDALDataset& dataset, OGRLayer& layer, Shapes& all, std::vector<std::string>& warnings,
+Status collectLayer(GDALDataset& dataset, OGRLayer& layer, Shapes& all, Warnings& warnings,
                     const RunContext& context) {
   GdalErrors errors;
   layer.ResetReading();
@@ -99,22 +99,24 @@ Status collectLayer(GDALDataset& dataset, OGRLayer& layer, Shapes& all, std::vec
   });
   if (all.openRings > 0)
     warnings.push_back(
-        fmt::format("{} of its rings {}; an edge closes each", all.openRings,
-                    agreeing(all.openRings, "does not end where it begins", "do not end where they begin")));
+        {WarningCode::geometry, fmt::format("{} of its rings {}; an edge closes each", all.openRings,
+                                            agreeing(all.openRings, "does not end where it begins",
+                                                     "do not end where they begin"))});
   if (all.isEmpty())
     return failure(ErrorCode::invalidData,
                    fmt::format("the layer '{}' has no polygon{}{}", layer.GetName(),
                                all.takesLines ? " and no line" : "", all.takesPoints ? " and no point" : ""));
   if (without > 0)
-    warnings.push_back(counted(without, "feature without a geometry is left out",
-                               "features without a geometry are left out"));
+    warnings.push_back({WarningCode::omitted, counted(without, "feature without a geometry is left out",
+                                                      "features without a geometry are left out")});
   if (all.others > 0)
     warnings.push_back(
-        fmt::format("{}{}{} {} left out",
-                    counted(all.others, "geometry that is no polygon", "geometries that are no polygons"),
-                    all.takesLines ? agreeing(all.others, " or line", " or lines") : "",
-                    all.takesPoints ? agreeing(all.others, " or point", " or points") : "",
-                    agreeing(all.others, "is", "are")));
+        {WarningCode::omitted,
+         fmt::format("{}{}{} {} left out",
+                     counted(all.others, "geometry that is no polygon", "geometries that are no polygons"),
+                     all.takesLines ? agreeing(all.others, " or line", " or lines") : "",
+                     all.takesPoints ? agreeing(all.others, " or point", " or points") : "",
+                     agreeing(all.others, "is", "are"))});
   return {};
 }
 
@@ -200,7 +202,7 @@ double turnOfDegrees(const OGRSpatialReference& source) {
   return !source.IsEmpty() && source.IsGeographic() && describeCrs(source, onSource) ? turnOf(onSource) : 0;
 }
 
-void warnOfLongEdges(const OGRMultiPolygon& polygons, double turn, std::vector<std::string>& warnings) {
+void warnOfLongEdges(const OGRMultiPolygon& polygons, double turn, Warnings& warnings) {
   if (turn == 0) return;
   bool isFound = false;
   for (const OGRPolygon* polygon : polygons)
@@ -208,10 +210,12 @@ void warnOfLongEdges(const OGRMultiPolygon& polygons, double turn, std::vector<s
       for (int i = 1; i < ring->getNumPoints(); ++i)
         isFound = isFound || isLong(ring->getX(i) - ring->getX(i - 1), turn);
   if (isFound)
-    warnings.emplace_back(
-        "has a polygon with an edge over more than half a turn of longitudes, which is taken as it is drawn, "
-        "the long "
-        "way; a shape that crosses the antimeridian is cut there, or goes on beyond 180 degrees");
+    warnings.push_back(
+        {WarningCode::position,
+         "has a polygon with an edge over more than half a turn of longitudes, which is taken as it is "
+         "drawn, "
+         "the long "
+         "way; a shape that crosses the antimeridian is cut there, or goes on beyond 180 degrees"});
 }
 
 /// Leads a line the short way where an edge is long.
@@ -224,7 +228,7 @@ void takeShortWays(Chain& line, double turn) {
 
 /// The polygons as rings that the even-odd rule understands, before they are reprojected.
 Result<std::vector<Chain>> regionRings(const OGRMultiPolygon& polygons, const OGRSpatialReference& source,
-                                       bool isReprojected, std::vector<std::string>& warnings) {
+                                       bool isReprojected, Warnings& warnings) {
   ARETE_CHECK(checkFinite(polygons));
   OGRMultiPolygon all = united(repaired(polygons, warnings), warnings);
   if (isReprojected) {
@@ -255,8 +259,9 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
     ARETE_CHECK(reproject.prepare(source, target));
   } else if (source.IsEmpty() != target.IsEmpty()) {
     read.lacksCrs = true;
-    read.warnings.push_back(fmt::format("the CRS of the {} is not known; coordinates are taken as the DEM's",
-                                        source.IsEmpty() ? "region" : "DEM"));
+    read.warnings.push_back({WarningCode::position,
+                             fmt::format("the CRS of the {} is not known; coordinates are taken as the DEM's",
+                                         source.IsEmpty() ? "region" : "DEM")});
   }
   errors.moveTo(read.warnings);  // of the layer's CRS
   const double turn = turnOfDegrees(source);

@@ -6,6 +6,7 @@
 
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 
 namespace arete {
@@ -26,7 +27,7 @@ struct RegionRead {
   std::vector<std::vector<Vec2>> lines;  ///< of two vertices at least
   std::vector<Vec2> points;
   bool lacksCrs = false;  ///< one of the two CRSs is missing and the other is there
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 /// Reads the polygons and multipolygons (and lines and points, where they are taken) of a layer of any vector

@@ -17,11 +17,11 @@ namespace arete {
 namespace {
 
 /// @return what is left out.
-std::vector<std::string> embedPictures(MeshFile& file) {
+Warnings embedPictures(MeshFile& file) {
   const MeshAttributes whole = file.mesh;
   const PictureSource source(whole, file.folder);
   std::map<std::string, std::string> embedded;
-  std::vector<std::string> warnings;
+  Warnings warnings;
   for (Material& material : file.mesh.materials)
     for (TextureUse& texture : material.textures) {
       if (texture.picture.starts_with('#')) continue;
@@ -29,8 +29,8 @@ std::vector<std::string> embedPictures(MeshFile& file) {
       if (isNew) {
         Result<PictureBytes> picture = source.read(texture.picture);
         if (!picture) {
-          warnings.push_back(
-              fmt::format("the picture {} is left out: {}", texture.picture, picture.error().message));
+          warnings.push_back({WarningCode::omitted, fmt::format("the picture {} is left out: {}",
+                                                                texture.picture, picture.error().message)});
         } else {
           known->second = fmt::format("#{}", file.mesh.pictures.size());
           file.mesh.pictures.push_back(

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "io/query/surface/mesh_input.h"
 #include "surface/model/surface_model.h"
@@ -20,7 +21,7 @@ struct SurfaceFileOptions {
 
 struct BuiltSurface {
   SurfaceModel model;
-  std::vector<std::string> warnings;  ///< about pictures that are left out
+  Warnings warnings;  ///< about pictures that are left out
   double secondsToBuild = 0, secondsToDisplace = 0;
 };
 

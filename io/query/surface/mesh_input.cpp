@@ -104,9 +104,10 @@ Status warnOfGaps(MeshInput& input, const RunContext& context) {
     found.push_back(counted(d.nearBorders.count, "border edge that is another one but for rounding",
                             "border edges that are others but for rounding"));
   if (!found.empty())
-    input.file.warnings.push_back(fmt::format(
-        "{}: the surface is open there, and gapes when it is simplified; mending it (mesh repair) closes it",
-        fmt::join(found, " and ")));
+    input.file.warnings.push_back(
+        {WarningCode::geometry, fmt::format("{}: the surface is open there, and gapes when it is simplified; "
+                                            "mending it (mesh repair) closes it",
+                                            fmt::join(found, " and "))});
   return {};
 }
 

@@ -201,17 +201,20 @@ class MaterialReader {
 
 }  // namespace
 
-GltfMaterials readMaterials(const GltfDocument& document, std::vector<std::string>& warnings) {
+GltfMaterials readMaterials(const GltfDocument& document, Warnings& warnings) {
   constexpr std::size_t kMostProblems = 8;
   MaterialReader reader(document);
   reader.read();
   const auto& problems = reader.problems;
-  warnings.insert(warnings.end(), problems.begin(),
-                  problems.begin() + std::ptrdiff_t(std::min(problems.size(), kMostProblems)));
+  for (std::size_t i = 0; i < std::min(problems.size(), kMostProblems); ++i)
+    warnings.push_back({WarningCode::omitted, problems[i]});
   if (problems.size() > kMostProblems)
-    warnings.push_back(fmt::format("{} more problems of materials", problems.size() - kMostProblems));
+    warnings.push_back({WarningCode::omitted,
+                        fmt::format("{} more problems of materials", problems.size() - kMostProblems)});
   const auto count = [&](std::uint64_t number, const char* one, const char* many) {
-    if (number > 0) warnings.push_back(fmt::format("{} {} left out", number, number == 1 ? one : many));
+    if (number > 0)
+      warnings.push_back(
+          {WarningCode::omitted, fmt::format("{} {} left out", number, number == 1 ? one : many)});
   };
   count(reader.unusedImages, "picture that no material uses is", "pictures that no material uses are");
   count(reader.furtherPictures, "picture is another form of one that is read, and",

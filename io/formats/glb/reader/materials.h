@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/warning.h"
 #include "io/formats/glb/document.h"
 #include "surface/model/surface_mesh.h"
 
@@ -22,6 +23,6 @@ struct GltfMaterials {
 };
 
 /// Never fails: what is damaged is left out with a warning.
-GltfMaterials readMaterials(const GltfDocument& document, std::vector<std::string>& warnings);
+GltfMaterials readMaterials(const GltfDocument& document, Warnings& warnings);
 
 }  // namespace arete

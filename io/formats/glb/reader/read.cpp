@@ -70,7 +70,8 @@ class GlbReader {
     for (VertexGroup& group : groups_) ARETE_CHECK(addVertices(group, attributes));
     for (const Part& part : parts_) ARETE_CHECK(addTriangles(part));
     leftOut_.shownMeshes = meshesShown_.size();
-    result_.warnings = leftOut_.sentences(document_.json());
+    for (std::string& sentence : leftOut_.sentences(document_.json()))
+      result_.warnings.push_back({WarningCode::omitted, std::move(sentence)});
     if (result_.mesh.triangles.empty() && !frame_) return noTriangle();
     SurfaceMesh& mesh = result_.mesh;
     mesh.vertexAttributes = attributes.finish(mesh.positions.size(), result_.warnings);

@@ -247,24 +247,29 @@ void GltfVertexAttributes::add(const VertexGroup& group, std::uint64_t first, st
   }
 }
 
-std::vector<Attribute> GltfVertexAttributes::finish(std::uint64_t vertices,
-                                                    std::vector<std::string>& warnings) {
+std::vector<Attribute> GltfVertexAttributes::finish(std::uint64_t vertices, Warnings& warnings) {
   std::vector<Attribute> attributes;
   if (hasTooMany_)
-    warnings.push_back(fmt::format("attributes beyond the first {} are left out", kMostColumns));
+    warnings.push_back(
+        {WarningCode::omitted, fmt::format("attributes beyond the first {} are left out", kMostColumns)});
   for (Column& column : columns_) {
     const std::string name = text::quotedToken(column.fileName);
     if (column.filled < vertices)
-      warnings.push_back(fmt::format("{} of {} {} not have the attribute {}, which is {} there",
-                                     vertices - column.filled, vertices,
-                                     agreeing(vertices, "vertex does", "vertices do"), name,
-                                     column.attribute.meaning == AttributeMeaning::color ? 1 : 0));
+      warnings.push_back(
+          {WarningCode::completed,
+           fmt::format("{} of {} {} not have the attribute {}, which is {} there", vertices - column.filled,
+                       vertices, agreeing(vertices, "vertex does", "vertices do"), name,
+                       column.attribute.meaning == AttributeMeaning::color ? 1 : 0)});
     if (column.hasSeveralTypes)
       warnings.push_back(
-          fmt::format("the attribute {} has several types of numbers, which become one", name));
+          {WarningCode::completed,
+           fmt::format("the attribute {} has several types of numbers, which become one", name)});
     if (column.isGuessed)
-      warnings.push_back(fmt::format(
-          "the attribute {} is of whole numbers that are not marked as fractions, and taken for them", name));
+      warnings.push_back(
+          {WarningCode::completed,
+           fmt::format(
+               "the attribute {} is of whole numbers that are not marked as fractions, and taken for them",
+               name)});
     fillTo(column.attribute, vertices);
     attributes.push_back(std::move(column.attribute));
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/warning.h"
 #include "io/formats/glb/reader/vertex_group.h"
 #include "surface/model/attribute.h"
 
@@ -30,7 +31,7 @@ class GltfVertexAttributes {
 
   /// @param vertices Of the mesh.
   /// @param warnings Gets a sentence for each attribute that was completed or changed its type.
-  std::vector<Attribute> finish(std::uint64_t vertices, std::vector<std::string>& warnings);
+  std::vector<Attribute> finish(std::uint64_t vertices, Warnings& warnings);
 
  private:
   struct Column {
