@@ -10,7 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   arete::fuzz::useMesh(mesh);
   if (!mesh) return 0;
   arete::fuzz::require(mesh->mesh.validate().has_value(), "attributes fit the mesh");
-  arete::fuzz::requireClear(arete::applyTextureTransforms(mesh->mesh));
+  for (const std::string& sentence : arete::applyTextureTransforms(mesh->mesh))
+    arete::fuzz::requireClear(arete::Error{arete::ErrorCode::invalidData, sentence, {}});
   arete::fuzz::require(mesh->mesh.validate().has_value(), "they fit it without transforms of textures");
   return 0;
 }

@@ -60,7 +60,7 @@ void requireClear(const Error& error) {
   require(false, "an error is one printable sentence");
 }
 
-void requireClear(std::span<const std::string> warnings) {
+void requireClear(const Warnings& warnings) {
   for (const std::string& warning : warnings) requireClear(Error{ErrorCode::invalidData, warning, {}});
 }
 

@@ -22,7 +22,7 @@ void require(bool kept, const char* promise);
 /// An error is one printable sentence of bearable length; no file can put control characters into it, for it
 /// goes to terminals.
 void requireClear(const Error& error);
-void requireClear(std::span<const std::string> warnings);
+void requireClear(const Warnings& warnings);
 
 /// A mesh that a reader let through: indices in range, coordinates finite, and `measure` answers over it.
 void useMesh(const Result<MeshFile>& mesh);

@@ -48,7 +48,7 @@ void usePoints(const Result<PointRead>& read) {
 
 /// Places with what else their lines say.
 void usePlaces(const char* path, const RunContext& context) {
-  std::vector<std::string> warnings;
+  Warnings warnings;
   PointAttributes attributes;
   const auto plan = readPointText(path, {}, warnings, context, PointTextColumns::plan, &attributes);
   fuzz::requireClear(warnings);

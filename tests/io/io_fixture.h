@@ -21,6 +21,8 @@
 #include <string>
 #include <vector>
 
+#include "sentences_of.h"
+
 namespace arete::test {
 
 /// A folder of the test's own, removed with everything in it.
@@ -115,10 +117,13 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-inline std::string joined(const std::vector<std::string>& warnings) {
+inline std::string joined(const std::vector<std::string>& sentences) {
   std::string all;
-  for (const std::string& warning : warnings) all += warning + "\n";
+  for (const std::string& sentence : sentences) all += sentence + "\n";
   return all;
+}
+inline std::string joined(const Warnings& warnings) {
+  return joined(sentencesOf(warnings));
 }
 
 }  // namespace arete::test

@@ -84,9 +84,9 @@ TEST(FlightJson, WarnsOfNamesThatItDoesNotKnowAndOfAMissingCrs) {
       georeferenceOf("EPSG:32611"));
   ASSERT_TRUE(read);
   ASSERT_EQ(read->warnings.size(), 3);
-  EXPECT_NE(read->warnings[0].find("\"sped\""), std::string::npos);
-  EXPECT_NE(read->warnings[1].find("no CRS"), std::string::npos);
-  EXPECT_NE(read->warnings[2].find("key frame 2 knows no \"roll\""), std::string::npos);
+  EXPECT_NE(read->warnings[0].sentence.find("\"sped\""), std::string::npos);
+  EXPECT_NE(read->warnings[1].sentence.find("no CRS"), std::string::npos);
+  EXPECT_NE(read->warnings[2].sentence.find("key frame 2 knows no \"roll\""), std::string::npos);
 }
 
 TEST(FlightJson, BringsHeightsIntoTheUnitOfTheDem) {

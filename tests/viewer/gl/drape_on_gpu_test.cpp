@@ -307,7 +307,7 @@ TEST(Drape, APictureTooLargeForTheDeviceIsToldToBeCoarser) {
   ASSERT_TRUE(drape) << drape.error().describe();
   EXPECT_LT(drape->columns(), 600u);
   ASSERT_EQ(drape->warnings().size(), 1u);
-  EXPECT_NE(drape->warnings()[0].find("coarse"), std::string::npos);
+  EXPECT_NE(drape->warnings()[0].sentence.find("coarse"), std::string::npos);
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST(SurfaceView, ShowsAPictureTheRightWayUpAndRound) {
   ASSERT_TRUE(model) << model.error().describe();
   Result<HeadlessSurface> view = viewOf(*model);
   ASSERT_TRUE(view) << view.error().describe();
-  EXPECT_TRUE(view->view().warnings().empty()) << view->view().warnings().front();
+  EXPECT_TRUE(view->view().warnings().empty()) << view->view().warnings().front().sentence;
   SurfaceViewSettings settings;
   settings.look.isShaded = false;
   ASSERT_TRUE(view->draw(fromAbove(*model), settings));
@@ -128,7 +128,8 @@ TEST(SurfaceView, SaysWhichPictureCannotBeShown) {
   Result<HeadlessSurface> view = viewOf(*model);
   ASSERT_TRUE(view) << view.error().describe();
   ASSERT_EQ(view->view().warnings().size(), 1u);
-  EXPECT_NE(view->view().warnings()[0].find("broken.png"), std::string::npos) << view->view().warnings()[0];
+  EXPECT_NE(view->view().warnings()[0].sentence.find("broken.png"), std::string::npos)
+      << view->view().warnings()[0].sentence;
 }
 
 TEST(SurfaceView, KeepsABudgetAndSaysWhichToleranceIsReached) {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "io/mesh_fixture.h"
+#include "sentences_of.h"
 
 namespace arete {
 namespace {
@@ -58,7 +59,7 @@ TEST(TwoDmRead, ReadsForeignFilesUnderAnyNumbers) {
     EXPECT_EQ(file->mesh.triangles,
               (std::vector<std::array<std::uint32_t, 3>>{{1, 3, 0}, {1, 0, 2}, {1, 3, 0}}));
     EXPECT_EQ(materialsOf(*file), (std::vector<double>{1, 1, 0}));
-    EXPECT_EQ(file->warnings,
+    EXPECT_EQ(test::sentencesOf(file->warnings),
               (std::vector<std::string>{
                   "1 of its 2 elements has values that are no number of a material; these are left out",
                   "its cards \"BEGPARAMDEF\" (1), \"E2L\" (1), \"MESHNAME\" (1), \"NS\" (1) are left out"}));
@@ -155,7 +156,8 @@ TEST(TwoDmRead, NamesTheCardsThatItLeavesOutAndSkipsTheirLines) {
       EXPECT_EQ(file->mesh.triangles.size(), 1u) << text;
       const std::string card = rest.substr(0, rest.find(' '));
       ASSERT_EQ(file->warnings.size(), 1u) << text;
-      EXPECT_TRUE(file->warnings[0].starts_with("its cards \"" + card)) << file->warnings[0];
+      EXPECT_TRUE(file->warnings[0].sentence.starts_with("its cards \"" + card))
+          << file->warnings[0].sentence;
     }
   }
   // Numbers behind a node or an element are no lines of another card: the file is damaged.

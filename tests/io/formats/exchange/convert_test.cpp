@@ -61,7 +61,7 @@ TEST(ConvertMesh, WarnsThatRoundedCoordinatesLookExactInAnExactFormat) {
   const auto converted = convertMesh(std::move(*rounded), folder.file("b.obj"));
   ASSERT_TRUE(converted);
   ASSERT_EQ(converted->warnings.size(), 1u);
-  EXPECT_TRUE(contains(converted->warnings[0], "OBJ")) << converted->warnings[0];
+  EXPECT_TRUE(contains(converted->warnings[0].sentence, "OBJ")) << converted->warnings[0].sentence;
 }
 
 TEST(ConvertMesh, ReplacesTheCrsByTheStatedOne) {

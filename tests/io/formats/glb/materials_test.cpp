@@ -13,6 +13,7 @@
 #include "io/formats/glb/texture_transform.h"
 #include "io/glb_fixture.h"
 #include "io/mesh_fixture.h"
+#include "sentences_of.h"
 
 namespace arete {
 namespace {
@@ -89,7 +90,8 @@ TEST_F(GltfMaterial, HasFieldsTexturesAndTheRestAsWritten) {
   EXPECT_EQ(bytesOf(file.mesh.pictures[0]), "PNG bytes");
   EXPECT_EQ(file.mesh.pictures[1].mimeType, "image/jpeg") << "as the URI says";
   EXPECT_EQ(bytesOf(file.mesh.pictures[1]), "JPEG");
-  EXPECT_EQ(file.warnings, (std::vector<std::string>{"1 picture that no material uses is left out"}));
+  EXPECT_EQ(test::sentencesOf(file.warnings),
+            (std::vector<std::string>{"1 picture that no material uses is left out"}));
 }
 
 TEST_F(GltfMaterial, IsReadWithoutWhatIsDamaged) {

@@ -10,6 +10,7 @@
 #include "io/geo/crs/names.h"
 #include "io/glb_fixture.h"
 #include "io/mesh_fixture.h"
+#include "sentences_of.h"
 
 namespace arete {
 namespace {
@@ -185,7 +186,7 @@ TEST(GlbRead, NamesWhatItLeavesOut) {
   ASSERT_TRUE(file) << file.error().describe();
   EXPECT_EQ(file->mesh.positions[1], (Vec3{7, 4, 0})) << "moved by the target and put by the node";
   EXPECT_TRUE(file->mesh.vertexAttributes.empty());
-  EXPECT_EQ(file->warnings,
+  EXPECT_EQ(test::sentencesOf(file->warnings),
             (std::vector<std::string>{
                 "2 primitives of points or lines are left out",
                 "the skin of 1 node is left out: its mesh stands where the node places it",

@@ -127,8 +127,9 @@ TEST_F(MeshFacesTest, AreNamedWhereTheyCrossThemselves) {
     const Result<MeshFile> file = readMesh(put(name, text));
     ASSERT_TRUE(file) << file.error().describe();
     ASSERT_EQ(file->warnings.size(), 1u);
-    EXPECT_NE(file->warnings[0].find("2 of its 3 faces"), std::string::npos) << file->warnings[0];
-    EXPECT_NE(file->warnings[0].find("face 2"), std::string::npos) << file->warnings[0];
+    EXPECT_NE(file->warnings[0].sentence.find("2 of its 3 faces"), std::string::npos)
+        << file->warnings[0].sentence;
+    EXPECT_NE(file->warnings[0].sentence.find("face 2"), std::string::npos) << file->warnings[0].sentence;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "io/mesh_file_fixture.h"
+#include "sentences_of.h"
 
 namespace arete {
 namespace {
@@ -167,7 +168,7 @@ TEST_F(Pictures, ThatCannotBeReadKeepTheirNameWithAWarning) {
   EXPECT_EQ(placer.place("maps\\none.png").value(), "maps\\none.png");
   EXPECT_EQ(placer.place("maps\\none.png").value(), "maps\\none.png");
   EXPECT_EQ(placer.place("#7").value(), "");
-  EXPECT_EQ(placer.warnings(),
+  EXPECT_EQ(test::sentencesOf(placer.warnings()),
             (std::vector<std::string>{"the picture \"maps\\none.png\", which does not exist",
                                       "the picture \"#7\", which is no picture of the mesh"}));
   PicturePlacer pipe(source, "/dev/null");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/io_fixture.h"
+#include "sentences_of.h"
 
 namespace arete {
 namespace {
@@ -90,13 +91,14 @@ TEST_F(MeshTextReaderTest, NamesTheLineOfAnErrorAndStopsThere) {
 
 TEST_F(MeshTextReaderTest, CountsWhatIsLeftOutUpToEightWords) {
   EXPECT_TRUE(read("a\n")->warnings.empty());
-  EXPECT_EQ(read("!b\n!a\n!b\n")->warnings,
+  EXPECT_EQ(test::sentencesOf(read("!b\n!a\n!b\n")->warnings),
             std::vector<std::string>{"its lines \"a\" (1), \"b\" (2) are left out"});
   std::string many;
   for (char c = 'a'; c <= 'l'; ++c) many += std::string("!") + c + "\n";
   const auto file = read(many + many);
   ASSERT_EQ(file->warnings.size(), 1u);
-  EXPECT_TRUE(file->warnings[0].ends_with("\"h\" (2) and 8 more are left out")) << file->warnings[0];
+  EXPECT_TRUE(file->warnings[0].sentence.ends_with("\"h\" (2) and 8 more are left out"))
+      << file->warnings[0].sentence;
 }
 
 TEST_F(MeshTextReaderTest, StopsWhenCancelled) {

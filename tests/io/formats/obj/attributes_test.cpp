@@ -125,7 +125,7 @@ TEST_F(ObjAttributes, ValuesThatAreNotFiniteAreZerosWithAWarning) {
   EXPECT_EQ(at(file.mesh, "texcoord", 0, 1), (Numbers{0, 0}));
   EXPECT_EQ(at(file.mesh, "normal", 0, 1), (Numbers{0, 0, 1}));
   ASSERT_EQ(file.warnings.size(), 1u);
-  EXPECT_NE(file.warnings[0].find("5 numbers"), std::string::npos) << file.warnings[0];
+  EXPECT_NE(file.warnings[0].sentence.find("5 numbers"), std::string::npos) << file.warnings[0].sentence;
 }
 
 TEST_F(ObjAttributes, VerticesHaveColours) {
@@ -206,10 +206,10 @@ TEST_F(ObjAttributes, WhatIsNoFaceIsNamed) {
   EXPECT_EQ(file.mesh.triangles.size(), 1u);
   EXPECT_EQ(file.mesh.faceOf, std::vector<std::uint32_t>{2});
   ASSERT_EQ(file.warnings.size(), 2u);
-  EXPECT_EQ(file.warnings[0],
+  EXPECT_EQ(file.warnings[0].sentence,
             "2 of its 3 faces have fewer than three corners and are left out (the first is face 1)");
   for (const char* named : {"\"l\" (1)", "\"p\" (2)", "\"curv\" (1)", "\"cstype\" (1)"})
-    EXPECT_NE(file.warnings[1].find(named), std::string::npos) << file.warnings[1];
+    EXPECT_NE(file.warnings[1].sentence.find(named), std::string::npos) << file.warnings[1].sentence;
 }
 
 TEST_F(ObjAttributes, AMillionKeywordsAreOneSentence) {
@@ -217,7 +217,7 @@ TEST_F(ObjAttributes, AMillionKeywordsAreOneSentence) {
   for (int i = 0; i < 1000; ++i) text += "k" + std::to_string(i) + " 1\n";
   const MeshFile file = read(text);
   ASSERT_EQ(file.warnings.size(), 1u);
-  EXPECT_LT(file.warnings[0].size(), 300u);
+  EXPECT_LT(file.warnings[0].sentence.size(), 300u);
 }
 
 }  // namespace

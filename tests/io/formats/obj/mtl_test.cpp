@@ -205,7 +205,7 @@ TEST_F(MtlFiles, AreFoundByOneNameOrSeveralWithBlanksOrWithout) {
     EXPECT_EQ(file.mesh.materialOf, (std::vector<std::uint32_t>{0, 1, MeshAttributes::kNone, 0}));
     EXPECT_EQ(file.mesh.materials[0].baseColor[0], 1);  // the library that is named first
     EXPECT_EQ(file.mesh.materials[0].baseColor[2], 0);
-    EXPECT_TRUE(file.warnings.empty()) << lines << file.warnings[0];
+    EXPECT_TRUE(file.warnings.empty()) << lines << file.warnings[0].sentence;
   }
 }
 
@@ -222,11 +222,11 @@ TEST_F(MtlFiles, ThatAreMissingLeaveTheNamesOfTheirMaterials) {
   EXPECT_EQ(names(file), (std::vector<std::string>{"red", "green"}));
   EXPECT_EQ(file.mesh.materials[0], Material{.name = "red"});
   ASSERT_EQ(file.warnings.size(), 3u);
-  EXPECT_EQ(file.warnings[0], "its materials are in \"none.mtl\", which does not exist");
+  EXPECT_EQ(file.warnings[0].sentence, "its materials are in \"none.mtl\", which does not exist");
   const MeshFile other = read("mtllib sub dir/four.mtl\n");
   EXPECT_EQ(names(other), (std::vector<std::string>{"blue", "red", "green"}));
   ASSERT_EQ(other.warnings.size(), 1u);
-  EXPECT_EQ(other.warnings[0], "2 of its materials are in no library (the first is \"red\")");
+  EXPECT_EQ(other.warnings[0].sentence, "2 of its materials are in no library (the first is \"red\")");
 }
 
 TEST_F(MtlFiles, MayBeUtf16) {

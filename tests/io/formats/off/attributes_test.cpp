@@ -47,7 +47,7 @@ class OffAttributes : public MeshFileTest {
     }
     EXPECT_TRUE(file->mesh.validate());
     EXPECT_EQ(file->warnings.size(), warnings)
-        << text << (warnings < file->warnings.size() ? file->warnings[0] : "");
+        << text << (warnings < file->warnings.size() ? file->warnings[0].sentence : "");
     return std::move(*file);
   }
 };
@@ -133,7 +133,7 @@ TEST_F(OffAttributes, ThatTheKeywordDoesNotStateAreColorsIfTheyCanBe) {
   const MeshFile colors = read("OFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 1 2 3 4\n0 1 0 0 0 0 0\n" + face, 1);
   ASSERT_EQ(colors.mesh.vertexAttributes.size(), 1u);
   EXPECT_EQ(colors.mesh.vertexAttributes[0].type, ScalarType::uint8);
-  EXPECT_NE(colors.warnings[0].find("colours"), std::string::npos);
+  EXPECT_NE(colors.warnings[0].sentence.find("colours"), std::string::npos);
   for (const std::string more : {"0.5 0.5 1", "300 0 0", "1 2", "1 2 3 4 5", "7"}) {
     const MeshFile other =
         read("OFF\n3 1 0\n0 0 0 " + more + "\n1 0 0 " + more + "\n0 1 0 " + more + "\n" + face, 1);

@@ -87,7 +87,7 @@ TEST_F(OffRead, NamesWhatItDoesNotRead) {
   ASSERT_TRUE(small);
   EXPECT_EQ(small->mesh.triangles.size(), 1u);
   ASSERT_EQ(small->warnings.size(), 1u);
-  EXPECT_NE(small->warnings[0].find("2 faces"), std::string::npos);
+  EXPECT_NE(small->warnings[0].sentence.find("2 faces"), std::string::npos);
   // Cut short within the vertices or the faces.
   const std::string whole = "OFF\n5 2 0\n" + kVertices + kFaces;
   for (std::size_t length = 0; length + 2 < whole.size(); ++length)

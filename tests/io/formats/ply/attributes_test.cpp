@@ -149,8 +149,8 @@ TEST_F(PlyReadText, HasThePropertiesOfFacesForTheirTriangles) {
   EXPECT_EQ(faces[2].components, 2);
   EXPECT_EQ(numbersOf(faces[2]), (Numbers{0.5, 0.25, 0.5, 0.25, 3, 4}));
   ASSERT_EQ(file.warnings.size(), 2u);
-  EXPECT_NE(file.warnings[0].find("1 face of fewer than three corners"), std::string::npos);
-  EXPECT_NE(file.warnings[1].find("\"near\""), std::string::npos);
+  EXPECT_NE(file.warnings[0].sentence.find("1 face of fewer than three corners"), std::string::npos);
+  EXPECT_NE(file.warnings[1].sentence.find("\"near\""), std::string::npos);
 }
 
 TEST_F(PlyReadText, HasTextureCoordinatesOfCornersAndAMaterialForEachPicture) {
@@ -227,7 +227,7 @@ TEST_F(PlyReadText, ReadsNoListBeyondTheCornersOfItsFace) {
   const MeshFile none = read(head + "3 0 1 2 2 1 2\n3 0 1 2 1 1\n3 0 1 2 0\n");
   EXPECT_FALSE(none.mesh.hasWedges());
   ASSERT_EQ(none.warnings.size(), 1u);
-  EXPECT_NE(none.warnings[0].find("\"texcoord\""), std::string::npos);
+  EXPECT_NE(none.warnings[0].sentence.find("\"texcoord\""), std::string::npos);
   // All empty: an exporter that always states the property.
   EXPECT_TRUE(read(head + "3 0 1 2 0\n3 0 1 2 0\n3 0 1 2 0\n").warnings.empty());
 }
@@ -241,7 +241,7 @@ TEST_F(PlyReadText, BoundsWhatMissingListsTake) {
   const MeshFile file = read(text);
   EXPECT_TRUE(file.mesh.wedgeAttributes.empty());
   ASSERT_EQ(file.warnings.size(), 1u);
-  EXPECT_NE(file.warnings[0].find("\"big\""), std::string::npos);
+  EXPECT_NE(file.warnings[0].sentence.find("\"big\""), std::string::npos);
 }
 
 TEST_F(PlyReadText, ReadsTriangleStrips) {
@@ -283,7 +283,7 @@ TEST_F(PlyReadText, NamesTheElementsThatItLeavesOut) {
                              "element multi_patch 0\nproperty int a\nend_header\n" +
                              "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n0 1\n0.5\n");
   ASSERT_EQ(file.warnings.size(), 1u);
-  EXPECT_EQ(file.warnings[0], "its elements \"edge\" (1), \"camera\" (1) are left out");
+  EXPECT_EQ(file.warnings[0].sentence, "its elements \"edge\" (1), \"camera\" (1) are left out");
 }
 
 TEST_F(PlyReadText, SaysWhenNumbersDoNotFitTheirTypes) {
@@ -293,7 +293,7 @@ TEST_F(PlyReadText, SaysWhenNumbersDoNotFitTheirTypes) {
   EXPECT_EQ(numbersOf(file.mesh.vertexAttributes[0]), (Numbers{255, 1, 255}));
   EXPECT_EQ(numbersOf(file.mesh.vertexAttributes[1]), (Numbers{-128, 1, 1}));
   ASSERT_EQ(file.warnings.size(), 1u);
-  EXPECT_TRUE(file.warnings[0].starts_with("3 numbers")) << file.warnings[0];
+  EXPECT_TRUE(file.warnings[0].sentence.starts_with("3 numbers")) << file.warnings[0].sentence;
 }
 
 TEST_F(PlyReadText, KeepsErrorsOfFacesThatAreNone) {

@@ -235,7 +235,7 @@ TEST_F(PlyRead, LeavesOutWhatLinesHaveBeyondTheirProperties) {
       EXPECT_EQ(file->mesh.positions, positions) << one.body;
       EXPECT_EQ(file->mesh.triangles.size(), 2u);
       EXPECT_EQ(file->mesh.triangles.back(), (std::array<std::uint32_t, 3>{0, 2, 3})) << one.body;
-      const std::string warning = file->warnings.empty() ? "" : file->warnings[0];
+      const std::string warning = file->warnings.empty() ? "" : file->warnings[0].sentence;
       EXPECT_TRUE(*one.warning == 0 ? warning.empty() : warning.starts_with(one.warning))
           << one.body << warning;
     }

@@ -160,8 +160,8 @@ TEST(StlRead, LeavesOutBytesBehindTheTrianglesOfABinaryFile) {
       EXPECT_EQ(longer->mesh.triangles, exact->mesh.triangles);
       EXPECT_TRUE(exact->warnings.empty());
       ASSERT_EQ(longer->warnings.size(), 1u);
-      EXPECT_NE(longer->warnings[0].find(std::to_string(spare.size()) +
-                                         (spare.size() == 1 ? " byte is" : " bytes are")),
+      EXPECT_NE(longer->warnings[0].sentence.find(std::to_string(spare.size()) +
+                                                  (spare.size() == 1 ? " byte is" : " bytes are")),
                 std::string::npos);
     }
   // Whole records more than the header states: the header is wrong, and which it meant is not known.

@@ -167,7 +167,8 @@ TEST_F(Stl, SaysWhereNormalsContradictTheCorners) {
   const std::string three = facet(1, "0 0 -1") + facet(2, "0 0 -1.0") + facet(3);
   const MeshFile file = read("solid\n" + three + "endsolid\n");
   ASSERT_EQ(file.warnings.size(), 1u);
-  EXPECT_NE(file.warnings[0].find("2 of its 3 facets"), std::string::npos) << file.warnings[0];
+  EXPECT_NE(file.warnings[0].sentence.find("2 of its 3 facets"), std::string::npos)
+      << file.warnings[0].sentence;
   EXPECT_TRUE(read("solid\n" + facet(1, "nan 0 0") + facet(2, "") + facet(3, "0 0 x") + "endsolid\n")
                   .warnings.empty());
 }

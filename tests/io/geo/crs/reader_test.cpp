@@ -45,7 +45,7 @@ TEST(CrsReader, OpensAFileForAPersonOnly) {
 
 TEST(CrsReader, TakesTheStatedCrsBeforeThatOfTheFile) {
   const auto utm = crsFromText("EPSG:32611"), other = crsFromText("EPSG:32612");
-  std::vector<std::string> warnings;
+  Warnings warnings;
   EXPECT_TRUE(chooseCrs(nullptr, "", warnings)->IsEmpty());
   EXPECT_TRUE(chooseCrs(&*utm, "", warnings)->IsSame(&*utm));
   EXPECT_TRUE(chooseCrs(nullptr, "EPSG:32611", warnings)->IsSame(&*utm));

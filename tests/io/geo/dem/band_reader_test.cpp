@@ -47,7 +47,7 @@ class BandReaderTest : public ::testing::Test {
     return read;
   }
   TemporaryFolder folder_;
-  std::vector<std::string> warnings_;
+  Warnings warnings_;
 };
 
 TEST_F(BandReaderTest, StatedNodataReplacesTheDeclaredOne) {

@@ -26,7 +26,7 @@ using ::testing::internal::GetCapturedStderr;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 RasterHeightfield readRasterOrFail(const std::string& path, const RasterReadOptions& options = {},
-                                   std::vector<std::string>* warnings = nullptr) {
+                                   Warnings* warnings = nullptr) {
   auto read = readRaster(path, options);
   if (!read) {
     ADD_FAILURE() << read.error().describe();
@@ -142,7 +142,7 @@ TEST(RasterReader, ComparesNodataOfFloatsAsFloats) {
   spec.type = GDT_Float32;
   spec.values = {1.1, 2, -3.4028234663852886e38, 4, 5, 6};
   spec.adjust = [](GDALDataset& d) { d.GetRasterBand(1)->SetNoDataValue(1.1); };
-  std::vector<std::string> warnings;
+  Warnings warnings;
   const RasterHeightfield read = readRasterOrFail(writeRaster(folder.file("f.tif"), spec), {}, &warnings);
   EXPECT_TRUE(std::isnan(read.heights[0]));
   EXPECT_TRUE(contains(joined(warnings), "undeclared NODATA")) << joined(warnings);
@@ -164,7 +164,7 @@ TEST(RasterReader, TakesNanAndInfinityForNodata) {
   const double inf = std::numeric_limits<double>::infinity();
   spec.values = {kNan, 2, inf, -inf, 5, 6};
   spec.adjust = [](GDALDataset& d) { d.GetRasterBand(1)->SetNoDataValue(std::nan("")); };
-  std::vector<std::string> warnings;
+  Warnings warnings;
   expectHeights(readRasterOrFail(writeRaster(folder.file("inf.tif"), spec), {}, &warnings),
                 {kNan, 2, kNan, kNan, 5, 6});
   EXPECT_TRUE(contains(joined(warnings), "2 infinite heights")) << joined(warnings);
@@ -180,7 +180,7 @@ TEST(RasterReader, TakesNothingElseOutWhereNodataIsInfinite) {
       spec.values = {1, 2, 3, 4, 5, type == GDT_Int16 ? 6 : nodata};
       const double last = type == GDT_Int16 ? 6 : kNan;
       spec.adjust = [&](GDALDataset& d) { d.GetRasterBand(1)->SetNoDataValue(nodata); };
-      std::vector<std::string> warnings;
+      Warnings warnings;
       expectHeights(readRasterOrFail(writeRaster(folder.file("declared.tif"), spec), {}, &warnings),
                     {1, 2, 3, 4, 5, last});
       EXPECT_TRUE(warnings.empty()) << joined(warnings);
@@ -256,7 +256,7 @@ TEST(RasterReader, PlacesThePictureOfATerrainWithItsFirstRowInTheNorth) {
   RasterSpec spec;
   spec.geoTransform.reset();
   spec.crs.clear();
-  std::vector<std::string> warnings;
+  Warnings warnings;
   for (const char* crs : {"", "EPSG:4326"}) {
     spec.crs = crs;
     warnings.clear();
@@ -319,7 +319,7 @@ TEST(RasterReader, TakesHeightUnitAndDatumFromACompoundCrs) {
   spec.crs = "EPSG:2263";
   RasterReadOptions options;
   options.crs = "EPSG:2263+5703";  // NAVD88 height in metres over feet in the plan
-  std::vector<std::string> warnings;
+  Warnings warnings;
   g = readRasterOrFail(writeRaster(folder.file("m.tif"), spec), options, &warnings).georeference;
   EXPECT_EQ(g.verticalUnitMetres, 1);
   EXPECT_NEAR(g.linearUnitMetres, 1200.0 / 3937.0, 1e-12);
@@ -337,7 +337,7 @@ TEST(RasterReader, PrefersTheUnitOfTheBand) {
     EXPECT_NEAR(g.verticalUnitMetres, metres, 1e-15);
   }
   spec.adjust = [](GDALDataset& d) { d.GetRasterBand(1)->SetUnitType("smoots"); };
-  std::vector<std::string> warnings;
+  Warnings warnings;
   EXPECT_EQ(readRasterOrFail(writeRaster(folder.file("unit.tif"), spec), {}, &warnings)
                 .georeference.verticalUnitMetres,
             1);
@@ -351,7 +351,7 @@ TEST(RasterReader, UsesTheStatedCrsWhereTheFileHasNone) {
   const std::string path = writeRaster(folder.file("none.tif"), spec);
   RasterReadOptions options;
   options.crs = "EPSG:4326";
-  std::vector<std::string> warnings;
+  Warnings warnings;
   EXPECT_TRUE(readRasterOrFail(path, options, &warnings).georeference.isGeographic);
   EXPECT_TRUE(warnings.empty()) << joined(warnings);
   options.crs = "EPSG:notacode";
@@ -370,7 +370,7 @@ TEST(RasterReader, NamesTheBandsThereAre) {
     EXPECT_EQ(error.code, ErrorCode::usage);
     EXPECT_TRUE(contains(error.message, "3 bands")) << error.describe();
   }
-  std::vector<std::string> warnings;
+  Warnings warnings;
   readRasterOrFail(path, {}, &warnings);
   EXPECT_TRUE(contains(joined(warnings), "3 bands")) << joined(warnings);
   readRasterOrFail(path, withBand(3), &warnings);

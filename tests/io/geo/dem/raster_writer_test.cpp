@@ -69,7 +69,7 @@ TEST(RasterWriter, WritesWhatTheReaderReads) {
       EXPECT_EQ(folder.count(), 1u) << "the temporary file stayed";
       const auto read = readRaster(path);
       ASSERT_TRUE(read) << read.error().describe();
-      EXPECT_TRUE(read->warnings.empty()) << read->warnings.front();
+      EXPECT_TRUE(read->warnings.empty()) << read->warnings.front().sentence;
       EXPECT_EQ(read->heightfield.columns, 300u);
       EXPECT_EQ(read->heightfield.rows, 517u);
       expectEqual(read->heightfield.heights, values, sample == GeoTiffOptions::Sample::float32);

@@ -37,7 +37,7 @@ class DrapePlacementTest : public ::testing::Test {
   }
   TemporaryFolder folder_;
   TerrainModel model_ = terrainAt(folder_, kUtm, kDem);
-  std::vector<std::string> warnings_;
+  Warnings warnings_;
 };
 
 TEST_F(DrapePlacementTest, OfAParallelImageIsItsOwnGridOverTheTerrain) {

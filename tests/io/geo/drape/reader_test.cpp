@@ -328,7 +328,7 @@ TEST(DrapeReader, ALargerPictureIsReadCoarserAndSaysSo) {
     EXPECT_LE(std::uint64_t(reader->columns()) * reader->rows(), 15000u);
     EXPECT_GT(std::uint64_t(reader->columns()) * reader->rows(), 14000u);
     ASSERT_EQ(reader->warnings().size(), 1u);
-    EXPECT_NE(reader->warnings()[0].find("coarse"), std::string::npos);
+    EXPECT_NE(reader->warnings()[0].sentence.find("coarse"), std::string::npos);
     const Whole all = readAll(*reader);
     // The file, two overviews and the warp round to whole numbers, halves upwards; red rises where blue
     // falls, so that a shift shows in their difference and rounding does not.
@@ -457,7 +457,8 @@ TEST(DrapeReader, OfTwoPartsAWholeTurnApartTheLargerIsDrawn) {
   Result<DrapeReader> reader = DrapeReader::open(path, model);
   ASSERT_TRUE(reader) << reader.error().describe();
   ASSERT_EQ(reader->warnings().size(), 1u);
-  EXPECT_NE(reader->warnings()[0].find("whole turns apart"), std::string::npos) << reader->warnings()[0];
+  EXPECT_NE(reader->warnings()[0].sentence.find("whole turns apart"), std::string::npos)
+      << reader->warnings()[0].sentence;
   EXPECT_LT(placeOf(*reader, model, 0, 0).x, -150) << "30 of its 50 degrees";
 }
 

@@ -33,7 +33,7 @@ class DrapeSourceTest : public ::testing::Test {
       dataset.GetRasterBand(++band)->SetColorInterpretation(meaning);
   }
   TemporaryFolder folder_;
-  std::vector<std::string> warnings_;
+  Warnings warnings_;
 };
 
 TEST_F(DrapeSourceTest, TakesTheBandsThatTheFileNames) {

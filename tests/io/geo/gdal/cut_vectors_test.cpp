@@ -74,7 +74,7 @@ std::string squaresIn(GDALDriver& driver, const fs::path& folder, const char* op
 }
 
 /// All features as a text. Errors: those of the readers.
-Result<std::string> featuresOf(const std::string& path, std::vector<std::string>& warnings) {
+Result<std::string> featuresOf(const std::string& path, Warnings& warnings) {
   GdalErrors errors;
   const auto dataset = openVectors(path, "set of polygons", errors, warnings);
   if (!dataset) return tl::unexpected(dataset.error());
@@ -118,7 +118,7 @@ TEST(CutVectors, OfEveryFormatAreRefusedWholeOrWarnedOf) {
       const fs::path own = folder.file(name + std::to_string(o));
       const std::string path = squaresIn(driver, own, options[o]);
       if (path.empty()) continue;
-      std::vector<std::string> said;
+      Warnings said;
       const auto whole = featuresOf(path, said);
       if (!whole || whole->empty()) continue;
       ++formats;
@@ -130,7 +130,7 @@ TEST(CutVectors, OfEveryFormatAreRefusedWholeOrWarnedOf) {
       for (const double part : {0.25, 0.4, 0.5, 0.6, 0.75, 0.9, 0.97, 0.99, 0.999}) {
         const auto left = std::size_t(double(bytes.size()) * part);
         write(largest, std::string_view(bytes).substr(0, left));
-        std::vector<std::string> warnings;
+        Warnings warnings;
         const auto cut = featuresOf(path, warnings);
         if (cut && *cut != *whole) {
           EXPECT_FALSE(warnings.empty()) << name << " cut to " << left << " of " << bytes.size()
@@ -164,7 +164,7 @@ TEST(CutVectors, OfAGeoJsonTextSequenceNameTheBrokenRecord) {
                                       {"", "\r\n"},
                                       {"\x1e\n", "\n\n"}}) {
     const std::string whole = recordsOf(40, before, after);
-    std::vector<std::string> warnings;
+    Warnings warnings;
     EXPECT_TRUE(checkWholeText(folder.write("w.geojsonl", whole), "GeoJSONSeq", warnings));
     const std::size_t last = whole.rfind('{', whole.rfind("\"type\":\"Feature\""));
     const std::size_t end = whole.rfind('}') + 1;
@@ -206,7 +206,7 @@ TEST(CutVectors, OfAGeoJsonTextSequenceMayBeDamagedAnywhere) {
            Case{one + "{", false},
            Case{one + "{\"a\\\"}", false},
        }) {
-    std::vector<std::string> warnings;
+    Warnings warnings;
     const Status status = checkWholeText(folder.write("a.geojsonl", c.text), "GeoJSONSeq", warnings);
     EXPECT_EQ(bool(status), c.isWhole) << c.text;
   }
@@ -214,7 +214,7 @@ TEST(CutVectors, OfAGeoJsonTextSequenceMayBeDamagedAnywhere) {
 
 TEST(CutVectors, OfATableEndInItsQuotes) {
   const TemporaryFolder folder;
-  std::vector<std::string> warnings;
+  Warnings warnings;
   EXPECT_TRUE(
       checkWholeText(folder.write("a.csv", "WKT,n\n\"POLYGON ((0 0,1 0,1 1,0 0))\",\"a \"\"b\"\"\n c\"\n"),
                      "CSV", warnings));

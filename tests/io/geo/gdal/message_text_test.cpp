@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "io/geo/gdal/support.h"
+#include "sentences_of.h"
 
 namespace arete {
 namespace {
@@ -34,11 +35,12 @@ TEST(GdalMessage, LosesWhatDiffersFromRunToRunAndWhatIsSecret) {
 
 TEST(GdalErrors, MoveEachMessageOnceToTheWarnings) {
   GdalErrors errors;
-  std::vector<std::string> warnings = {"GDAL: old"};
+  Warnings warnings = {{WarningCode::library, "GDAL: old"}};
   for (const char* said : {"old", "one", "two", "one", "read 0x55620f8539e0", "read 0x55620f8539f0"})
     CPLError(CE_Warning, CPLE_AppDefined, "%s", said);
   errors.moveTo(warnings);
-  EXPECT_EQ(warnings, (std::vector<std::string>{"GDAL: old", "GDAL: one", "GDAL: two", "GDAL: read"}));
+  EXPECT_EQ(test::sentencesOf(warnings),
+            (std::vector<std::string>{"GDAL: old", "GDAL: one", "GDAL: two", "GDAL: read"}));
   EXPECT_FALSE(errors.anyFailure());
   CPLError(CE_Failure, CPLE_AppDefined, "another");
   EXPECT_EQ(errors.firstFileFailure(), "");

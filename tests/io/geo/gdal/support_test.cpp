@@ -39,11 +39,11 @@ TEST(GdalErrors, BecomeAFewDistinctWarnings) {
   GdalErrors errors;
   report(CE_Debug, "not for people");
   for (int i = 0; i < 20; ++i) report(CE_Warning, ("message " + std::to_string(i % 7)).c_str());
-  std::vector<std::string> warnings = {"before"};
+  Warnings warnings = {{WarningCode::choice, "before"}};
   errors.moveTo(warnings);
   ASSERT_EQ(warnings.size(), 7u) << "one before, five kept and a count";
-  EXPECT_EQ(warnings[1], "GDAL: message 0");
-  EXPECT_EQ(warnings.back(), "GDAL: and 2 more messages");
+  EXPECT_EQ(warnings[1].sentence, "GDAL: message 0");
+  EXPECT_EQ(warnings.back().sentence, "GDAL: and 2 more messages");
   warnings.clear();
   errors.moveTo(warnings);
   EXPECT_TRUE(warnings.empty());

@@ -98,13 +98,13 @@ TEST_F(FeatureRowsTest, HaveKindsOfColumns) {
 
 TEST(TransformOf, FollowsTheCrsOfTheFileAndTheDem) {
   const auto geographic = crsFromText("OGC:CRS84");
-  std::vector<std::string> warnings;
+  Warnings warnings;
   // The file has a CRS.
   EXPECT_FALSE(transformOf(&*geographic, utmOfRows(), false, false, warnings)->isIdentity());
   EXPECT_TRUE(warnings.empty());
   EXPECT_FALSE(transformOf(&*geographic, utmOfRows(), true, false, warnings)->isIdentity());
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("`lonLat`"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].sentence.find("`lonLat`"), std::string::npos) << warnings[0].sentence;
   EXPECT_EQ(transformOf(&*geographic, {}, false, false, warnings).error().code, ErrorCode::invalidData);
   // It has none.
   warnings.clear();

@@ -65,7 +65,7 @@ TEST(PointTable, NamesTheColumnsOfATextWithoutNamesByTheirPlace) {
   EXPECT_EQ(table->attributes.at(1, 0), "6");
   EXPECT_EQ(table->attributes.at(1, 1), "");
   ASSERT_EQ(table->warnings.size(), 1u);
-  EXPECT_NE(table->warnings[0].find("1 field "), std::string::npos);
+  EXPECT_NE(table->warnings[0].sentence.find("1 field "), std::string::npos);
 }
 
 TEST(PointTable, BringsLongitudeAndLatitudeIntoTheDemsCrsAndStatesThemAsTheyWere) {

@@ -20,7 +20,7 @@ using test::TemporaryFolder;
 struct Read {
   PointRows rows;
   PointAttributes attributes;
-  std::vector<std::string> warnings;
+  Warnings warnings;
   Error error;
 };
 

@@ -83,7 +83,7 @@ TEST(RegionReader, ReadsMultipolygonsAndCollections) {
   const RegionRead region = readOrFail(folder.write("multi.geojson", geoJson({two, mixed})));
   EXPECT_EQ(region.rings.size(), 3u);
   ASSERT_EQ(region.warnings.size(), 2u) << "the other: the CRS of the DEM is not known";
-  EXPECT_TRUE(contains(region.warnings[0], "1 geometry that is no polygon"));
+  EXPECT_TRUE(contains(region.warnings[0].sentence, "1 geometry that is no polygon"));
   EXPECT_TRUE(isInside(region, 0.9, 0.5));
   EXPECT_TRUE(isInside(region, 28, 22));
   EXPECT_FALSE(isInside(region, 3, 3));
@@ -109,7 +109,7 @@ TEST(RegionReader, ClosesRingsThatAFileLeavesOpen) {
       R"({"type":"Polygon","coordinates":[[[20,0],[29,0],[29,9],[20,9],[20,0],[29,0],[29,9],[20,9]]]})";
   const RegionRead region =
       readOrFail(folder.write("open.geojson", geoJson({a, b, twice}, "32611")), "EPSG:32611");
-  EXPECT_EQ(region.warnings,
+  EXPECT_EQ(test::sentencesOf(region.warnings),
             std::vector<std::string>{"4 of its rings do not end where they begin; an edge closes each"});
   EXPECT_TRUE(isInside(region, 0.5, 3));
   EXPECT_FALSE(isInside(region, 1.5, 1.5)) << "in the hole";
@@ -155,7 +155,7 @@ TEST(RegionReader, WarnsWhereACrsIsMissing) {
   TemporaryFolder folder;
   const RegionRead region = readOrFail(folder.write("hole.geojson", geoJson({kWithHole})));
   ASSERT_EQ(region.warnings.size(), 1u);
-  EXPECT_TRUE(contains(region.warnings[0], "DEM is not known")) << region.warnings[0];
+  EXPECT_TRUE(contains(region.warnings[0].sentence, "DEM is not known")) << region.warnings[0].sentence;
   EXPECT_EQ(region.rings[0][2], (Vec2{10, 10}));
 }
 
@@ -278,7 +278,7 @@ TEST(RegionReader, WarnsOfAShapeThatIsNotCutAtTheAntimeridian) {
     const RegionRead region = readOrFail(folder.write("r.geojson", geoJson({shape})), "EPSG:4326");
     ASSERT_EQ(region.warnings.size(), warnings) << shape;
     if (warnings > 0) {
-      EXPECT_TRUE(contains(region.warnings[0], "half a turn")) << region.warnings[0];
+      EXPECT_TRUE(contains(region.warnings[0].sentence, "half a turn")) << region.warnings[0].sentence;
     }
   }
 }
