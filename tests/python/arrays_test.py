@@ -132,8 +132,9 @@ class Arrays(unittest.TestCase):
     def test_infinite_heights_are_nodata_and_it_is_said(self):
         heights = whole_heights().astype(np.float64)
         heights[1, 1] = np.inf
-        with self.assertWarnsRegex(UserWarning, "infinite"):
+        with self.assertWarnsRegex(arete.AreteWarning, "infinite") as said:
             model = arete.build(heights)
+        self.assertEqual(said.warning.code, "heights")
         self.assertTrue(np.isnan(model.height(1.5, ROWS - 1.5)))
 
     def test_an_array_without_a_place_counts_columns_and_rows_upwards(self):
