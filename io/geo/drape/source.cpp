@@ -15,6 +15,7 @@
 
 #include "engine/base/counted.h"
 #include "io/geo/gdal/zipped_raster.h"
+#include "io/geo/network/virtual_text.h"
 
 namespace arete {
 namespace {
@@ -116,8 +117,9 @@ Result<DrapeSource> openLevel(const std::string& path, const std::vector<int>& b
   if (overview) {
     CPLStringList options;
     options.SetNameValue("OVERVIEW_LEVEL", std::to_string(*overview).c_str());
-    source.opened.push(GdalDatasetPtr(GDALDataset::Open(gdalPath.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY,
-                                                        nullptr, options.List(), nullptr)));
+    source.opened.push(GdalDatasetPtr(GDALDataset::Open(servedDatasetPath(gdalPath).c_str(),
+                                                        GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr,
+                                                        options.List(), nullptr)));
   } else {
     source.opened.push(openGdal(gdalPath, GDAL_OF_RASTER));
   }
