@@ -13,7 +13,7 @@ struct HttpReply {
   std::string problem;     ///< why there are no bytes; empty: there are
   int status = 0;          ///< of HTTP, where it is an error: 404
   bool isLasting = false;  ///< the same request would fail again: no such host, nothing listens there
-  double retryAfter = 0;   ///< seconds that an error asks for; 0: not stated
+  double retryAfter = 0;   ///< seconds after which the server wants the next request; 0: not stated
   std::vector<std::byte> bytes;
   /// Headers; empty where the server sent none. All are texts of the server.
   std::string tag, date, range, length, encoding;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/result.h"
 #include "io/files/byte_source.h"
 #include "io/files/network/checked_request.h"
 
@@ -31,8 +32,8 @@ class RemoteFile final : public ByteSource {
   /// Why the file cannot be read, with its address. Errors: notFound: the server answers 404 or 410.
   /// unreadable.
   const std::optional<Error>& problem() const { return problem_; }
-  /// Whether the server says that there is no such file (403 included: stores of clouds say no more). It may
-  /// be one of the many that a driver looks for beside its own.
+  /// Whether the server lacks the file, as far as it says (403 included: stores of clouds say no more). It
+  /// may be one of the many that a driver looks for beside its own.
   bool isAbsent() const { return isAbsent_; }
 
   std::uint64_t size() const override { return length_; }

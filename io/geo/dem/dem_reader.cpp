@@ -113,7 +113,9 @@ Result<DemRead> readAsPoints(const std::string& path, bool text, const SourceRea
   pointOptions.nodata = reading.nodata;
   pointOptions.verticalUnit = reading.verticalUnit;
   pointOptions.isDepth = reading.isDepth;
+  NetworkReading network(context.cancel);
   ARETE_TRY(auto read, readPoints(path, pointOptions, context));
+  if (Status same = network.finish(); !same) return failure(same.error().code, same.error().message, path);
   if (text) {
     if (auto raster = asRaster(read.heightfield)) {
       read.warnings.push_back(

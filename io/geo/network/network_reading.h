@@ -36,15 +36,14 @@ class NetworkReading {
 };
 
 /// The file of an address, or of "?" and options with an address (io/geo/network/network_address.h): the one
-/// that this thread's reading keeps, or a new one. A failure other than that there is no such file is
-/// recorded.
+/// that this thread's reading keeps, or a new one. A failure is recorded, unless the server lacks the file.
 std::shared_ptr<const RemoteFile> remoteFile(const std::string& name);
 
 /// Makes a failure an error of GDAL and of this thread's reading, whatever the driver does about it.
 void recordNetworkFailure(const Error& error);
 
-/// Why the file of the network that a path leads to cannot be read. May ask the server where the path is that
-/// of the file itself; of an archive of the network only this thread's reading knows.
+/// Why the file of the network that a path leads to cannot be read. May ask the server, unless the file is an
+/// archive and the path goes on in it: then this thread's reading knows, or nothing does.
 ///
 /// @param path As servedPath() returns it.
 std::optional<Error> networkProblem(const std::string& path);

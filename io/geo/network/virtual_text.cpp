@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which elements name files is a list, since an address in other ones is no file (that of a CRS, a note in
+// Which elements name files is a list, since other ones may have addresses as well (of a CRS, of a note in
 // the metadata). A name may be the text of another VRT. A file that a VRT names is looked into, unless its
-// extension is that of a format that names no others: a mosaic may have thousands of these.
+// extension says that its format names no others: a mosaic may have thousands of these.
 #include "io/geo/network/virtual_text.h"
 
 #include <cpl_conv.h>

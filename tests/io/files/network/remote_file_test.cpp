@@ -94,9 +94,8 @@ TEST(RemoteFile, GivesTheBytesOfAnyRange) {
 }
 
 TEST(RemoteFile, OfAServerWithoutRangesIsReadOnce) {
-  const auto server = std::make_shared<FakeServer>(someBytes(1000, 1), [](HttpReply& reply, int) {
-    reply.range.clear();
-  });
+  const auto server =
+      std::make_shared<FakeServer>(someBytes(1000, 1), [](HttpReply& reply, int) { reply.range.clear(); });
   const RemoteFile file = openedFrom(server);
   std::vector<std::byte> got(1000);
   ASSERT_TRUE(file.read(0, got));
@@ -129,8 +128,8 @@ TEST(RemoteFile, RefusesEveryAnswerThatIsNotWhatWasAskedFor) {
          r.length = "3000000";
        }}};
   for (const auto& [sentence, spoil] : lies) {
-    const auto server = std::make_shared<FakeServer>(
-        someBytes(3000000, 2), [spoil = spoil](HttpReply& reply, int number) {
+    const auto server =
+        std::make_shared<FakeServer>(someBytes(3000000, 2), [spoil = spoil](HttpReply& reply, int number) {
           if (number > 1) spoil(reply);
         });
     const RemoteFile file = openedFrom(server);
@@ -149,9 +148,8 @@ TEST(RemoteFile, RefusesEveryAnswerThatIsNotWhatWasAskedFor) {
 }
 
 TEST(RemoteFile, IsNotThePartThatAServerSendsWithoutSayingSo) {
-  const auto server = std::make_shared<FakeServer>(someBytes(3000000, 3), [](HttpReply& reply, int) {
-    reply.range.clear();
-  });
+  const auto server =
+      std::make_shared<FakeServer>(someBytes(3000000, 3), [](HttpReply& reply, int) { reply.range.clear(); });
   const RemoteFile file = openedFrom(server);
   ASSERT_TRUE(file.problem());
   EXPECT_NE(file.problem()->message.find("a part of the file"), std::string::npos);
@@ -209,9 +207,8 @@ TEST(RemoteFile, SaysWhetherThereIsNoSuchFile) {
 }
 
 TEST(RemoteFile, EndsItsRetriesWhereTheReadingIsStopped) {
-  const auto server = std::make_shared<FakeServer>(someBytes(10, 4), [](HttpReply& reply, int) {
-    reply.problem = "lost";
-  });
+  const auto server =
+      std::make_shared<FakeServer>(someBytes(10, 4), [](HttpReply& reply, int) { reply.problem = "lost"; });
   server->isStopped = true;
   EXPECT_TRUE(openedFrom(server, 100).problem());
   EXPECT_EQ(server->requests, 1);

@@ -13,27 +13,21 @@ namespace {
 TEST(NetworkPath, OfAnAddressIsUnderOurPrefixWhereverItStands) {
   const std::string own = servedName();
   ASSERT_FALSE(own.empty());
-  for (const auto& [path, served] : {std::pair{"https://h/a.tif?sig=1", own + "/https://h/a.tif?sig=1"},
-                                     {"HTTP://h/a.tif", own + "/HTTP://h/a.tif"},
-                                     {"/vsicurl/http://h/a.tif", own + "/http://h/a.tif"},
-                                     {"/vsicurl/ftp://h/a.tif", own + "/ftp://h/a.tif"},
-                                     {"/vsicurl_streaming/http://h/a.csv", own + "/http://h/a.csv"},
-                                     {"/vsicurl?max_retry=1&url=http%3A%2F%2Fh%2Fa",
-                                      own + "?max_retry=1&url=http%3A%2F%2Fh%2Fa"},
-                                     {"/vsizip//vsicurl/http://h/a.zip/b.tif",
-                                      "/vsizip/" + own + "/http://h/a.zip/b.tif"},
-                                     {"/vsizip/vsicurl/http://h/a.zip/b.tif",
-                                      "/vsizip" + own + "/http://h/a.zip/b.tif"},
-                                     {"/vsizip/{/vsizip/{/vsicurl/http://h/a.zip}/b.zip}/c",
-                                      "/vsizip/{/vsizip/{" + own + "/http://h/a.zip}/b.zip}/c"},
-                                     {"/vsisubfile/9_9,/vsicurl/http://h/a",
-                                      "/vsisubfile/9_9," + own + "/http://h/a"},
-                                     {"NETCDF:\"/vsicurl/http://h/a.nc\":z",
-                                      "NETCDF:\"" + own + "/http://h/a.nc\":z"},
-                                     {"vrt:///vsicurl/http://h/a.tif?bands=1",
-                                      "vrt://" + own + "/http://h/a.tif?bands=1"},
-                                     {"vrt://http://h/a.tif?bands=1",
-                                      "vrt://" + own + "/http://h/a.tif?bands=1"}}) {
+  for (const auto& [path, served] :
+       {std::pair{"https://h/a.tif?sig=1", own + "/https://h/a.tif?sig=1"},
+        {"HTTP://h/a.tif", own + "/HTTP://h/a.tif"},
+        {"/vsicurl/http://h/a.tif", own + "/http://h/a.tif"},
+        {"/vsicurl/ftp://h/a.tif", own + "/ftp://h/a.tif"},
+        {"/vsicurl_streaming/http://h/a.csv", own + "/http://h/a.csv"},
+        {"/vsicurl?max_retry=1&url=http%3A%2F%2Fh%2Fa", own + "?max_retry=1&url=http%3A%2F%2Fh%2Fa"},
+        {"/vsizip//vsicurl/http://h/a.zip/b.tif", "/vsizip/" + own + "/http://h/a.zip/b.tif"},
+        {"/vsizip/vsicurl/http://h/a.zip/b.tif", "/vsizip" + own + "/http://h/a.zip/b.tif"},
+        {"/vsizip/{/vsizip/{/vsicurl/http://h/a.zip}/b.zip}/c",
+         "/vsizip/{/vsizip/{" + own + "/http://h/a.zip}/b.zip}/c"},
+        {"/vsisubfile/9_9,/vsicurl/http://h/a", "/vsisubfile/9_9," + own + "/http://h/a"},
+        {"NETCDF:\"/vsicurl/http://h/a.nc\":z", "NETCDF:\"" + own + "/http://h/a.nc\":z"},
+        {"vrt:///vsicurl/http://h/a.tif?bands=1", "vrt://" + own + "/http://h/a.tif?bands=1"},
+        {"vrt://http://h/a.tif?bands=1", "vrt://" + own + "/http://h/a.tif?bands=1"}}) {
     EXPECT_EQ(servedPath(path), served);
     EXPECT_EQ(servedPath(served), served);
     EXPECT_TRUE(isServedAddress(served));
@@ -44,8 +38,8 @@ TEST(NetworkPath, OfAnAddressIsUnderOurPrefixWhereverItStands) {
 
 TEST(NetworkPath, OfAnotherFileStays) {
   for (const char* path : {"a.tif", "/data/a.tif", "/vsizip/a.zip/b.tif", "/vsis3/bucket/a.tif", "/vsimem/a",
-                           "/data/vsicurl/a.tif", "vsicurl/http:/a.tif", "WMS:http://h/wms?x", "WFS:https://h",
-                           "PG:host=h", "", "http:/a"}) {
+                           "/data/vsicurl/a.tif", "vsicurl/http:/a.tif", "WMS:http://h/wms?x",
+                           "WFS:https://h", "PG:host=h", "", "http:/a"}) {
     EXPECT_EQ(servedPath(path), path);
     EXPECT_FALSE(isServedAddress(path));
     EXPECT_EQ(withoutServing(path), path);

@@ -41,7 +41,7 @@ VSIFilesystemHandler* const gdalsOwnWithOptions = VSIFileManager::GetHandler("/v
 TEST(ServedFiles, LeaveGdalsOwnAlone) {
   ASSERT_NE(gdalsOwn, VSIFileManager::GetHandler(""));
   registerGdal();
-  const HttpServer server({{"a.csv", "x,y,z\n0,0,1\n9,0,2\n0,9,3\n9,9,4\n"}});
+  const HttpServer server({{"a.csv", "x,y,z\n0,0,1\n9,0,2\n0,9,3\n9,9,4\n"}}, {});
   EXPECT_TRUE(readDem("/vsicurl/" + server.address("a.csv")));
   EXPECT_EQ(VSIFileManager::GetHandler("/vsicurl/"), gdalsOwn);
   EXPECT_EQ(VSIFileManager::GetHandler("/vsicurl?"), gdalsOwnWithOptions);
@@ -90,7 +90,7 @@ TEST(ServedFiles, OfOtherPathsAreTheFilesThemselves) {
 }
 
 TEST(ServedFiles, FollowARedirection) {
-  const HttpServer server({{"a.txt", "0123456789"}});
+  const HttpServer server({{"a.txt", "0123456789"}}, {});
   const HttpServer before({{"a.txt", "moved"}}, [&](const std::string&, int) {
     HttpFault fault;
     fault.status = 302;
@@ -128,7 +128,7 @@ TEST(ServedFiles, AreReadByManyThreadsAtOnce) {
 
 // GDAL's cache for files (VSI_CACHE) lies in front of its own handlers: nothing changes here.
 TEST(ServedFiles, DoNotDependOnTheCacheOfGdal) {
-  const HttpServer server({{"a.txt", "0123456789"}});
+  const HttpServer server({{"a.txt", "0123456789"}}, {});
   CPLSetConfigOption("VSI_CACHE", "TRUE");
   EXPECT_EQ(readAll(servedName() + "/" + server.address("a.txt")), "0123456789");
   CPLSetConfigOption("VSI_CACHE", nullptr);

@@ -44,16 +44,18 @@ std::string rasterBytes() {
 }
 
 std::string sourceOf(const std::string& name, bool isRelative = false) {
-  return fmt::format("<SimpleSource><SourceFilename relativeToVRT=\"{}\">{}</SourceFilename>"
-                     "<SourceBand>1</SourceBand></SimpleSource>",
-                     isRelative ? 1 : 0, name);
+  return fmt::format(
+      "<SimpleSource><SourceFilename relativeToVRT=\"{}\">{}</SourceFilename>"
+      "<SourceBand>1</SourceBand></SimpleSource>",
+      isRelative ? 1 : 0, name);
 }
 
 std::string vrtOf(const std::string& sources) {
-  return fmt::format("<VRTDataset rasterXSize=\"{0}\" rasterYSize=\"{0}\"><GeoTransform>500000, 30, 0, "
-                     "4000000, 0, -30</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\">{1}"
-                     "</VRTRasterBand></VRTDataset>",
-                     kSide, sources);
+  return fmt::format(
+      "<VRTDataset rasterXSize=\"{0}\" rasterYSize=\"{0}\"><GeoTransform>500000, 30, 0, "
+      "4000000, 0, -30</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\">{1}"
+      "</VRTRasterBand></VRTDataset>",
+      kSide, sources);
 }
 
 std::string escaped(const std::string& text) {
@@ -116,15 +118,19 @@ class VirtualText : public ::testing::Test {
 
   static std::string warpedOf(const std::string& source) {
     return fmt::format(
-        "<VRTDataset rasterXSize=\"{0}\" rasterYSize=\"{0}\" subClass=\"VRTWarpedDataset\"><GeoTransform>500000,"
+        "<VRTDataset rasterXSize=\"{0}\" rasterYSize=\"{0}\" "
+        "subClass=\"VRTWarpedDataset\"><GeoTransform>500000,"
         "30,0,4000000,0,-30</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\" "
         "subClass=\"VRTWarpedRasterBand\"/><BlockXSize>128</BlockXSize><BlockYSize>128</BlockYSize>"
         "<GDALWarpOptions><WarpMemoryLimit>6e7</WarpMemoryLimit><ResampleAlg>NearestNeighbour</ResampleAlg>"
         "<WorkingDataType>Float32</WorkingDataType><SourceDataset relativeToVRT=\"0\">{1}</SourceDataset>"
         "<Transformer><GenImgProjTransformer><SrcGeoTransform>500000,30,0,4000000,0,-30</SrcGeoTransform>"
-        "<SrcInvGeoTransform>-16666.6666666666667,0.0333333333333333,0,133333.3333333333,0,-0.0333333333333333"
-        "</SrcInvGeoTransform><DstGeoTransform>500000,30,0,4000000,0,-30</DstGeoTransform><DstInvGeoTransform>"
-        "-16666.6666666666667,0.0333333333333333,0,133333.3333333333,0,-0.0333333333333333</DstInvGeoTransform>"
+        "<SrcInvGeoTransform>-16666.6666666666667,0.0333333333333333,0,133333.3333333333,0,-0."
+        "0333333333333333"
+        "</SrcInvGeoTransform><DstGeoTransform>500000,30,0,4000000,0,-30</"
+        "DstGeoTransform><DstInvGeoTransform>"
+        "-16666.6666666666667,0.0333333333333333,0,133333.3333333333,0,-0.0333333333333333</"
+        "DstInvGeoTransform>"
         "</GenImgProjTransformer></Transformer><BandList><BandMapping src=\"1\" dst=\"1\"/></BandList>"
         "</GDALWarpOptions></VRTDataset>",
         kSide, source);
@@ -175,7 +181,7 @@ TEST_F(VirtualText, GivesNoHeightsOfAServerThatLies) {
 }
 
 TEST_F(VirtualText, SaysWhichAddressItsServerDoesNotGive) {
-  const HttpServer server({});
+  const HttpServer server({{"b", ""}}, {});
   const auto read = readDem(folder_.write("m.vrt", vrtOf(sourceOf("/vsicurl/" + server.address("a.tif")))));
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().describe().find("m.vrt"), std::string::npos) << read.error().describe();
@@ -201,20 +207,19 @@ TEST_F(VirtualText, OnAServerFindsWhatIsBesideIt) {
 TEST_F(VirtualText, KeepsTheOtherFilesOfAMosaic) {
   const HttpServer server(files_);
   std::filesystem::create_directory(folder_.file("tiles"));
-  folder_.write("tiles/b.tif", tile_);
   const auto local = readDem(folder_.write("local.tif", tile_));
-  // The later source covers the one before: that it was found, its warnings and heights tell.
-  for (const std::string& file : {std::string("tiles/b.tif"), folder_.file("tiles/b.tif")}) {
+  for (const std::string& file : {std::string("tiles/b.tif"), folder_.file("tiles/c.tif")}) {
     const bool isRelative = file[0] != '/';
-    const std::string vrt = folder_.write(
-        "m.vrt", vrtOf(sourceOf(server.address("a.tif")) + sourceOf(file, isRelative)));
+    const std::string name = "tiles/" + std::filesystem::path(file).filename().string();
+    folder_.write(name, tile_);
+    const std::string vrt =
+        folder_.write("m.vrt", vrtOf(sourceOf(server.address("a.tif")) + sourceOf(file, isRelative)));
     const auto read = readDem(vrt);
     ASSERT_TRUE(read) << read.error().describe();
     EXPECT_EQ(std::get<RasterHeightfield>(read->heightfield).heights,
               std::get<RasterHeightfield>(local->heightfield).heights);
-    std::filesystem::remove(folder_.file("tiles/b.tif"));
+    std::filesystem::remove(folder_.file(name));
     EXPECT_FALSE(readDem(vrt)) << "one of its files is not there";
-    folder_.write("tiles/b.tif", tile_);
   }
 }
 
@@ -238,8 +243,8 @@ TEST_F(VirtualText, WithoutAnAddressIsOpenedUnderItsOwnName) {
 }
 
 TEST_F(VirtualText, OfALayerNamesAddressesToo) {
-  std::string points = "x,y,z\n";
-  for (int i = 0; i < 200; ++i) points += fmt::format("{},{},{}\n", i % 14, i / 14, i);
+  std::string points = "x,y,z\n";  // more than one piece of a file
+  for (int i = 0; i < 25000; ++i) points += fmt::format("{},{},{}\n", i % 14, i / 14, i);
   for (const bool isShort : {false, true}) {
     const HttpServer server({{"p.csv", points}}, [&](const std::string&, int number) {
       HttpFault fault;
@@ -249,13 +254,11 @@ TEST_F(VirtualText, OfALayerNamesAddressesToo) {
     for (const std::string& address : {server.address("p.csv"), "/vsicurl/" + server.address("p.csv")}) {
       const std::string layer =
           folder_.write("p.vrt", "<OGRVRTDataSource><OGRVRTLayer name=\"p\"><SrcDataSource>" + address +
-                                     "</SrcDataSource><GeometryType>wkbPoint</GeometryType><GeometryField "
+                                     "</SrcDataSource><GeometryType>wkbPoint25D</GeometryType><GeometryField "
                                      "encoding=\"PointFromColumns\" x=\"x\" y=\"y\" z=\"z\"/></OGRVRTLayer>"
                                      "</OGRVRTDataSource>");
       EXPECT_EQ(servedDatasetPath(layer), servedName() + "/" + layer);
-      SourceReading reading;
-      reading.zField = "z";
-      const auto read = readDem(layer, reading);
+      const auto read = readDem(layer);
       EXPECT_EQ(read.has_value(), !isShort) << address << (read ? "" : read.error().describe());
     }
   }
