@@ -306,6 +306,11 @@ Result<DemRead> readDem(const std::string& path, const SourceReading& reading,
   Result<DemRead> read = readFrom(opened, reading, context);
   if (!read) {
     if (read.error().culprit == opened) read.error().culprit = path;
+    // What a driver says of bytes that it did not get is a consequence.
+    const auto cause = firstNetworkFailure();
+    const bool isStopped = read.error().code == ErrorCode::interrupted;
+    if (cause && !isStopped && read.error().message.find(cause->message) == std::string::npos)
+      return failure(ErrorCode::unreadable, "cannot be read: " + cause->describe(), path);
     return read;
   }
   if (opened != path)

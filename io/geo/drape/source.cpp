@@ -15,6 +15,7 @@
 
 #include "engine/base/counted.h"
 #include "io/geo/gdal/zipped_raster.h"
+#include "io/geo/network/network_reading.h"
 #include "io/geo/network/virtual_text.h"
 
 namespace arete {
@@ -111,6 +112,7 @@ Result<DrapeSource> openLevel(const std::string& path, const std::vector<int>& b
                               std::optional<int> overview, std::vector<std::string>& warnings) {
   registerGdal();
   GdalErrors errors;
+  const NetworkReading network(nullptr);  // so that a file of the network is requested once
   if (auto problem = findPipeProblem(path)) return tl::unexpected(*problem);
   ARETE_TRY(const std::string gdalPath, rasterPathOf(path));
   DrapeSource source;

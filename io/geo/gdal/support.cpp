@@ -174,7 +174,10 @@ std::optional<Error> findInputProblem(const std::string& path) {
     VSIFCloseL(file);
     return std::nullopt;
   }
-  return Error{ErrorCode::unreadable, fmt::format("cannot be opened: {}", std::strerror(errno)), path};
+  const std::string reason = std::strerror(errno);
+  if (const auto problem = networkProblem(served))
+    return Error{problem->code, "cannot be read: " + problem->message, path};
+  return Error{ErrorCode::unreadable, fmt::format("cannot be opened: {}", reason), path};
 }
 
 Error explainOpenFailure(const std::string& given, std::string_view kind, const GdalErrors& errors) {

@@ -5,11 +5,13 @@
 
 #include "io/geo/gdal/file_length.h"
 #include "io/geo/gdal/whole_text.h"
+#include "io/geo/network/network_reading.h"
 
 namespace arete {
 
 Result<GdalDatasetPtr> openVectors(const std::string& path, std::string_view kind, GdalErrors& errors,
                                    std::vector<std::string>& warnings) {
+  const NetworkReading network(nullptr);  // so that a file of the network is requested once
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
   ARETE_CHECK(checkLengthByContent(path));
   GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR);

@@ -40,9 +40,9 @@ std::string pathWithoutNetcdf(const std::string& path) {
   static std::atomic<unsigned> number = 0;
   const std::string folder = fmt::format("{}{}", nameOfCopies(), number++);
   const std::string copy = fmt::format("{}/{}", folder, CPLGetFilename(file.c_str()));
-  const std::string failedBefore = firstNetworkFailure();
+  const bool hadFailed = firstNetworkFailure().has_value();
   if (VSIMkdir(folder.c_str(), 0700) != 0 || CPLCopyFile(copy.c_str(), file.c_str()) != 0 ||
-      requestsAreCancelled() || firstNetworkFailure() != failedBefore) {
+      requestsAreCancelled() || firstNetworkFailure().has_value() != hadFailed) {
     removeNetworkCopy(copy);
     return {};
   }

@@ -15,7 +15,7 @@ namespace arete {
 
 struct NetworkReading::State {
   std::map<std::string, std::shared_ptr<const RemoteFile>> files;
-  std::string failed;  ///< the first failure, with its address
+  std::optional<Error> failed;  ///< the first failure, with its address
 };
 
 namespace {
@@ -60,9 +60,8 @@ std::shared_ptr<const RemoteFile> remoteFile(const std::string& name) {
 }
 
 void recordNetworkFailure(const Error& error) {
-  const std::string sentence = error.describe();
-  if (tReading && tReading->failed.empty()) tReading->failed = sentence;
-  CPLError(CE_Failure, CPLE_HttpResponse, "%s", sentence.c_str());
+  if (tReading && !tReading->failed) tReading->failed = error;
+  CPLError(CE_Failure, CPLE_HttpResponse, "%s", error.describe().c_str());
 }
 
 std::optional<Error> networkProblem(const std::string& path) {
@@ -85,8 +84,8 @@ std::optional<Error> networkProblem(const std::string& path) {
   return std::nullopt;
 }
 
-std::string firstNetworkFailure() {
-  return tReading ? tReading->failed : "";
+std::optional<Error> firstNetworkFailure() {
+  return tReading ? tReading->failed : std::nullopt;
 }
 
 NetworkReading::NetworkReading(const std::atomic<bool>* cancel)
@@ -106,11 +105,11 @@ NetworkReading::~NetworkReading() {
 Status NetworkReading::finish() {
   if (requestsAreCancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
   for (const auto& [name, file] : state_->files) {
-    if (!state_->failed.empty()) break;
-    if (const Status same = file->compare(); !same) state_->failed = same.error().describe();
+    if (state_->failed) break;
+    if (const Status same = file->compare(); !same) state_->failed = same.error();
   }
   if (requestsAreCancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
-  if (!state_->failed.empty()) return failure(ErrorCode::unreadable, state_->failed);
+  if (state_->failed) return failure(ErrorCode::unreadable, state_->failed->describe());
   return {};
 }
 

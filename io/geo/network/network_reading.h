@@ -48,7 +48,7 @@ void recordNetworkFailure(const Error& error);
 /// @param path As servedPath() returns it.
 std::optional<Error> networkProblem(const std::string& path);
 
-/// The first failure of this thread's reading; empty if there is none.
-std::string firstNetworkFailure();
+/// The first failure of this thread's reading, which is the cause of what came after.
+std::optional<Error> firstNetworkFailure();
 
 }  // namespace arete

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -176,6 +177,7 @@ TEST_F(VirtualText, GivesNoHeightsOfAServerThatLies) {
       const std::string path = pathsThrough(server)[i];
       const auto read = readDem(path);
       ASSERT_FALSE(read) << kind << " " << path;
+      EXPECT_NE(read.error().message.find("127.0.0.1"), std::string::npos) << read.error().describe();
       EXPECT_EQ(read.error().describe().find("vsiarete"), std::string::npos) << read.error().describe();
     }
 }
@@ -221,6 +223,23 @@ TEST_F(VirtualText, KeepsTheOtherFilesOfAMosaic) {
     std::filesystem::remove(folder_.file(name));
     EXPECT_FALSE(readDem(vrt)) << "one of its files is not there";
   }
+}
+
+TEST_F(VirtualText, KeepsTheMaskBesideIt) {
+  const HttpServer server(files_);
+  const std::string path = folder_.write("m.vrt", vrtOf(sourceOf(server.address("a.tif"))));
+  RasterSpec mask;
+  mask.type = GDT_Byte;
+  mask.columns = mask.rows = kSide;
+  mask.values.assign(std::size_t(kSide) * kSide, 255);
+  mask.values[5] = 0;
+  mask.adjust = [](GDALDataset& dataset) { dataset.SetMetadataItem("INTERNAL_MASK_FLAGS_1", "2"); };
+  writeRaster(path + ".msk", mask);
+  const auto read = readDem(path);
+  ASSERT_TRUE(read) << read.error().describe();
+  const std::vector<double>& heights = std::get<RasterHeightfield>(read->heightfield).heights;
+  EXPECT_EQ(heights[4], 4);
+  EXPECT_TRUE(std::isnan(heights[5]));
 }
 
 TEST_F(VirtualText, InAnArchiveFindsWhatIsBesideIt) {
