@@ -142,10 +142,10 @@ GdalDatasetPtr openGdal(const std::string& path, unsigned flags) {
   silenceHdf5();
   if (findPipeProblem(path)) return nullptr;
   watchInputFile(path);
-  std::string name = servedDatasetPath(path);
-  if ((flags & GDAL_OF_RASTER) != 0) name = pathWithoutNetcdf(name);
+  std::string served = servedDatasetPath(path);
+  if ((flags & GDAL_OF_RASTER) != 0) served = pathWithoutNetcdf(served);
   const CPLConfigOptionSetter noSchema("GML_DOWNLOAD_WFS_SCHEMA", "NO", true);
-  return GdalDatasetPtr(GDALDataset::Open(name.c_str(), flags | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  return GdalDatasetPtr(GDALDataset::Open(served.c_str(), flags | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
 }
 
 std::optional<Error> findPipeProblem(const std::string& path) {

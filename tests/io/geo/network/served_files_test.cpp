@@ -34,6 +34,12 @@ std::string readAll(const std::string& name) {
   return text;
 }
 
+std::string encoded(std::string address) {
+  for (std::size_t at = 0; (at = address.find_first_of(":/", at)) != address.npos; at += 3)
+    address.replace(at, 1, address[at] == ':' ? "%3A" : "%2F");
+  return address;
+}
+
 // Before main(): no function of ours has run.
 VSIFilesystemHandler* const gdalsOwn = VSIFileManager::GetHandler("/vsicurl/");
 VSIFilesystemHandler* const gdalsOwnWithOptions = VSIFileManager::GetHandler("/vsicurl?");
@@ -53,11 +59,9 @@ TEST(ServedFiles, AreReadByAnyProgramUnderThePrefix) {
   const HttpServer server({{"a.txt", "0123456789"}, {"empty", ""}});
   const std::string name = servedName() + "/" + server.address("a.txt");
   EXPECT_EQ(readAll(name), "0123456789");
-  std::string encoded = server.address("a.txt");
-  for (std::size_t at = 0; (at = encoded.find_first_of(":/", at)) != encoded.npos; at += 3)
-    encoded.replace(at, 1, encoded[at] == ':' ? "%3A" : "%2F");
-  EXPECT_EQ(readAll(servedName() + "?max_retry=0&url=" + encoded), "0123456789");
-  EXPECT_EQ(readAll(servedName() + "?what=0&url=" + encoded), "no file");
+  const std::string url = encoded(server.address("a.txt"));
+  EXPECT_EQ(readAll(servedName() + "?max_retry=0&url=" + url), "0123456789");
+  EXPECT_EQ(readAll(servedName() + "?what=0&url=" + url), "no file");
   EXPECT_EQ(readAll(servedName() + "/" + server.address("none.txt")), "no file");
   VSIStatBufL status;
   ASSERT_EQ(VSIStatL(name.c_str(), &status), 0);
@@ -100,18 +104,16 @@ TEST(ServedFiles, FollowARedirection) {
   EXPECT_EQ(readAll(servedName() + "/" + before.address("a.txt")), "0123456789");
 }
 
-TEST(ServedFiles, AreRequestedWithTheOptionsOfTheThread) {
-  const HttpServer server({{"a.txt", "0123456789"}}, [](const std::string&, int) {
-    HttpFault fault;
-    fault.isStalled = true;
-    return fault;
-  });
-  const GdalErrors quiet;
-  CPLSetThreadLocalConfigOption("GDAL_HTTP_TIMEOUT", "1");
-  CPLSetThreadLocalConfigOption("GDAL_HTTP_MAX_RETRY", "0");
-  EXPECT_EQ(readAll(servedName() + "/" + server.address("a.txt")), "no file");
-  CPLSetThreadLocalConfigOption("GDAL_HTTP_TIMEOUT", nullptr);
-  CPLSetThreadLocalConfigOption("GDAL_HTTP_MAX_RETRY", nullptr);
+TEST(ServedFiles, AreRequestedWithTheOptionsOfTheThreadAndOfTheName) {
+  HttpServer server({{"a.txt", "0123456789"}}, {});
+  CPLSetThreadLocalConfigOption("GDAL_HTTP_USERAGENT", "one of this thread");
+  EXPECT_EQ(readAll(servedName() + "/" + server.address("a.txt")), "0123456789");
+  EXPECT_NE(server.lastRequest().find("User-Agent: one of this thread"), std::string::npos);
+  CPLSetThreadLocalConfigOption("GDAL_HTTP_USERAGENT", nullptr);
+  EXPECT_EQ(readAll(servedName() + "?useragent=mine&referer=page&url=" + encoded(server.address("a.txt"))),
+            "0123456789");
+  EXPECT_NE(server.lastRequest().find("User-Agent: mine"), std::string::npos);
+  EXPECT_NE(server.lastRequest().find("Referer: page"), std::string::npos);
 }
 
 TEST(ServedFiles, AreReadByManyThreadsAtOnce) {
