@@ -7,6 +7,7 @@
 
 #include "gis/driver/amt_dataset.h"
 #include "gis/driver/open_options.h"
+#include "io/geo/network/served_files.h"
 
 namespace arete {
 
@@ -23,6 +24,7 @@ void registerAmtDriver() {
   driver->SetMetadataItem(GDAL_DMD_OPENOPTIONLIST, kAmtOpenOptions);
   driver->pfnIdentify = AmtDataset::identify;
   driver->pfnOpen = AmtDataset::open;
+  servedName();  // while no other thread uses GDAL
   GetGDALDriverManager()->RegisterDriver(driver.release());
 }
 

@@ -67,6 +67,11 @@ class HttpServer {
   std::string address(const std::string& name) const {
     return fmt::format("http://127.0.0.1:{}/{}", port_, name);
   }
+  /// The last request, with its headers.
+  std::string lastRequest() {
+    const std::lock_guard lock(mutex_);
+    return lastRequest_;
+  }
   int requests(const std::string& name) {
     const std::lock_guard lock(mutex_);
     return counts_[name];
@@ -111,6 +116,7 @@ class HttpServer {
     HttpFault fault;
     {
       const std::lock_guard lock(mutex_);
+      lastRequest_ = request;
       const int number = ++counts_[name];
       if (faultOf_ && found != files_.end()) fault = faultOf_(name, number);
     }
@@ -156,6 +162,7 @@ class HttpServer {
   std::atomic<bool> isEnding_ = false;
   std::mutex mutex_;
   std::map<std::string, int> counts_;
+  std::string lastRequest_;
   std::vector<int> open_;
   std::vector<std::thread> threads_;
   std::thread acceptor_;

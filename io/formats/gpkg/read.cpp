@@ -20,6 +20,7 @@
 #include "io/geo/crs/reader.h"
 #include "io/geo/gdal/support.h"
 #include "io/geo/gdal/vector_layer.h"
+#include "io/geo/network/network_path.h"
 
 namespace arete {
 
@@ -161,7 +162,7 @@ Result<MeshFile> readFrom(const std::string& path, const RunContext& context) {
   GdalErrors errors;
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
   const GdalDatasetPtr dataset(GDALDataset::Open(
-      path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers.data()));
+      servedPath(path).c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers.data()));
   if (!dataset) {
     Error error = explainOpenFailure(path, "GeoPackage", errors);
     if (error.code == ErrorCode::unsupported)
@@ -195,8 +196,8 @@ bool holdsSurfaces(const std::filesystem::path& path) {
   registerGdal();
   if (findPipeProblem(path.string())) return false;
   GdalErrors quiet;
-  const GdalDatasetPtr dataset(
-      GDALDataset::Open(path.string().c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data()));
+  const GdalDatasetPtr dataset(GDALDataset::Open(servedPath(path.string()).c_str(),
+                                                 GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data()));
   if (!dataset) return false;
   return ownLayer(*dataset) ||
          (chooseLayer(*dataset, {}, LayerKind::surfaces) && !chooseLayer(*dataset, {}, LayerKind::points));

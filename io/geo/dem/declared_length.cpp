@@ -22,6 +22,7 @@
 
 #include "io/files/text_scan.h"
 #include "io/geo/gdal/file_length.h"
+#include "io/geo/network/network_path.h"
 
 namespace arete {
 namespace {
@@ -143,7 +144,7 @@ Status checkFilesOf(GDALDataset& dataset, int nesting);
 /// A file that a virtual raster reads.
 Status checkSource(const std::string& path, int nesting) {
   const GdalErrors quiet;
-  GDALDriverH driver = GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
+  GDALDriverH driver = GDALIdentifyDriverEx(servedPath(path).c_str(), GDAL_OF_RASTER, nullptr, nullptr);
   if (!isDriver(driver, "ENVI") && !isDriver(driver, "VRT") && !isDriver(driver, "GTiff")) return {};
   const GdalDatasetPtr source = openRasterForLength(path);
   if (!source || source->GetRasterCount() == 0) return {};

@@ -14,6 +14,7 @@
 
 #include "io/files/text_scan.h"
 #include "io/geo/gdal/support.h"
+#include "io/geo/network/network_path.h"
 
 namespace arete {
 namespace {
@@ -66,7 +67,8 @@ std::vector<std::string> rastersIn(const std::string& folder) {
     if (!dataset) continue;  // reading it will say why
     const CPLStringList files(dataset->GetFileList());
     for (int i = 0; i < files.Count(); ++i)
-      if (files[i] != path) belonging.insert(fs::path(files[i]).lexically_normal().string());
+      if (const std::string file = withoutServing(files[i]); file != path)
+        belonging.insert(fs::path(file).lexically_normal().string());
   }
   std::erase_if(rasters, [&](const std::string& path) {
     return belonging.contains(fs::path(path).lexically_normal().string());

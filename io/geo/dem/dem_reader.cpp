@@ -30,9 +30,10 @@
 #include "io/geo/dem/gridded_points.h"
 #include "io/geo/dem/seam_column.h"
 #include "io/geo/gdal/file_length.h"
-#include "io/geo/gdal/network_files.h"
 #include "io/geo/gdal/support.h"
 #include "io/geo/gdal/zipped_raster.h"
+#include "io/geo/network/network_path.h"
+#include "io/geo/network/network_reading.h"
 #include "io/geo/text/point_text.h"
 #include "terrain/model/lone_heights.h"
 
@@ -45,7 +46,7 @@ bool isPointCloud(const std::string& path) {
   if (std::find(kExtensions.begin(), kExtensions.end(), text::lowerExtension(path)) != kExtensions.end())
     return true;
   std::array<char, 4> magic{};
-  VSILFILE* file = VSIFOpenL(path.c_str(), "rb");
+  VSILFILE* file = VSIFOpenL(servedPath(path).c_str(), "rb");
   if (!file) return false;
   const bool whole = VSIFReadL(magic.data(), 1, magic.size(), file) == magic.size();
   VSIFCloseL(file);
@@ -56,7 +57,7 @@ bool isPointCloud(const std::string& path) {
 /// a process. Otherwise sets `opensAsVector`.
 bool isRaster(const std::string& path, bool& opensAsVector, Warnings& said) {
   GdalErrors errors;
-  GDALDriverH driver = GDALIdentifyDriverEx(networkPathOf(path).c_str(), GDAL_OF_RASTER, nullptr, nullptr);
+  GDALDriverH driver = GDALIdentifyDriverEx(servedPath(path).c_str(), GDAL_OF_RASTER, nullptr, nullptr);
   const bool identified = driver && !isTextDriver(driver);
   if (identified) {
     const GdalDatasetPtr dataset = openRasterForLength(path);
@@ -112,7 +113,9 @@ Result<DemRead> readAsPoints(const std::string& path, bool text, const SourceRea
   pointOptions.nodata = reading.nodata;
   pointOptions.verticalUnit = reading.verticalUnit;
   pointOptions.isDepth = reading.isDepth;
+  NetworkReading network(context.cancel);
   ARETE_TRY(auto read, readPoints(path, pointOptions, context));
+  if (Status same = network.finish(); !same) return failure(same.error().code, same.error().message, path);
   if (text) {
     if (auto raster = asRaster(read.heightfield)) {
       read.warnings.push_back(
@@ -127,7 +130,7 @@ Result<DemRead> readAsPoints(const std::string& path, bool text, const SourceRea
 
 bool isTextOfNumbers(const std::string& path) {
   GdalErrors quiet;
-  return isTextDriver(GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr));
+  return isTextDriver(GDALIdentifyDriverEx(servedPath(path).c_str(), GDAL_OF_RASTER, nullptr, nullptr));
 }
 
 /// Reads the only raster in an archive, or its only text of points.
@@ -187,7 +190,7 @@ Result<DemRead> readFrom(const std::string& given, const SourceReading& reading,
   }
   if (auto problem = findPipeProblem(path)) return tl::unexpected(*problem);
   if (isPointCloud(path))
-    if (VSIStatBufL status; VSIStatL(path.c_str(), &status) == 0)
+    if (VSIStatBufL status; VSIStatL(servedPath(path).c_str(), &status) == 0)
       return failure(
           ErrorCode::unsupported,
           "is a point cloud, which Arete does not read; make a DEM or a text of its ground points first, for "
@@ -205,7 +208,7 @@ Result<DemRead> readFrom(const std::string& given, const SourceReading& reading,
   if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped", path);
 
   GdalErrors errors;
-  if (Status status = checkLengthByContent(networkPathOf(path)); !status)
+  if (Status status = checkLengthByContent(path); !status)
     return failure(status.error().code, status.error().message, path);
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
   const bool text = looksLikePointText(path);
@@ -304,6 +307,11 @@ Result<DemRead> readDem(const std::string& path, const SourceReading& reading,
   Result<DemRead> read = readFrom(opened, reading, context);
   if (!read) {
     if (read.error().culprit == opened) read.error().culprit = path;
+    // What a driver says of bytes that it did not get is a consequence.
+    const auto cause = firstNetworkFailure();
+    const bool isStopped = read.error().code == ErrorCode::interrupted;
+    if (cause && !isStopped && read.error().message.find(cause->message) == std::string::npos)
+      return failure(ErrorCode::unreadable, "cannot be read: " + cause->describe(), path);
     return read;
   }
   if (opened != path)

@@ -19,9 +19,9 @@
 #include "io/geo/dem/declared_length.h"
 #include "io/geo/dem/raster_placement.h"
 #include "io/geo/gdal/file_length.h"
-#include "io/geo/gdal/network_files.h"
 #include "io/geo/gdal/support.h"
 #include "io/geo/gdal/zipped_raster.h"
+#include "io/geo/network/network_path.h"
 
 namespace arete {
 namespace {
@@ -34,7 +34,7 @@ std::vector<std::string> subdatasetNames(GDALDataset& dataset) {
   for (int i = 1;; ++i) {
     const char* name = metadata.FetchNameValue(fmt::format("SUBDATASET_{}_NAME", i).c_str());
     if (!name) return names;
-    names.emplace_back(name);
+    names.push_back(withoutServing(name));
   }
 }
 

@@ -17,8 +17,8 @@
 #include "engine/memory/pages.h"
 #include "io/files/text/address_text.h"
 #include "io/geo/dem/mosaic.h"
-#include "io/geo/gdal/network_files.h"
 #include "io/geo/gdal/support.h"
+#include "io/geo/network/network_reading.h"
 
 namespace arete {
 namespace {

@@ -15,6 +15,8 @@
 
 #include "engine/base/counted.h"
 #include "io/geo/gdal/zipped_raster.h"
+#include "io/geo/network/network_reading.h"
+#include "io/geo/network/virtual_text.h"
 
 namespace arete {
 namespace {
@@ -112,14 +114,16 @@ Result<DrapeSource> openLevel(const std::string& path, const std::vector<int>& b
                               std::optional<int> overview, Warnings& warnings) {
   registerGdal();
   GdalErrors errors;
+  const NetworkReading network(nullptr);  // so that a file of the network is requested once
   if (auto problem = findPipeProblem(path)) return tl::unexpected(*problem);
   ARETE_TRY(const std::string gdalPath, rasterPathOf(path));
   DrapeSource source;
   if (overview) {
     CPLStringList options;
     options.SetNameValue("OVERVIEW_LEVEL", std::to_string(*overview).c_str());
-    source.opened.push(GdalDatasetPtr(GDALDataset::Open(gdalPath.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY,
-                                                        nullptr, options.List(), nullptr)));
+    source.opened.push(GdalDatasetPtr(GDALDataset::Open(servedDatasetPath(gdalPath).c_str(),
+                                                        GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr,
+                                                        options.List(), nullptr)));
   } else {
     source.opened.push(openGdal(gdalPath, GDAL_OF_RASTER));
   }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "io/geo/gdal/file_length.h"
+#include "io/geo/network/network_path.h"
 
 namespace arete {
 namespace {
@@ -24,7 +25,7 @@ constexpr std::uint64_t kStreaming = 0xFFFFFFFFu;
 /// Reads big-endian numbers one after the other; after the end of the file it only fails.
 class HeaderReader {
  public:
-  explicit HeaderReader(const std::string& path) : file_(VSIFOpenL(path.c_str(), "rb")) {}
+  explicit HeaderReader(const std::string& path) : file_(VSIFOpenL(servedPath(path).c_str(), "rb")) {}
   ~HeaderReader() {
     if (file_) VSIFCloseL(file_);
   }

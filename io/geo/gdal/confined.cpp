@@ -26,6 +26,7 @@
 
 #include "engine/base/caught_failure.h"
 #include "io/geo/gdal/support.h"
+#include "io/geo/network/served_files.h"
 
 namespace arete {
 namespace {
@@ -223,6 +224,7 @@ Status confineGdal(const std::vector<std::string>& names) try {
       return failure(ErrorCode::unreadable, fmt::format("is a link to {}, out of its folder", to.string()),
                      name);
   }
+  forbidServedFiles();
   theFence = std::make_shared<const Fence>(names);
   removeDrivers();
   removeNetwork();

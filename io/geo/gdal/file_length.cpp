@@ -19,6 +19,7 @@
 
 #include "io/files/text_scan.h"
 #include "io/geo/gdal/support.h"
+#include "io/geo/network/network_path.h"
 
 namespace arete {
 namespace {
@@ -27,7 +28,7 @@ using Head = std::array<unsigned char, 512>;
 
 std::size_t readHead(const std::string& path, Head& head) {
   head.fill(0);
-  VSILFILE* file = VSIFOpenL(path.c_str(), "rb");
+  VSILFILE* file = VSIFOpenL(servedPath(path).c_str(), "rb");
   if (!file) return 0;
   const std::size_t got = VSIFReadL(head.data(), 1, head.size(), file);
   VSIFCloseL(file);
@@ -99,7 +100,7 @@ std::optional<std::uint64_t> sqliteLength(const Head& head) {
 std::optional<std::uint64_t> dgnLength(const std::string& path, const Head& head, std::uint64_t there) {
   if ((head[0] != 0x08 && head[0] != 0xC8) || head[1] != 0x09 || head[2] != 0xFE || head[3] != 0x02)
     return std::nullopt;
-  VSILFILE* file = VSIFOpenL(path.c_str(), "rb");
+  VSILFILE* file = VSIFOpenL(servedPath(path).c_str(), "rb");
   if (!file) return std::nullopt;
   std::uint64_t at = 0;
   bool hasEnd = false;
@@ -124,7 +125,7 @@ constexpr std::uint64_t kCalsHeader = 2048, kCalsRecord = 128;
 /// The records of text at the begin of a CALS file of type 1; empty: another file.
 std::string calsHeader(const std::string& path, const Head& head) {
   if (textOf(head, 0, 9) != "srcdocid:") return {};
-  VSILFILE* file = VSIFOpenL(path.c_str(), "rb");
+  VSILFILE* file = VSIFOpenL(servedPath(path).c_str(), "rb");
   if (!file) return {};
   std::string header(kCalsHeader, ' ');
   header.resize(VSIFReadL(header.data(), 1, header.size(), file));
@@ -152,7 +153,7 @@ std::optional<std::uint64_t> calsLength(const std::string& path, const Head& hea
 bool hasCalsEnd(const std::string& path, std::uint64_t length) {
   std::array<unsigned char, 4 * kCalsRecord> tail{};
   const std::uint64_t count = std::min<std::uint64_t>(tail.size(), length - std::min(length, kCalsHeader));
-  VSILFILE* file = VSIFOpenL(path.c_str(), "rb");
+  VSILFILE* file = VSIFOpenL(servedPath(path).c_str(), "rb");
   if (!file) return true;
   VSIFSeekL(file, length - count, SEEK_SET);
   std::size_t got = VSIFReadL(tail.data(), 1, count, file);
@@ -181,7 +182,7 @@ Status checkTile(const std::string& path, std::uint64_t length) {
   constexpr std::uint64_t kOneSecond = 2ull * 3601 * 3601, kThreeSeconds = 2ull * 1201 * 1201;
   if (!isNamedAsTile(path) || length == 0) return {};
   const GdalErrors quiet;
-  GDALDriverH driver = GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
+  GDALDriverH driver = GDALIdentifyDriverEx(servedPath(path).c_str(), GDAL_OF_RASTER, nullptr, nullptr);
   if (driver && !isTextDriver(driver)) return {};
   return failure(
       ErrorCode::unreadable,
@@ -194,7 +195,7 @@ Status checkTile(const std::string& path, std::uint64_t length) {
 
 std::optional<std::uint64_t> fileLength(const std::string& path) {
   VSIStatBufL status;
-  if (VSIStatL(path.c_str(), &status) != 0 || !VSI_ISREG(status.st_mode)) return std::nullopt;
+  if (VSIStatL(servedPath(path).c_str(), &status) != 0 || !VSI_ISREG(status.st_mode)) return std::nullopt;
   return std::uint64_t(status.st_size);
 }
 

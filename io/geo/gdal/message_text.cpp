@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "io/files/text/address_text.h"
+#include "io/geo/network/network_path.h"
 
 namespace arete {
 namespace {
@@ -42,7 +43,7 @@ std::string withoutMemory(std::string_view text) {
 }  // namespace
 
 std::string gdalMessageText(const char* message) {
-  std::string text = withoutQueries(withoutMemory(message ? message : ""));
+  std::string text = withoutQueries(withoutServing(withoutMemory(message ? message : "")));
   std::ranges::replace_if(
       text, [](unsigned char c) { return c < 32 || c == 127; }, ' ');
   constexpr std::string_view kNoReason = " Success";

@@ -24,8 +24,12 @@
 #include "io/files/watched_files.h"
 #include "io/geo/gdal/confined.h"
 #include "io/geo/gdal/message_text.h"
-#include "io/geo/gdal/network_files.h"
 #include "io/geo/gdal/unclaimed_messages.h"
+#include "io/geo/network/netcdf_copy.h"
+#include "io/geo/network/network_path.h"
+#include "io/geo/network/network_reading.h"
+#include "io/geo/network/served_files.h"
+#include "io/geo/network/virtual_text.h"
 
 namespace arete {
 namespace {
@@ -72,7 +76,7 @@ void registerGdal() {
     ::backtrace(&here, 1);
     const GdalErrors quiet;  // of a damaged plugin
     GDALAllRegister();
-    installNetworkFiles();
+    servedName();
   });
 }
 
@@ -139,10 +143,10 @@ GdalDatasetPtr openGdal(const std::string& path, unsigned flags) {
   silenceHdf5();
   if (findPipeProblem(path)) return nullptr;
   watchInputFile(path);
-  std::string name = networkPathOf(path);
-  if ((flags & GDAL_OF_RASTER) != 0) name = pathWithoutNetcdf(name);
+  std::string served = servedDatasetPath(path);
+  if ((flags & GDAL_OF_RASTER) != 0) served = pathWithoutNetcdf(served);
   const CPLConfigOptionSetter noSchema("GML_DOWNLOAD_WFS_SCHEMA", "NO", true);
-  return GdalDatasetPtr(GDALDataset::Open(name.c_str(), flags | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  return GdalDatasetPtr(GDALDataset::Open(served.c_str(), flags | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
 }
 
 std::optional<Error> findPipeProblem(const std::string& path) {
@@ -157,8 +161,9 @@ std::optional<Error> findPipeProblem(const std::string& path) {
 std::optional<Error> findInputProblem(const std::string& path) {
   if (path.empty()) return Error{ErrorCode::usage, "the name of the input file is empty", {}};
   if (auto problem = findPipeProblem(path)) return problem;
+  const std::string served = servedPath(path);
   VSIStatBufL status;
-  if (VSIStatL(path.c_str(), &status) != 0) return std::nullopt;
+  if (VSIStatL(served.c_str(), &status) != 0) return std::nullopt;
   // A file geodatabase is a folder.
   if (VSI_ISDIR(status.st_mode) && text::lowerExtension(path) == "gdb") return std::nullopt;
   if (VSI_ISDIR(status.st_mode) && path.starts_with("/vsizip/"))
@@ -166,29 +171,31 @@ std::optional<Error> findInputProblem(const std::string& path) {
                  path};
   if (VSI_ISDIR(status.st_mode)) return Error{ErrorCode::unreadable, "is a folder, not a file", path};
   if (VSI_ISREG(status.st_mode) && status.st_size == 0) return Error{ErrorCode::unreadable, "is empty", path};
-  if (VSILFILE* file = VSIFOpenL(path.c_str(), "rb")) {
+  if (VSILFILE* file = VSIFOpenL(served.c_str(), "rb")) {
     VSIFCloseL(file);
     return std::nullopt;
   }
-  return Error{ErrorCode::unreadable, fmt::format("cannot be opened: {}", std::strerror(errno)), path};
+  const std::string reason = std::strerror(errno);
+  if (const auto problem = networkProblem(served))
+    return Error{problem->code, "cannot be read: " + problem->message, path};
+  return Error{ErrorCode::unreadable, fmt::format("cannot be opened: {}", reason), path};
 }
 
 Error explainOpenFailure(const std::string& given, std::string_view kind, const GdalErrors& errors) {
-  const std::string path = networkPathOf(given);
-  if (const std::string problem = networkProblem(path); !problem.empty())
-    return {problem.ends_with("answers 404") || problem.ends_with("answers 410") ? ErrorCode::notFound
-                                                                                 : ErrorCode::unreadable,
-            "cannot be read: " + problem, given};
+  const std::string path = networkPathOf(given), served = servedPath(given);
+  if (const auto problem = networkProblem(served))
+    return {problem->code, "cannot be read: " + problem->message, given};
   if (auto problem = findInputProblem(path)) return *problem;
   VSIStatBufL status;
-  const bool there = VSIStatL(path.c_str(), &status) == 0;
+  const bool there = VSIStatL(served.c_str(), &status) == 0;
   const std::string said = errors.firstFailure();
   const bool connectionString = path.find(':') != std::string::npos && !said.empty();
   if (!there && !isVirtualPath(path) && !connectionString)
     return {ErrorCode::notFound, "there is no such file", path};
   if (!there && isVirtualPath(path))
     return {ErrorCode::notFound, said.empty() ? "there is no such file" : "cannot be opened: " + said, path};
-  if (GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR, nullptr, nullptr) && !said.empty())
+  if (GDALIdentifyDriverEx(served.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR, nullptr, nullptr) &&
+      !said.empty())
     return {ErrorCode::corrupt, fmt::format("cannot be read as a {}: {}", kind, said), path};
   if (const std::string hint = archiveHint(path, kind); !hint.empty())
     return {ErrorCode::unsupported, hint, path};

@@ -4,15 +4,16 @@
 #include <fmt/format.h>
 
 #include "io/geo/gdal/file_length.h"
-#include "io/geo/gdal/network_files.h"
 #include "io/geo/gdal/whole_text.h"
+#include "io/geo/network/network_reading.h"
 
 namespace arete {
 
 Result<GdalDatasetPtr> openVectors(const std::string& path, std::string_view kind, GdalErrors& errors,
                                    Warnings& warnings) {
+  const NetworkReading network(nullptr);  // so that a file of the network is requested once
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
-  ARETE_CHECK(checkLengthByContent(networkPathOf(path)));
+  ARETE_CHECK(checkLengthByContent(path));
   GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR);
   if (!dataset) return tl::unexpected(explainOpenFailure(path, kind, errors));
   if (const std::string said = errors.firstFileFailure(); !said.empty())

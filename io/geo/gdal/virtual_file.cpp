@@ -12,6 +12,7 @@
 
 #include "engine/base/caught_failure.h"
 #include "io/geo/gdal/support.h"
+#include "io/geo/network/network_path.h"
 
 namespace arete {
 namespace {
@@ -35,7 +36,7 @@ struct VirtualCloser {
 Result<std::shared_ptr<const FileImage>> readVirtualFile(const std::string& path, std::size_t headerBytes,
                                                          const SizeByHeader& sizeOf) try {
   const GdalErrors errors;
-  const std::unique_ptr<VSILFILE, VirtualCloser> file(VSIFOpenExL(path.c_str(), "rb", TRUE));
+  const std::unique_ptr<VSILFILE, VirtualCloser> file(VSIFOpenExL(servedPath(path).c_str(), "rb", TRUE));
   if (!file) return tl::unexpected(explainOpenFailure(path, "file", errors));
   std::vector<std::byte> bytes;
   // Until there are so many, or no more.

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "io/files/text_scan.h"
-#include "io/geo/gdal/network_files.h"
+#include "io/geo/network/network_path.h"
 
 namespace arete {
 namespace {
@@ -30,7 +30,7 @@ struct FileCloser {
 /// Calls take(character) for each character of a file until it returns false. False if it cannot be opened.
 template <class Take>
 bool forCharacters(const std::string& path, const Take& take) {
-  const std::unique_ptr<VSILFILE, FileCloser> file(VSIFOpenL(path.c_str(), "rb"));
+  const std::unique_ptr<VSILFILE, FileCloser> file(VSIFOpenL(servedPath(path).c_str(), "rb"));
   if (!file) return false;
   std::vector<char> chunk(kChunk);
   for (;;) {
@@ -149,7 +149,7 @@ void warnOfLastLine(const std::string& path, Warnings& warnings) {
 
 Status checkWholeText(const std::string& path, std::string_view driver, Warnings& warnings) {
   constexpr std::array<std::string_view, 4> kLines = {"OGR_GMT", "Geoconcept", "VDV", "Interlis 1"};
-  std::string name = networkPathOf(path);
+  std::string name = path;
   if (const std::string prefix = fmt::format("{}:", driver);
       text::lowered(name).starts_with(text::lowered(prefix)))
     name.erase(0, prefix.size());

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "io/files/text_scan.h"
-#include "io/geo/gdal/network_files.h"
 #include "io/geo/gdal/support.h"
+#include "io/geo/network/network_path.h"
 
 namespace arete {
 namespace {
@@ -61,11 +61,11 @@ Result<std::string> findZippedRaster(const std::string& given, const RunContext&
   GdalErrors errors;
   if (auto problem = findInputProblem(archive)) return tl::unexpected(*problem);
   VSIStatBufL status;
-  if (VSIStatL(archive.c_str(), &status) != 0)
+  if (VSIStatL(servedPath(archive).c_str(), &status) != 0)
     return failure(ErrorCode::notFound, "there is no such file", archive);
 
   const std::string root = fmt::format("/vsizip/{{{}}}", archive);
-  const CPLStringList names(VSIReadDirRecursive(root.c_str()));
+  const CPLStringList names(VSIReadDirRecursive(servedPath(root).c_str()));
   if (names.Count() == 0)
     return failure(ErrorCode::corrupt, "is not a zip archive, or an empty one", archive);
   std::vector<std::string> rasters, texts;
@@ -77,8 +77,9 @@ Result<std::string> findZippedRaster(const std::string& given, const RunContext&
     }
     const std::string name = names[i];
     if (name.back() == '/' || isSidecar(name)) continue;
-    GDALDriverH driver = GDALIdentifyDriverEx(fmt::format("{}/{}", root, name).c_str(), GDAL_OF_RASTER,
-                                              nullptr, siblings[withoutExtension(name)].List());
+    GDALDriverH driver =
+        GDALIdentifyDriverEx(fmt::format("{}/{}", servedPath(root), name).c_str(), GDAL_OF_RASTER, nullptr,
+                             siblings[withoutExtension(name)].List());
     if (driver) (isTextDriver(driver) ? texts : rasters).push_back(name);
   }
   if (rasters.empty()) rasters = std::move(texts);

@@ -31,6 +31,7 @@
 #include "io/files/text_decoder.h"
 #include "io/files/text_scan.h"
 #include "io/geo/gdal/support.h"
+#include "io/geo/network/network_path.h"
 #include "io/geo/text/cell_number.h"
 #include "io/geo/text/column_rules.h"
 #include "io/geo/text/separator.h"
@@ -422,7 +423,7 @@ bool looksLikePointText(const std::string& path) {
   const std::string extension = text::lowerExtension(path);
   if (extension == "csv" || extension == "tsv" || extension == "txt" || extension == "xyz") return true;
   if (findPipeProblem(path)) return false;
-  const std::unique_ptr<VSILFILE, FileCloser> file(VSIFOpenL(path.c_str(), "rb"));
+  const std::unique_ptr<VSILFILE, FileCloser> file(VSIFOpenL(servedPath(path).c_str(), "rb"));
   if (!file) return false;
   std::array<char, 4096> head;
   const std::string_view bytes(head.data(), VSIFReadL(head.data(), 1, head.size(), file.get()));
@@ -453,10 +454,10 @@ Result<PointRows> readPointText(const std::string& path, const std::string& zCol
   registerGdal();
   GdalErrors errors;
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
-  const std::unique_ptr<VSILFILE, FileCloser> file(VSIFOpenL(path.c_str(), "rb"));
+  const std::unique_ptr<VSILFILE, FileCloser> file(VSIFOpenL(servedPath(path).c_str(), "rb"));
   if (!file) return failure(ErrorCode::notFound, "there is no such file", path);
   VSIStatBufL status;
-  const double size = VSIStatL(path.c_str(), &status) == 0 ? double(status.st_size) : 0;
+  const double size = VSIStatL(servedPath(path).c_str(), &status) == 0 ? double(status.st_size) : 0;
 
   // One more than a small file has, so that its end is seen at once.
   const std::size_t chunkBytes = size > 0 && size < kMostChunkBytes ? std::size_t(size) + 1 : kMostChunkBytes;
