@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Scattered points are built with CGAL's exact predicates on their own coordinates; each triangle carries the
-// removed points it covers: see simplify.h for the levels and point_error.h for the error.
+// What scattered points give to a build (build_with.h): CGAL's exact predicates on their own coordinates, and
+// triangles that carry the removed points they cover (point_error.h).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 
 #include "engine/base/caught_failure.h"
 #include "engine/memory/pages.h"
@@ -14,8 +13,8 @@
 #include "engine/parallel/with_threads.h"
 #include "terrain/builder/build.h"
 #include "terrain/builder/build_in_tiles.h"
+#include "terrain/builder/build_with.h"
 #include "terrain/builder/checks.h"
-#include "terrain/builder/remote_heights.h"
 #include "terrain/error/point_error.h"
 #include "terrain/model/height_encoding.h"
 #include "terrain/model/plan_box.h"
@@ -31,110 +30,106 @@ struct OwnedPoints {
   EncodedHeights heights;
 };
 
-Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints finest,
-                               const BuildOptions& options, const TileOptions& tiles,
-                               const RunContext& context) {
-  std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
-  // In the build, points are numbered along the ground: neighbours are near each other in memory.
-  const std::vector<std::uint32_t>& ground = finest.order;
-  const auto finestCount = static_cast<std::uint32_t>(finest.triangles.size());
-  const auto pointCount = static_cast<std::uint32_t>(field.size());
-  std::vector<VertexId> pinched;
-  LiveMesh mesh = LiveMesh::fromTriangles(std::move(finest.triangles), pointCount, pinched);
-  giveFreeHeapBack();  // the triangles that it took
-  stage.emplace(context.clock, "prepare");
+/// In the build, points are numbered along the ground: neighbours are near each other in memory.
+class PointSource {
+ public:
+  PointSource(const PointHeightfield& field, FinestPoints finest)
+      : field_(field), finest_(std::move(finest)) {}
 
-  TerrainModel model;
-  model.georeference = field.georeference;
-  model.isRaster = false;
-  model.source = field.source;
-  model.sourceChecksum = field.sourceChecksum.empty() ? heightsChecksum(field) : field.sourceChecksum;
-  model.options = options;
-  model.options.thresholdRatio = options.thresholdRatioOrDefault();
+  const PointHeightfield& field() const { return field_; }
 
-  std::vector<std::uint8_t> isFixed(pointCount, 0);
-  for (const VertexId v : pinched) isFixed[v.index()] = 1;
-  std::vector<std::uint8_t> isFixedPoint(pointCount, 0);
-  for (const std::uint32_t p : options.fixedVertices) isFixedPoint[p] = 1;
-  for (std::uint32_t v = 0; v < pointCount; ++v) isFixed[v] |= isFixedPoint[ground[v]];
+  Result<LiveMesh> triangulate(std::vector<VertexId>& pinched, const RunContext&) {
+    LiveMesh mesh = LiveMesh::fromTriangles(std::move(finest_.triangles),
+                                            static_cast<std::uint32_t>(field_.size()), pinched);
+    giveFreeHeapBack();  // the triangles that it took
+    return mesh;
+  }
 
-  const auto [lowest, highest] = std::minmax_element(field.heights.begin(), field.heights.end());
-  if (!(*highest - *lowest < 1e30))
-    return failure(ErrorCode::invalidData,
-                   fmt::format("heights from {} to {} span too much", *lowest, *highest), field.source);
-  const auto [low, high] = fixRemoteHeights(
-      mesh, loneHeights(field.heights), [&](VertexId v) { return field.heights[ground[v.index()]]; },
-      {*lowest, *highest}, isFixed);
-  const Box2 box = planBox(field.positions);
-  const Vec2 centre{(box.xMin + box.xMax) / 2, (box.yMin + box.yMax) / 2};
-  const Vec2 grid = field.georeference.toGrid(centre.x, centre.y);
-  const Vec2 step = groundStep(field.georeference, grid.x, grid.y);
-  MetricFrame metric;
-  metric.origin = {centre.x, centre.y, (low + high) / 2};
-  metric.scale = {step.x, step.y, field.georeference.verticalUnitMetres};
-  const Vec3 span{(box.xMax - box.xMin) * step.x, (box.yMax - box.yMin) * step.y,
-                  (high - low) * metric.scale.z};
-  ARETE_CHECK(checkSpan(span, field.source));
-  const double stretch = finest.xStretch;
-  model.metricP = stretch >= 1 ? static_cast<std::uint32_t>(stretch) : 1;
-  model.metricQ = stretch >= 1 ? 1 : static_cast<std::uint32_t>(1 / stretch);
+  void describe(const LiveMesh&, TerrainModel& model) const { model.isRaster = false; }
 
-  MtRecorder recorder(finestCount, pointCount, OutwardScale(high - low), metric);
-  SimplifiedRoot root;
-  stage.emplace(context.clock, "simplify");
-  {
-    UninitializedVector<Vec3> points(pointCount);
-    for (std::uint32_t v = 0; v < pointCount; ++v) {
-      const Vec2 p = field.positions[ground[v]];
-      points[v] = {p.x, p.y, field.heights[ground[v]]};
+  Status fix(const LiveMesh&, std::span<const std::uint32_t> points,
+             std::vector<std::uint8_t>& isFixed) const {
+    std::vector<std::uint8_t> isFixedPoint(isFixed.size(), 0);
+    for (const std::uint32_t p : points) isFixedPoint[p] = 1;
+    for (std::uint32_t v = 0; v < isFixed.size(); ++v) isFixed[v] |= isFixedPoint[pointOf(v)];
+    return {};
+  }
+
+  ErrorRange wholeRange() const {
+    const auto [low, high] = std::minmax_element(field_.heights.begin(), field_.heights.end());
+    return {*low, *high};
+  }
+  LoneHeights lone() const { return loneHeights(field_.heights); }
+  double height(VertexId v) const { return field_.heights[pointOf(v.index())]; }
+
+  SourceExtent extent(TerrainModel& model) const {
+    const Box2 box = planBox(field_.positions);
+    const Vec2 middle{(box.xMin + box.xMax) / 2, (box.yMin + box.yMax) / 2};
+    const Vec2 grid = field_.georeference.toGrid(middle.x, middle.y);
+    const double stretch = finest_.xStretch;
+    model.metricP = stretch >= 1 ? static_cast<std::uint32_t>(stretch) : 1;
+    model.metricQ = stretch >= 1 ? 1 : static_cast<std::uint32_t>(1 / stretch);
+    return {
+        middle, {box.xMax - box.xMin, box.yMax - box.yMin}, groundStep(field_.georeference, grid.x, grid.y)};
+  }
+
+  Result<SimplifiedRoot> simplify(const LevelInput& input, const BuildOptions& options,
+                                  const TileOptions& tiles, const RunContext& context) const {
+    UninitializedVector<Vec3> points(field_.size());
+    for (std::uint32_t v = 0; v < points.size(); ++v) {
+      const Vec2 p = field_.positions[pointOf(v)];
+      points[v] = {p.x, p.y, field_.heights[pointOf(v)]};
     }
-    const PointPlan plan(points, stretch);
-    PointError errors(plan, points, mesh);
+    const PointPlan plan(points, finest_.xStretch);
+    PointError errors(plan, points, input.mesh);
+    const auto [low, high] = input.range;
     const double slack = roundingSlack(low, high);
-    SimplifyState<PointPlan, PointError> state{.mesh = mesh,
+    SimplifyState<PointPlan, PointError> state{.mesh = input.mesh,
                                                .plan = plan,
                                                .errors = errors,
-                                               .recorder = recorder,
+                                               .recorder = input.recorder,
                                                .rim = nullptr,
                                                .options = options,
-                                               .metric = metric,
+                                               .metric = input.metric,
                                                .heightRange = high - low,
                                                .roundingSlack = slack,
                                                .boundSlack = slack};
-    ARETE_TRY(SimplifiedRoot simplified, Simplifier(state, tiles, context).run(isFixed));
-    root = std::move(simplified);
+    return Simplifier(state, tiles, context).run(input.isFixed);
   }
-  mesh = {};
-  model.levels = root.levels;
 
-  context.report("finish", 0);
-  stage.emplace(context.clock, "finish");
-  UninitializedVector<std::uint32_t> order;
-  const MultiTriangulation bare =
-      recorder.finish(root.vertices, root.triangles, pointCount, order, context.clock);
-  // In the model, fixed vertices are MT vertices.
-  std::vector<std::uint32_t> fixed;
-  for (std::uint32_t v = 0; v < order.size(); ++v)
-    if (isFixed[order[v]]) fixed.push_back(v);
-  for (std::uint32_t& v : order) v = ground[v];
-  model.options.fixedVertices = std::move(fixed);
-  auto owned = std::make_shared<OwnedPoints>();
-  owned->plan.resize(order.size());
-  std::ranges::transform(order, owned->plan.begin(), [&](std::uint32_t v) { return field.positions[v]; });
-  owned->heights = encodeHeights(field.heights, order, 1, 0);
-  VertexArrays vertices;
-  vertices.plan = owned->plan;
-  vertices.encoding = owned->heights.encoding;
-  vertices.rawHeights = owned->heights.bytes;
-  model.mt = withVertices(bare, vertices, owned);
-  context.report("finish", 1);
-  return model;
-}
+  void finish(const MultiTriangulation& bare, UninitializedVector<std::uint32_t> order,
+              const std::vector<std::uint8_t>& isFixed, TerrainModel& model) const {
+    // In the model, fixed vertices are MT vertices.
+    std::vector<std::uint32_t> fixed;
+    for (std::uint32_t v = 0; v < order.size(); ++v)
+      if (isFixed[order[v]]) fixed.push_back(v);
+    for (std::uint32_t& v : order) v = pointOf(v);
+    model.options.fixedVertices = std::move(fixed);
+    auto owned = std::make_shared<OwnedPoints>();
+    owned->plan.resize(order.size());
+    std::ranges::transform(order, owned->plan.begin(), [&](std::uint32_t v) { return field_.positions[v]; });
+    owned->heights = encodeHeights(field_.heights, order, 1, 0);
+    VertexArrays vertices;
+    vertices.plan = owned->plan;
+    vertices.encoding = owned->heights.encoding;
+    vertices.rawHeights = owned->heights.bytes;
+    model.mt = withVertices(bare, vertices, owned);
+  }
+
+ private:
+  std::uint32_t pointOf(std::uint32_t vertex) const { return finest_.order[vertex]; }
+
+  const PointHeightfield& field_;
+  FinestPoints finest_;  // without its triangles, once triangulate() has taken them
+};
 
 Result<TerrainModel> buildChecked(const PointHeightfield& field, FinestPoints finest,
                                   const BuildOptions& options, const TileOptions& tiles,
                                   const RunContext& context) {
-  return withThreads(context, [&] { return buildHere(field, std::move(finest), options, tiles, context); });
+  return withThreads(context, [&] {
+    PointSource source(field, std::move(finest));
+    return buildWith(source, options, tiles, context);
+  });
 }
 
 }  // namespace

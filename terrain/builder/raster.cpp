@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A raster is built in lattice coordinates, with integer predicates, and its errors are scanned from the
-// raster itself: see simplify.h for the levels and raster_error.h for the scan.
+// What a raster gives to a build (build_with.h): lattice coordinates with integer predicates, and errors that
+// are scanned from the raster itself (raster_error.h).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 
 #include "engine/base/caught_failure.h"
 #include "engine/memory/uninitialized_vector.h"
@@ -17,8 +16,8 @@
 #include "engine/parallel/with_threads.h"
 #include "terrain/builder/build.h"
 #include "terrain/builder/build_in_tiles.h"
+#include "terrain/builder/build_with.h"
 #include "terrain/builder/checks.h"
-#include "terrain/builder/remote_heights.h"
 #include "terrain/error/raster_error.h"
 #include "terrain/model/height_encoding.h"
 #include "terrain/simplify/simplify.h"
@@ -92,6 +91,97 @@ struct OwnedVertices {
   EncodedHeights heights;
 };
 
+class RasterSource {
+ public:
+  explicit RasterSource(const RasterHeightfield& field) : field_(field) {}
+
+  const RasterHeightfield& field() const { return field_; }
+
+  Result<LiveMesh> triangulate(std::vector<VertexId>& pinched, const RunContext& context) const {
+    context.report("triangulate", 0);
+    LiveMesh mesh = finestMesh(field_, pinched);
+    if (mesh.triangles.empty()) return failure(ErrorCode::degenerate, whyNoTriangle(field_), field_.source);
+    context.report("triangulate", 1);
+    return mesh;
+  }
+
+  void describe(const LiveMesh& mesh, TerrainModel& model) const {
+    model.columns = field_.columns;
+    model.rows = field_.rows;
+    for (const std::uint32_t v : isolatedSamples(field_, mesh))
+      model.isolated.push_back({v, field_.heights[v]});
+  }
+
+  Status fix(const LiveMesh& mesh, std::span<const std::uint32_t> vertices,
+             std::vector<std::uint8_t>& isFixed) const {
+    for (const std::uint32_t v : vertices) {
+      if (!mesh.isInTriangle(VertexId(v)))
+        return failure(
+            ErrorCode::invalidData,
+            fmt::format(
+                "the fixed vertex at column {}, row {} is not in the domain: no data there, or isolated",
+                v % field_.columns, v / field_.columns),
+            field_.source);
+      isFixed[v] = 1;
+    }
+    return {};
+  }
+
+  ErrorRange wholeRange() const {
+    const Range all = rangeOf(field_.heights);
+    return {all.low, all.high};
+  }
+  LoneHeights lone() const { return loneHeights(field_.heights, field_.rawScale, field_.rawOffset); }
+  double height(VertexId v) const { return field_.heights[v.index()]; }
+
+  SourceExtent extent(TerrainModel& model) {
+    const Vec2 middle{(field_.columns - 1) / 2.0, (field_.rows - 1) / 2.0};
+    const Vec2 step = groundStep(field_.georeference, middle.x, middle.y);
+    ratio_ = nearestRatio(step.x / step.y);
+    model.metricP = ratio_.p;
+    model.metricQ = ratio_.q;
+    return {middle, {double(field_.columns), double(field_.rows)}, step};
+  }
+
+  Result<SimplifiedRoot> simplify(const LevelInput& input, const BuildOptions& options,
+                                  const TileOptions& tiles, const RunContext& context) const {
+    const auto [low, high] = input.range;
+    const LatticePlan plan(field_.columns, ratio_.p, ratio_.q);
+    std::unique_ptr<Rim> rim;
+    if (options.rimTolerance > 0) rim = std::make_unique<Rim>(input.mesh, plan, options.rimTolerance);
+    const double crossing = crossingSlack(low, high, field_.columns, field_.rows);
+    RasterError errors(plan, field_.heights, options.rimTolerance > 0, crossing);
+    SimplifyState<LatticePlan, RasterError> state{.mesh = input.mesh,
+                                                  .plan = plan,
+                                                  .errors = errors,
+                                                  .recorder = input.recorder,
+                                                  .rim = rim.get(),
+                                                  .options = options,
+                                                  .metric = input.metric,
+                                                  .heightRange = high - low,
+                                                  .roundingSlack = roundingSlack(low, high),
+                                                  .boundSlack = crossing};
+    return Simplifier(state, tiles, context).run(input.isFixed);
+  }
+
+  void finish(const MultiTriangulation& bare, UninitializedVector<std::uint32_t> order,
+              const std::vector<std::uint8_t>&, TerrainModel& model) const {
+    auto owned = std::make_shared<OwnedVertices>();
+    owned->samples = std::move(order);
+    owned->heights = encodeHeights(field_.heights, owned->samples, field_.rawScale, field_.rawOffset);
+    VertexArrays vertices;
+    vertices.samples = owned->samples;
+    vertices.columns = field_.columns;
+    vertices.encoding = owned->heights.encoding;
+    vertices.rawHeights = owned->heights.bytes;
+    model.mt = withVertices(bare, vertices, owned);
+  }
+
+ private:
+  const RasterHeightfield& field_;
+  Ratio ratio_;
+};
+
 Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOptions& options,
                                const TileOptions& tiles, const RunContext& context) {
   ARETE_CHECK(field.validate());
@@ -102,97 +192,8 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
         ErrorCode::unsupported,
         fmt::format("{} samples have more triangles than 32-bit half-edges can name", field.size()),
         field.source);
-
-  context.report("triangulate", 0);
-  std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
-  std::vector<VertexId> pinched;
-  LiveMesh mesh = finestMesh(field, pinched);
-  if (mesh.triangles.empty()) return failure(ErrorCode::degenerate, whyNoTriangle(field), field.source);
-  const auto finestCount = static_cast<std::uint32_t>(mesh.triangles.size());
-  const auto sampleCount = static_cast<std::uint32_t>(field.size());
-  context.report("triangulate", 1);
-  stage.emplace(context.clock, "prepare");
-
-  TerrainModel model;
-  model.georeference = field.georeference;
-  model.columns = field.columns;
-  model.rows = field.rows;
-  model.source = field.source;
-  model.sourceChecksum = field.sourceChecksum.empty() ? heightsChecksum(field) : field.sourceChecksum;
-  model.options = options;
-  model.options.thresholdRatio = options.thresholdRatioOrDefault();
-
-  std::vector<std::uint8_t> isFixed(sampleCount, 0);
-  for (const VertexId v : pinched) isFixed[v.index()] = 1;
-  for (const std::uint32_t v : options.fixedVertices) {
-    if (!mesh.isInTriangle(VertexId(v)))
-      return failure(
-          ErrorCode::invalidData,
-          fmt::format(
-              "the fixed vertex at column {}, row {} is not in the domain: no data there, or isolated",
-              v % field.columns, v / field.columns),
-          field.source);
-    isFixed[v] = 1;
-  }
-  const Range all = rangeOf(field.heights);
-  for (const std::uint32_t v : isolatedSamples(field, mesh)) model.isolated.push_back({v, field.heights[v]});
-  if (!(all.high - all.low < 1e30))
-    return failure(ErrorCode::invalidData,
-                   fmt::format("heights from {} to {} span too much", all.low, all.high), field.source);
-  const auto [low, high] = fixRemoteHeights(
-      mesh, loneHeights(field.heights, field.rawScale, field.rawOffset),
-      [&](VertexId v) { return field.heights[v.index()]; }, {all.low, all.high}, isFixed);
-
-  const Vec2 step = groundStep(field.georeference, (field.columns - 1) / 2.0, (field.rows - 1) / 2.0);
-  const Ratio ratio = nearestRatio(step.x / step.y);
-  model.metricP = ratio.p;
-  model.metricQ = ratio.q;
-  MetricFrame metric;
-  metric.origin = {(field.columns - 1) / 2.0, (field.rows - 1) / 2.0, (low + high) / 2};
-  metric.scale = {step.x, step.y, field.georeference.verticalUnitMetres};
-  const Vec3 span{field.columns * step.x, field.rows * step.y, (high - low) * metric.scale.z};
-  ARETE_CHECK(checkSpan(span, field.source));
-
-  const LatticePlan plan(field.columns, ratio.p, ratio.q);
-  MtRecorder recorder(finestCount, sampleCount, OutwardScale(high - low), metric);
-  std::unique_ptr<Rim> rim;
-  if (options.rimTolerance > 0) rim = std::make_unique<Rim>(mesh, plan, options.rimTolerance);
-
-  SimplifiedRoot root;
-  stage.emplace(context.clock, "simplify");
-  {
-    const double crossing = crossingSlack(low, high, field.columns, field.rows);
-    RasterError errors(plan, field.heights, options.rimTolerance > 0, crossing);
-    SimplifyState<LatticePlan, RasterError> state{.mesh = mesh,
-                                                  .plan = plan,
-                                                  .errors = errors,
-                                                  .recorder = recorder,
-                                                  .rim = rim.get(),
-                                                  .options = options,
-                                                  .metric = metric,
-                                                  .heightRange = high - low,
-                                                  .roundingSlack = roundingSlack(low, high),
-                                                  .boundSlack = crossing};
-    ARETE_TRY(SimplifiedRoot simplified, Simplifier(state, tiles, context).run(isFixed));
-    root = std::move(simplified);
-  }
-  mesh = {};
-  model.levels = root.levels;
-
-  context.report("finish", 0);
-  stage.emplace(context.clock, "finish");
-  auto owned = std::make_shared<OwnedVertices>();
-  const MultiTriangulation bare =
-      recorder.finish(root.vertices, root.triangles, sampleCount, owned->samples, context.clock);
-  owned->heights = encodeHeights(field.heights, owned->samples, field.rawScale, field.rawOffset);
-  VertexArrays vertices;
-  vertices.samples = owned->samples;
-  vertices.columns = field.columns;
-  vertices.encoding = owned->heights.encoding;
-  vertices.rawHeights = owned->heights.bytes;
-  model.mt = withVertices(bare, vertices, owned);
-  context.report("finish", 1);
-  return model;
+  RasterSource source(field);
+  return buildWith(source, options, tiles, context);
 }
 
 }  // namespace
