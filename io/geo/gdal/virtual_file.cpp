@@ -13,6 +13,7 @@
 #include "engine/base/caught_failure.h"
 #include "io/geo/gdal/support.h"
 #include "io/geo/network/network_path.h"
+#include "io/geo/network/network_reading.h"
 
 namespace arete {
 namespace {
@@ -36,6 +37,7 @@ struct VirtualCloser {
 Result<std::shared_ptr<const FileImage>> readVirtualFile(const std::string& path, std::size_t headerBytes,
                                                          const SizeByHeader& sizeOf) try {
   const GdalErrors errors;
+  NetworkReading network(nullptr);
   const std::unique_ptr<VSILFILE, VirtualCloser> file(VSIFOpenExL(servedPath(path).c_str(), "rb", TRUE));
   if (!file) return tl::unexpected(explainOpenFailure(path, "file", errors));
   std::vector<std::byte> bytes;
@@ -53,6 +55,7 @@ Result<std::shared_ptr<const FileImage>> readVirtualFile(const std::string& path
   if (const std::uint64_t size = sizeOf(bytes); size > bytes.size()) readUpTo(size + 1);
   if (errors.anyFailure())
     return failure(ErrorCode::unreadable, "cannot be read: " + errors.firstFailure(), path);
+  if (Status same = network.finish(); !same) return failure(same.error().code, same.error().message, path);
   if (bytes.empty()) return failure(ErrorCode::unreadable, "is empty", path);
   return std::make_shared<const BytesInMemory>(std::move(bytes));
 } catch (...) {

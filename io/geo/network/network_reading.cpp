@@ -72,10 +72,8 @@ std::optional<Error> networkProblem(const std::string& path) {
   const std::string name = rest.starts_with('/') ? rest.substr(1) : rest;
   if (at == 0) {
     if (!name.starts_with('?') && !beginsWithAddress(name)) return std::nullopt;
-    CPLPushErrorHandler(CPLQuietErrorHandler);
-    std::optional<Error> problem = remoteFile(name)->problem();
-    CPLPopErrorHandler();
-    return problem;
+    const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
+    return remoteFile(name)->problem();
   }
   if (!tReading) return std::nullopt;
   for (const auto& [read, file] : tReading->files)

@@ -68,10 +68,9 @@ class VirtualText {
   /// @return Nothing if no name leads to an address.
   std::optional<std::string> served(const std::string& text) {
     const CPLErrorStateBackuper kept;
-    CPLPushErrorHandler(CPLQuietErrorHandler);
+    const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
     const std::unique_ptr<CPLXMLNode, TreeCloser> tree(CPLParseXMLString(text.c_str()));
     if (tree) visit(tree.get());
-    CPLPopErrorHandler();
     if (!leadsToAddress_) return std::nullopt;
     char* rewritten = CPLSerializeXMLTree(tree.get());
     std::string result = rewritten;

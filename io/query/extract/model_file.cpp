@@ -6,6 +6,7 @@
 #include "engine/base/caught_failure.h"
 #include "io/geo/gdal/support.h"
 #include "io/geo/gdal/virtual_file.h"
+#include "io/geo/network/network_path.h"
 
 namespace arete {
 namespace {
@@ -21,7 +22,7 @@ std::uint64_t statedBytes(std::span<const std::byte> front) {
 }  // namespace
 
 Result<AmtContainer> openModelFile(const std::string& path, const AmtOpenOptions& options) try {
-  if (!isVirtualPath(path)) return AmtContainer::open(path, options);
+  if (!isVirtualPath(networkPathOf(path))) return AmtContainer::open(path, options);
   ARETE_TRY(auto image, readVirtualFile(path, sizeof(AmtHeader), statedBytes));
   return AmtContainer::open(path, std::move(image));
 } catch (...) {

@@ -9,8 +9,9 @@
 
 namespace arete {
 
-/// Opens the model that a path names: a plain file, or one of GDAL's virtual file systems ("/vsizip/..."),
-/// which is read into memory. What it holds, terrain or a surface, AmtContainer::isOfSurface() tells.
+/// Opens the model that a path names: a plain file, or one of GDAL's virtual file systems ("/vsizip/...")
+/// or an address, which is read into memory. What it holds, terrain or a surface, AmtContainer::isOfSurface()
+/// tells.
 ///
 /// Errors, naming the path: those of AmtContainer::open() and readVirtualFile(). O(1), or O(bytes) where it
 /// is read into memory.

@@ -3,6 +3,7 @@
 // Models in GDAL's file systems: the same as in a plain file.
 #include "io/query/extract/model_file.h"
 
+#include <cpl_conv.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "io/http_server.h"
 #include "io/written_amt.h"
 
 namespace arete {
@@ -73,6 +75,36 @@ TEST(ModelFile, IsReadFromMemoryArchivesAndPartsOfFiles) {
     EXPECT_EQ(read("/vsizip/" + folder.file("a.zip") + "/in/none.amt").error().code, ErrorCode::notFound);
     fs::remove(folder.file("a.zip"));
   }
+}
+
+TEST(ModelFile, IsReadFromAServerThatGivesAllOfIt) {
+  const TemporaryFolder folder;
+  const std::string path = writtenTo(folder, false, true, 200, 200);
+  std::ifstream from(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(from)), {});
+  ASSERT_GT(bytes.size(), std::size_t(1) << 18) << "more than one piece";
+  const TerrainModel wanted = built(read(path));
+  CPLSetConfigOption("GDAL_HTTP_MAX_RETRY", "0");
+  for (const std::string kind : {"good", "short", "replaced"})
+    for (const std::string prefix : {"", "/vsicurl/"}) {
+      const test::HttpServer server({{"a.amt", bytes}}, [&](const std::string&, int number) {
+        test::HttpFault fault;
+        if (number < 2) return fault;
+        fault.isShort = kind == "short";
+        if (kind == "replaced") fault.tag = "\"two\"";
+        return fault;
+      });
+      const std::string name = prefix + server.address("a.amt");
+      const auto model = read(name);
+      ASSERT_EQ(model.has_value(), kind == "good") << kind << (model ? "" : model.error().describe());
+      if (model) {
+        expectSame(wanted, *model);
+      } else {
+        EXPECT_EQ(model.error().culprit, name);
+        EXPECT_NE(model.error().message.find("127.0.0.1"), std::string::npos) << model.error().message;
+      }
+    }
+  CPLSetConfigOption("GDAL_HTTP_MAX_RETRY", nullptr);
 }
 
 }  // namespace
