@@ -3,28 +3,23 @@
 
 #include <pybind11/pybind11.h>
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
+#include <utility>
 #include <vector>
 
-#include "engine/base/vec.h"
+#include "io/query/face/arete.h"
 
 namespace arete::python {
 
 /// The triangles of a cut in the coordinates of the source, as arrays that Python sees without a copy.
-struct Tin {
-  std::vector<Vec3> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+struct CutTin {
+  /// The errors of a fit, which are known of the whole alone, are those of each triangle here.
+  explicit CutTin(Tin taken);
+
+  Tin tin;
   std::vector<float> errors;  ///< by triangle
-  double error = 0;           ///< the largest of them
-  bool isComplete = true;
-  std::optional<double> pixels;  ///< of a camera: the worst error in its picture
-  std::string crsWkt;
-  std::vector<std::string> warnings = {};
 };
 
+/// Defines CutRequest and Tin.
 void defineTin(pybind11::module_& module);
 
 }  // namespace arete::python
