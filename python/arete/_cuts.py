@@ -104,7 +104,7 @@ class Tin:
     def __reduce__(self) -> Tuple[Callable[..., Any], Tuple[Any, ...]]:
         tin = self._tin
         return _tin_of, (np.array(tin.vertices), np.array(tin.triangles), np.array(tin.errors), tin.error, tin.is_complete,
-                         tin.pixels, tin.crs_wkt, tin.file_parts)
+                         tin.pixels, tin.crs_wkt, tin.file_parts, np.array(tin.source_vertices))
 
     def save(self, path: PathLike, progress: Progress = None) -> List[str]:
         """Writes a mesh in the format that the name says, with its CRS, unit, errors and, of a surface, attributes.

@@ -86,7 +86,8 @@ void defineTin(py::module_& module) {
   py::class_<CutTin>(module, "Tin")
       .def(py::init([](const Doubles& vertices, const Indices& triangles,
                        const py::array_t<float, py::array::c_style>& errors, double error, bool isComplete,
-                       std::optional<double> pixels, std::string crsWkt, const FileParts& file) {
+                       std::optional<double> pixels, std::string crsWkt, const FileParts& file,
+                       const Indices& vertexOf) {
         Tin tin;
         tin.mesh = SurfaceMesh(meshOf(vertices, triangles));
         tin.errors.assign(errors.data(), errors.data() + errors.size());
@@ -99,6 +100,7 @@ void defineTin(py::module_& module) {
         std::tie(tin.verticalUnit, tin.verticalUnitMetres, origin, up, tin.note) = file;
         if (origin) tin.origin = Vec3{(*origin)[0], (*origin)[1], (*origin)[2]};
         tin.up = static_cast<MeshUp>(up);
+        tin.vertexOf.assign(vertexOf.data(), vertexOf.data() + vertexOf.size());
         return CutTin(std::move(tin));
       }))
       .def("save",

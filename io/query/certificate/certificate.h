@@ -6,7 +6,6 @@
 #include <string>
 
 #include "engine/base/result.h"
-#include "engine/cut/cut.h"
 #include "engine/parallel/run_context.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/query/request/cut_request.h"

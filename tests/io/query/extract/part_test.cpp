@@ -21,6 +21,7 @@
 #include "io/amt_fixture.h"
 #include "io/io_fixture.h"
 #include "io/mesh_fixture.h"
+#include "io/query/request/criterion.h"
 #include "terrain/model/plan_box.h"
 
 namespace arete {
