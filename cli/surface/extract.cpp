@@ -118,9 +118,10 @@ Status extractSurface(const SurfaceExtractArguments& arguments, const AmtContain
   std::error_code ignored;
   if (std::filesystem::exists(arguments.asked.region, ignored)) inputs.push_back(arguments.asked.region);
   ARETE_CHECK(checkOutputsOf(requests.all, inputs));
-  SurfaceExtractor extractor(model, arguments.model, [&](const ExtractRequest& request, double promised) {
-    return surfaceCheckCommand(request, arguments.model, promised);
-  });
+  SurfaceExtractor extractor(model, arguments.model,
+                             [&](const ExtractRequest& request, double promised, std::uint64_t samples) {
+                               return surfaceCheckCommand(request, arguments.model, promised, samples);
+                             });
   Json exports = Json::array();
   Status promise;
   for (std::size_t i = 0; i < requests.all.size(); ++i) {

@@ -22,7 +22,7 @@ struct SurfaceExtractArguments {
   bool isUndisplaced = false;  ///< vertices of a displaced model stay where they are in the source
 };
 
-/// `arete extract` of a surface: one mesh for each tolerance and each budget. Errors: those of
+/// `arete extract` of a surface: one mesh for each tolerance and each budget. Errors: as
 /// loadSurfaceAmt() and SurfaceExtractor::extract(); usage, naming the option; a budget below the root's
 /// triangles, with the least count and what forbids fewer; brokenPromise: a measurement contradicts what is
 /// promised, once all files are written.

@@ -86,15 +86,15 @@ std::string leftByRoundingText(const ExtractRequest& request, const ExtractedSur
 }
 
 std::string surfaceCheckCommand(const ExtractRequest& request, const std::string& modelPath,
-                                double promisedError) {
+                                double promisedError, std::uint64_t samples) {
   std::string command, source = modelPath;
   if (request.criterion.dropParts > 0) {
     source = std::filesystem::path(request.output).replace_extension(".source.ply").string();
     command = fmt::format("arete extract {} -o {} --max-error 0 --drop-parts {} && ", shellQuoted(modelPath),
                           shellQuoted(source), request.criterion.dropParts);
   }
-  return command + fmt::format("arete measure {} {} --expect {}", shellQuoted(request.output),
-                               shellQuoted(source), promisedError);
+  return command + fmt::format("arete measure {} {} --expect {} --samples {}", shellQuoted(request.output),
+                               shellQuoted(source), promisedError, samples);
 }
 
 }  // namespace arete

@@ -18,7 +18,8 @@ std::string leftByRoundingText(const ExtractRequest& request, const ExtractedSur
 
 /// The command that checks an export of a surface, for its certificate: `arete measure` against the model,
 /// behind an `arete extract` of the source where components are left out. File names are quoted for a shell.
+/// @param samples that the certificate's measurement took
 std::string surfaceCheckCommand(const ExtractRequest& request, const std::string& modelPath,
-                                double promisedError);
+                                double promisedError, std::uint64_t samples);
 
 }  // namespace arete

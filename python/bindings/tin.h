@@ -12,7 +12,7 @@ namespace arete::python {
 
 /// The triangles of a cut in the coordinates of the source, as arrays that Python sees without a copy.
 struct CutTin {
-  /// The errors of a fit, which are known of the whole alone, are those of each triangle here.
+  /// A fit knows the error of the whole alone: each triangle has that here.
   explicit CutTin(Tin taken);
 
   Tin tin;

@@ -48,7 +48,7 @@ struct Certificate {
 /// The certificate as JSON, as docs/topics/certificate.md states it. O(1).
 std::string certificateJson(const Certificate& certificate, const TerrainModel& model);
 
-/// Writes the certificate as JSON. The file appears whole or not at all. Errors: those of FileWriter.
+/// Writes the certificate as JSON. The file appears whole or not at all. Errors: as FileWriter.
 Status writeCertificate(const std::string& path, const Certificate& certificate, const TerrainModel& model);
 
 }  // namespace arete

@@ -16,7 +16,7 @@ constexpr int kCertificateVersion = 1;  ///< of the schema
 /// "Arete 0.1.0".
 std::string programName();
 
-/// JSON has no infinity: null says that there is no limit.
+/// JSON has no infinity: null stands for an error without a limit.
 nlohmann::ordered_json limitJson(double value);
 
 /// What was asked for.

@@ -57,7 +57,7 @@ Result<SurfaceMeasure::Places> measurePlaces(const TriangleMesh& source, const T
   return places;
 }
 
-/// XXH3-64 of a file's bytes; empty where they cannot be read again, as of a pipe.
+/// XXH3-64 of a file's bytes; empty where they cannot be read again, from a pipe.
 std::string checksumOfFile(const std::string& path) {
   const Result<FileBytes> bytes = FileBytes::read(path);
   if (!bytes) return {};
@@ -66,11 +66,16 @@ std::string checksumOfFile(const std::string& path) {
 
 }  // namespace
 
+std::uint64_t certificateSamples(const TriangleMesh& source, const TriangleMesh& mesh) {
+  constexpr std::uint64_t kLeast = 100'000;
+  return std::max<std::uint64_t>(kLeast, 10 * std::max(source.triangles.size(), mesh.triangles.size()));
+}
+
 Result<SurfaceMeasure> measureSurface(const TriangleMesh& source, const TriangleMesh& mesh,
                                       const SurfaceModel& model, const CutRequest& request, bool isComplete,
-                                      const RunContext& context) try {
+                                      std::uint64_t samples, const RunContext& context) try {
   SurfaceMeasure measured;
-  ARETE_TRY(MeshDistanceReport distances, measureDistance(mesh, source, {}, context));
+  ARETE_TRY(MeshDistanceReport distances, measureDistance(mesh, source, {.samples = samples}, context));
   measured.distances = std::move(distances);
   measured.distances.raise(model.positionError);
   if (isComplete && (request.spaceRegion || request.focus)) {

@@ -31,11 +31,14 @@ struct SurfaceMeasure {
 
 /// Measures by code that shares nothing with the build (measure/mesh_distance.h).
 /// @param source      the finest front of the model, without what is left out
+/// @param samples     on each mesh: certificateSamples()
 /// @param isComplete  whether the cut met the criterion everywhere
-/// Errors: those of measureDistance().
+/// Errors: as measureDistance().
 Result<SurfaceMeasure> measureSurface(const TriangleMesh& source, const TriangleMesh& mesh,
                                       const SurfaceModel& model, const CutRequest& request, bool isComplete,
-                                      const RunContext& context = {});
+                                      std::uint64_t samples, const RunContext& context = {});
+/// How many samples measure two meshes: ten for each triangle of the larger one, at least 100 000.
+std::uint64_t certificateSamples(const TriangleMesh& source, const TriangleMesh& mesh);
 
 /// Whether no point of the source was found farther from the mesh than promised, and no vertex farther than
 /// is allowed at its place.
@@ -68,7 +71,7 @@ struct SurfaceCertificate {
 /// whose checksums it has.
 std::string certificateJson(const SurfaceCertificate& certificate, const SurfaceModel& model);
 
-/// Writes the certificate as JSON. The file appears whole or not at all. Errors: those of FileWriter.
+/// Writes the certificate as JSON. The file appears whole or not at all. Errors: as FileWriter.
 Status writeCertificate(const std::string& path, const SurfaceCertificate& certificate,
                         const SurfaceModel& model);
 

@@ -21,7 +21,7 @@ using ExtractReport = std::variant<ExtractedTin, ExtractedSurface>;
 /// asked for, and writes the certificate. The files appear whole and together, or none. Several requests
 /// share more where they go to one TinExtractor or SurfaceExtractor, which this calls.
 /// @param modelPath  the file's name, for the certificate
-/// Errors: those of TinExtractor::extract() and SurfaceExtractor::extract().
+/// Errors: as TinExtractor::extract() and SurfaceExtractor::extract().
 Result<ExtractReport> extract(const Model& model, const ExtractRequest& request,
                               const RunContext& context = {}, const std::string& modelPath = {});
 

@@ -16,7 +16,7 @@ namespace arete {
 using Model = std::variant<TerrainModel, SurfaceModel>;
 
 /// Opens a file (openModelFile()) and reads all of it. Of a plain file of terrain, what no question touches
-/// is not read into memory. Errors, naming the path: those of openModelFile(), AmtFile::read() and
+/// is not read into memory. Errors, naming the path: as openModelFile(), AmtFile::read() and
 /// loadSurfaceAmt(). O(size)
 Result<Model> openModel(const std::string& path, const AmtOpenOptions& options = {},
                         const RunContext& context = {});

@@ -42,15 +42,15 @@ struct Tin {
   std::optional<Vec3> origin = {};    ///< for formats of 32-bit floats: one for all cuts of a model
   MeshUp up = MeshUp::z;
   std::string note = {};                     ///< what it is, as a comment in files
-  std::vector<std::uint32_t> vertexOf = {};  ///< of a surface, by vertex: that of the source
+  std::vector<std::uint32_t> vertexOf = {};  ///< of a surface, by vertex: the source's
   std::vector<std::string> warnings = {};
 };
 
-/// Opens an .amt file: terrain or a surface, a path that GDAL reads too. Errors: those of openModel().
+/// Opens an .amt file: terrain or a surface, a path that GDAL reads too. Errors: as openModel().
 Result<Model> open(const std::string& path, const RunContext& context = {});
 
 /// Builds a model from a DEM, points or a mesh, as `arete build` does it. Warnings are not returned:
-/// readDem() and buildSurfaceModel() have them. Errors: those of readDem(), chooseFixedVertices(), build(),
+/// readDem() and buildSurfaceModel() have them. Errors: as readDem(), chooseFixedVertices(), build(),
 /// readMeshInput() and buildSurfaceModel().
 Result<Model> build(const std::string& path, const ModelOptions& options = {},
                     const RunContext& context = {});
@@ -69,21 +69,21 @@ Result<Tin> cut(const SurfaceModel& model, const CutRequest& request, const RunC
 /// O(1) of a surface; O(samples) of terrain, of which all must have been read.
 Wholes wholesOf(const Model& model);
 
-/// The height of terrain at a place in the coordinates of the source, at full resolution; nothing where there
-/// is no terrain. Many places at once: SurfaceHeights. Errors: unsupported: the model is of a surface.
+/// The height of terrain at a place in the coordinates of the source, at full resolution; nothing outside
+/// the terrain. Many places at once: SurfaceHeights. Errors: unsupported: the model is of a surface.
 Result<std::optional<double>> heightAt(const Model& model, double x, double y);
 
 /// Whether a target is seen from an observer; both are x, y and a height above the ground in the unit of
 /// heights. Over the ellipsoid with the usual refraction where the CRS has one, else over a plane. Many lines
 /// at once: answerPaths(). Errors: unsupported: the model is of a surface; usage, culprit "observer" or
-/// "target": there is no terrain below; those of answerPath().
+/// "target": it is outside the terrain; as answerPath().
 Result<SightPathAnswer> lineOfSight(const Model& model, const Vec3& observer, const Vec3& target,
                                     const RunContext& context = {});
 
 /// Writes a mesh in the format that the extension of the path names, with its CRS, unit, errors and origin as
-/// far as the format holds them. Returns what it cannot hold. Errors: those of writeMesh().
+/// far as the format holds them. Returns what it cannot hold. Errors: as writeMesh().
 Result<MeshWriteReport> write(const Tin& tin, const std::string& path, const RunContext& context = {});
-/// Writes a model as an .amt file. Errors: those of writeAmt() and writeSurfaceAmt().
+/// Writes a model as an .amt file. Errors: as writeAmt() and writeSurfaceAmt().
 Status write(const Model& model, const std::string& path, const RunContext& context = {});
 
 }  // namespace arete

@@ -16,8 +16,7 @@
 
 namespace arete {
 
-// A request as the engine takes it. This and certificate/request_json.h are the places that a new criterion
-// has to be added to in the library.
+// A request as the engine takes it. A new criterion is added here and in io/query/certificate/parts.cpp.
 
 /// The criterion for a cut of terrain.
 /// @param region   request.region in plan coordinates, where there is one
@@ -30,7 +29,7 @@ Result<std::shared_ptr<const BoundedCriterion>> engineCriterion(const CutRequest
 /// The criterion for a cut of a surface. Around a focus the error that rounding may have moved the source by
 /// (SurfaceModel::positionError), times the growth, is taken off, so that what is promised holds for the
 /// source as it was. Without a tolerance or a camera no error is allowed. Errors: usage: "outsideError": it
-/// is below the error inside; those of viewOf().
+/// is below the error inside; as viewOf().
 Result<std::shared_ptr<const BoundedCriterion>> engineCriterion(const CutRequest& request,
                                                                 const SurfaceModel& model);
 
@@ -43,7 +42,7 @@ Result<RequiredError> requiredBy(std::span<const CutRequest> requests, const std
 
 /// Method, budget, deadline (from now on) and order for the engine. A budget or a deadline of a surface
 /// everywhere is spent where the integral of the squared distance is largest, unless an order is stated: that
-/// leaves about the least mean square error. Errors: usage: two queues without a camera; those of viewOf().
+/// leaves about the least mean square error. Errors: usage: two queues without a camera; as viewOf().
 Result<CutOptions> engineOptions(const CutRequest& request, const TerrainModel& model);
 Result<CutOptions> engineOptions(const CutRequest& request, const SurfaceModel& model);
 

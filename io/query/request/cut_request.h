@@ -41,7 +41,7 @@ struct CutRequest {
   std::optional<double> maxError = {};             ///< everywhere, inside the region, or at the focus
   std::optional<std::uint32_t> maxTriangles = {};  ///< a budget; without a maxError the error is as small as
                                                    ///< it gets, with one what comes first ends the cut
-  std::string region = {};     ///< as it was given; empty = none
+  std::string region = {};                         ///< as it was given; empty = none
   std::string regionCrs = {};  ///< as it was given; empty = the file's, or the DEM's for a box
   double distance = 0;         ///< around the region, metres on the ground (source units without a CRS)
   std::shared_ptr<const Region> planRegion = {};  ///< of terrain: the region in plan coordinates, if known
@@ -70,7 +70,7 @@ struct CutRequest {
   CutFit fit = CutFit::none;
 
   bool isDisplaced = true;  ///< of a surface: where the model has a displacement, vertices are displaced
-  /// Of a surface: components whose box has a smaller diagonal are left out.
+  /// Components of a surface are left out if their box has a smaller diagonal.
   double dropParts = 0;
 
   bool hasCamera() const { return camera || spaceCamera; }
@@ -81,9 +81,7 @@ struct CutRequest {
   }
   /// Whether an error is stated that a cut keeps where it is complete; a budget or a deadline alone states
   /// none.
-  bool statesError() const {
-    return maxError || pixelError || (hasCamera() && !maxTriangles);
-  }
+  bool statesError() const { return maxError || pixelError || (hasCamera() && !maxTriangles); }
 };
 
 /// "none", "triangles", "error" or "rms".

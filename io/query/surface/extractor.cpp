@@ -82,8 +82,9 @@ Status SurfaceExtractor::measure(const ExtractRequest& request, const TakenSurfa
                                  const TriangleMesh& mesh, const MeshFrame& frame, ExtractedSurface& result,
                                  const RunContext& context) {
   const TriangleMesh source = dropped_ ? finestWithout(model_, dropped()).mesh.shape() : finest();
-  ARETE_TRY(SurfaceMeasure measured,
-            measureSurface(source, mesh, model_, request.criterion, taken.whole.isComplete, context));
+  const std::uint64_t samples = certificateSamples(source, mesh);
+  ARETE_TRY(SurfaceMeasure measured, measureSurface(source, mesh, model_, request.criterion,
+                                                    taken.whole.isComplete, samples, context));
   result.isKept = keepsPromise(measured, result.promisedError);
   result.measured = std::move(measured);
   ARETE_TRY(const MeshFormat format, meshFormatOf(request.output, request.format));
@@ -105,7 +106,7 @@ Status SurfaceExtractor::measure(const ExtractRequest& request, const TakenSurfa
       .droppedFaces = result.droppedFaces.value_or(0),
       .measured = *result.measured,
       .isKept = result.isKept,
-      .checkCommand = checkCommand_ ? checkCommand_(request, result.promisedError) : ""};
+      .checkCommand = checkCommand_ ? checkCommand_(request, result.promisedError, samples) : ""};
   if (taken.fit)
     certificate.fit = {taken.fit->rmsBefore, taken.fit->rmsAfter, taken.cut.achievedError, taken.fit->part};
   return writeCertificate(request.certificate, certificate, model_);

@@ -28,7 +28,7 @@ struct ExtractedSurface {
   bool boundsLines = false;                      ///< SurfaceModel::boundsLines
   std::optional<double> pixels;                  ///< with a camera: the worst error in its picture
   std::uint64_t crossings = 0;                   ///< pairs of triangles that cross
-  std::optional<std::uint64_t> sourceCrossings;  ///< those of the source, where any request had some
+  std::optional<std::uint64_t> sourceCrossings;  ///< of the source, where any request had some
   std::optional<FitOutcome> fit;
   double leftByRounding = 0;                                     ///< TakenSurface::leftByRounding
   std::optional<std::uint64_t> droppedComponents, droppedFaces;  ///< where components may be left out
@@ -44,8 +44,9 @@ struct ExtractedSurface {
 /// Takes meshes from one surface and writes them. Keeps what several requests need.
 class SurfaceExtractor {
  public:
-  /// How to check an export that promises this distance, as text.
-  using CheckCommand = std::function<std::string(const ExtractRequest&, double promisedError)>;
+  /// How to check an export that promises this distance, with as many samples, as text.
+  using CheckCommand =
+      std::function<std::string(const ExtractRequest&, double promisedError, std::uint64_t samples)>;
 
   /// @param modelPath     the file's name, for certificates
   /// @param checkCommand  the `check` of certificates; empty = an empty text
@@ -56,7 +57,7 @@ class SurfaceExtractor {
   /// Takes the cut (takeSurface()), writes the mesh and what else is asked for, and measures what is asked to
   /// be measured. With a certificate the file is read back and measured against the source, by code that
   /// shares nothing with the build. The files appear whole and together, or none.
-  /// Errors: those of takeSurface(), writeMesh(), dropAttributes() (usage, culprit "dropAttributes" and the
+  /// Errors: as takeSurface(), writeMesh(), dropAttributes() (usage, culprit "dropAttributes" and the
   /// name), FileWriter; outOfMemory. O(front) and, to find crossings, O(front log front); O(source) where the
   /// source is measured.
   Result<ExtractedSurface> extract(const ExtractRequest& request, const RunContext& context = {});

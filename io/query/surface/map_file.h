@@ -21,7 +21,7 @@ struct NumberMap {
 };
 
 /// Writes a CSV "what,output,input" with a row for every vertex of the result and for every face of the
-/// source that a triangle stands for. The file appears whole or not at all. Errors: those of FileWriter.
+/// source that a triangle stands for. The file appears whole or not at all. Errors: as FileWriter.
 /// O(rows)
 Status writeNumberMap(const std::string& path, const NumberMap& map);
 

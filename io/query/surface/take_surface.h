@@ -39,7 +39,7 @@ Result<std::optional<DroppedComponents>> componentsToDrop(const SurfaceModel& mo
 
 /// Takes the cut of a request, leaves components out, and fits or displaces its vertices. Nothing is written.
 /// @param dropped  componentsToDrop(); null: nothing is left out
-/// Errors: those of engineCriterion(), engineOptions(), takeCut() and fitFront(); usage, culprit
+/// Errors: as engineCriterion(), engineOptions(), takeCut() and fitFront(); usage, culprit
 /// "maxTriangles": the budget is below the coarsest surface's. O(front), and O(source) for a fit.
 Result<TakenSurface> takeSurface(const SurfaceModel& model, const CutRequest& request,
                                  const DroppedComponents* dropped = nullptr, const RunContext& context = {});
@@ -47,7 +47,7 @@ Result<TakenSurface> takeSurface(const SurfaceModel& model, const CutRequest& re
 /// The finest front of what is not dropped.
 SurfaceFront finestWithout(const SurfaceModel& model, const DroppedComponents* dropped);
 
-/// Pairs of triangles of a mesh that cross. Errors: those of diagnose().
+/// Pairs of triangles of a mesh that cross. Errors: as diagnose().
 Result<std::uint64_t> crossingsOf(const TriangleMesh& mesh, const RunContext& context);
 
 }  // namespace arete
