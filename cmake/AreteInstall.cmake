@@ -3,7 +3,8 @@
 #   bin/arete
 #   lib/libarete_{engine,surface,terrain,io_store,...}.a the layers of the library
 #   include/arete/<room>/<header>.h         users write #include <arete/engine/cut/cut.h>
-#   lib/cmake/Arete/                        find_package(Arete) gives Arete::engine, Arete::surface, Arete::terrain, Arete::io
+#   include/arete/arete.h                   the face of the library: io/query/face/arete.h
+#   lib/cmake/Arete/                        find_package(Arete) gives Arete::arete, Arete::engine, Arete::surface, Arete::terrain, Arete::io
 #
 # In the source tree headers include each other as "engine/cut/cut.h"; on the way to include/arete that becomes
 # "arete/engine/cut/cut.h" (install_headers.cmake), so that no folder named engine or io gets into anybody's include path.
@@ -27,6 +28,9 @@ function(arete_install_library)
     set(ARETE_DESTINATION \"${CMAKE_INSTALL_INCLUDEDIR}/arete\")
     set(ARETE_HEADERS \"${headers}\")")
   install(SCRIPT "${CMAKE_SOURCE_DIR}/cmake/install_headers.cmake")
+  # The face of the library has a short name.
+  file(WRITE "${CMAKE_BINARY_DIR}/arete.h" "#pragma once\n#include \"arete/io/query/face/arete.h\"  // IWYU pragma: export\n")
+  install(FILES "${CMAKE_BINARY_DIR}/arete.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/arete")
   install(TARGETS arete RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 
   set(package "${CMAKE_INSTALL_LIBDIR}/cmake/Arete")

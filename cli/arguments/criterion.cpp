@@ -92,29 +92,30 @@ void CriterionArguments::addTo(CLI::App& command, OptionKinds& kinds) {
   kinds.ofTerrain(
       command
           .add_option(
-              "--distance", distance_,
+              "--distance", stated_.distance,
               "Metres along the ground by which the region is extended (without a CRS: the DEM's units)")
           ->check(finiteAbove(0))
           ->needs(region)
           ->type_name("D")
           ->group(where));
-  CLI::Option* focus = kinds.ofTerrain(
+  CLI::Option* focus =
       command
           .add_option("--focus", focus_,
-                      "Place where --max-error holds; the error grows from there by --error-growth")
-          ->type_name("X,Y")
+                      "Place where --max-error holds; the error grows from there by --error-growth. Of a "
+                      "surface X,Y,Z")
+          ->type_name("X,Y[,Z]")
           ->group(where)
-          ->excludes(region));
-  CLI::Option* growth = kinds.ofTerrain(
+          ->excludes(region);
+  CLI::Option* growth =
       command
           .add_option(
               "--error-growth", growth_,
               "Growth of the error per metre from the focus, by the scale of the map in the middle of "
-              "the DEM (without a CRS: per unit)")
+              "the DEM (without a CRS, and of a surface: per unit)")
           ->check(finiteAtLeast(0))
           ->needs(focus)
           ->type_name("G")
-          ->group(where));
+          ->group(where);
   focus->needs(growth);
   CLI::Option* camera = command
                             .add_option("--camera", camera_,
@@ -145,7 +146,7 @@ void CriterionArguments::addTo(CLI::App& command, OptionKinds& kinds) {
       ->type_name("WxH")
       ->group(where);
   command
-      .add_option("--pixel-error", pixelError_,
+      .add_option("--pixel-error", stated_.pixelError,
                   "Largest error in the picture, in pixels (default 1; with a budget: the smallest possible)")
       ->check(finiteAbove(0))
       ->needs(camera)
@@ -162,33 +163,33 @@ void CriterionArguments::addTo(CLI::App& command, OptionKinds& kinds) {
           ->group(where));
 
   const std::string stop = "Limited time or size";
-  kinds.ofTerrain(command
-                      .add_option("--deadline", deadline_,
-                                  "Longest time of refinement; the TIN conforms whenever it ends")
-                      ->check(finiteAbove(0))
-                      ->type_name("MS")
-                      ->group(stop));
-  kinds.ofTerrain(
-      command
-          .add_option("--order", order_,
-                      "Order of refinement under a budget or deadline: worst (default), breadth, depth, or "
-                      "two-queues (what the camera sees first)")
-          ->check(oneOf({"worst", "breadth", "depth", "two-queues"}))
-          ->type_name("NAME")
-          ->group(stop));
+  command
+      .add_option("--deadline", stated_.deadlineMilliseconds,
+                  "Longest time of refinement; the mesh conforms whenever it ends")
+      ->check(finiteAbove(0))
+      ->type_name("MS")
+      ->group(stop);
+  command
+      .add_option("--order", order_,
+                  "Order of refinement under a budget or deadline: worst (default), breadth, depth, or "
+                  "two-queues (what the camera sees first). Of a surface without a place the default is\n"
+                  "where the mean square distance is large")
+      ->check(oneOf({"worst", "breadth", "depth", "two-queues"}))
+      ->type_name("NAME")
+      ->group(stop);
 }
 
 Status CriterionArguments::check() const {
-  if (maxErrors_.empty() && !hasBudget() && camera_.empty() && deadline_ == 0)
+  if (maxErrors_.empty() && !hasBudget() && camera_.empty() && !hasDeadline())
     return failure(ErrorCode::usage, "--max-error, --max-triangles, --camera or --deadline is required");
   if (!outsideErrorText_.empty() && region_.empty() && focus_.empty() && camera_.empty())
     return failure(ErrorCode::usage, "requires --region, --focus or --camera", "--outside-error");
   if (isLonLat_ && focus_.empty() && camera_.empty())
     return failure(ErrorCode::usage, "requires --focus or --camera", "--lonlat");
-  if (method_ == "saturated" && (deadline_ > 0 || order_ != "worst"))
+  if (method_ == "saturated" && (hasDeadline() || hasOtherOrder()))
     return failure(ErrorCode::usage, "cannot be combined with --method saturated",
-                   deadline_ > 0 ? "--deadline" : "--order");
-  if (order_ != "worst" && !hasBudget() && deadline_ == 0)
+                   hasDeadline() ? "--deadline" : "--order");
+  if (hasOtherOrder() && !hasBudget() && !hasDeadline())
     return failure(ErrorCode::usage, "requires --max-triangles or --deadline", "--order");
   if (order_ == "two-queues" && camera_.empty())
     return failure(ErrorCode::usage, "two-queues requires --camera", "--order");
@@ -197,23 +198,35 @@ Status CriterionArguments::check() const {
 
 CriterionArguments::OfSurface CriterionArguments::ofSurface() const {
   OfSurface asked;
-  asked.isFitted = fit_ == "rms";
+  asked.common = common();
   asked.maxErrors = maxErrors_;
-  asked.isSaturated = method_ == "saturated";
   asked.maxTriangles = maxTriangles_;
   asked.region = region_;
   asked.outsideError = outsideErrorText_;
   asked.camera = camera_;
   asked.viewport = viewport_;
-  if (!std::isnan(pixelError_)) asked.pixelError = pixelError_;
   if (!std::isnan(fieldOfView_)) asked.fieldOfView = fieldOfView_;
+  asked.focus = focus_;
+  if (!std::isnan(growth_)) asked.errorGrowth = growth_;
   return asked;
+}
+
+CutRequest CriterionArguments::common() const {
+  CutRequest request = stated_;
+  request.method = method_ == "saturated" ? CutMethod::saturated : CutMethod::minimal;
+  for (const CutOrder order : {CutOrder::worst, CutOrder::breadth, CutOrder::depth, CutOrder::twoQueues})
+    if (order_ == orderName(order)) request.order = order;
+  for (const CutFit fit : {CutFit::triangles, CutFit::error, CutFit::rms})
+    if (fit_ == fitName(fit)) request.fit = fit;
+  request.region = region_;
+  request.regionCrs = regionCrs_;
+  return request;
 }
 
 Status CriterionArguments::checkFit() const {
   if (fit_ == "none") return {};
   const std::string option = "--fit " + fit_;
-  if (!camera_.empty() || !focus_.empty() || deadline_ > 0)
+  if (!camera_.empty() || !focus_.empty() || hasDeadline())
     return failure(ErrorCode::usage, "cannot be combined with --camera, --focus or --deadline", option);
   if (fit_ == "triangles" && maxErrors_.empty())
     return failure(ErrorCode::usage, "requires --max-error", option);
@@ -231,7 +244,7 @@ Result<std::optional<Vec2>> CriterionArguments::placeAboveGround(const TerrainMo
   return outline.toPlan(place);
 }
 
-Status CriterionArguments::placeCamera(const TerrainModel& model, ExtractCriterion& c) const {
+Status CriterionArguments::placeCamera(const TerrainModel& model, CutRequest& c) const {
   ARETE_TRY(const auto transform, transformOfPlaces(isLonLat_, model));
   ARETE_TRY(const auto argument, readCameraArgument("--camera", camera_, transform, SurfaceHeights(model)));
   Camera camera = argument.camera;
@@ -261,14 +274,11 @@ Status CriterionArguments::placeCamera(const TerrainModel& model, ExtractCriteri
   c.camera = camera;
   c.cameraText = argument.positionText;
   c.isLonLat = isLonLat_;
-  if (!std::isnan(pixelError_))
-    c.pixelError = pixelError_;
-  else if (!hasBudget())
-    c.pixelError = 1;
+  if (!c.pixelError && !hasBudget()) c.pixelError = 1;
   return {};
 }
 
-Status CriterionArguments::placeFocus(const TerrainModel& model, ExtractCriterion& c) const {
+Status CriterionArguments::placeFocus(const TerrainModel& model, CutRequest& c) const {
   ARETE_TRY(const auto transform, transformOfPlaces(isLonLat_, model));
   ARETE_TRY(const auto place, readPlaceArgument("--focus", focus_, transform));
   c.focus = {.xy = place, .growth = growth_, .text = focus_};
@@ -281,7 +291,7 @@ bool CriterionArguments::statesShares() const {
   return isShare(maxErrors_) || isShare(maxTriangles_) || isShare(outsideErrorText_);
 }
 
-std::string CriterionArguments::tagOf(const ExtractCriterion& criterion, const std::string& errorText,
+std::string CriterionArguments::tagOf(const CutRequest& criterion, const std::string& errorText,
                                       const std::string& budgetText) const {
   if (!errorText.empty() && !budgetText.empty()) return fmt::format("{}_{}", errorText, budgetText);
   if (!errorText.empty() || !budgetText.empty()) return errorText + budgetText;
@@ -292,28 +302,16 @@ std::string CriterionArguments::tagOf(const ExtractCriterion& criterion, const s
 Result<std::vector<CriterionArguments::OfTerrain>> CriterionArguments::criteria(
     const TerrainModel& model) const {
   const double relief = statesShares() ? reliefOf(model) : 0;
-  ExtractCriterion common;
-  common.region = region_;
-  common.regionCrs = regionCrs_;
-  common.distance = distance_;
+  CutRequest request = common();
   if (!outsideErrorText_.empty()) {
     ARETE_TRY(const auto outside, parseStatedSizes(outsideErrorText_, "--outside-error"));
     if (outside.size() != 1) return failure(ErrorCode::usage, "takes one error", "--outside-error");
-    common.outsideError = outside.front().of(relief);
+    request.outsideError = outside.front().of(relief);
   }
-  common.method = method_ == "saturated" ? CutMethod::saturated : CutMethod::minimal;
-  if (deadline_ > 0) common.deadlineMilliseconds = deadline_;
-  common.order = order_ == "breadth"      ? ExtractOrder::breadth
-                 : order_ == "depth"      ? ExtractOrder::depth
-                 : order_ == "two-queues" ? ExtractOrder::twoQueues
-                                          : ExtractOrder::worst;
-  common.fit = fit_ == "triangles" ? ExtractFit::triangles
-               : fit_ == "error"   ? ExtractFit::error
-                                   : ExtractFit::none;
-  if (!camera_.empty()) ARETE_CHECK(placeCamera(model, common));
-  if (!focus_.empty()) ARETE_CHECK(placeFocus(model, common));
+  if (!camera_.empty()) ARETE_CHECK(placeCamera(model, request));
+  if (!focus_.empty()) ARETE_CHECK(placeFocus(model, request));
 
-  std::vector<OfTerrain> withErrors = {{common, ""}};
+  std::vector<OfTerrain> withErrors = {{request, ""}};
   if (!maxErrors_.empty()) {
     ARETE_TRY(const auto errors, parseStatedSizes(maxErrors_, "--max-error"));
     withErrors.clear();
@@ -321,12 +319,12 @@ Result<std::vector<CriterionArguments::OfTerrain>> CriterionArguments::criteria(
       const double error = stated.of(relief);
       if (std::ranges::count(withErrors, error, [](const OfTerrain& c) { return c.criterion.maxError; }) > 0)
         return failure(ErrorCode::usage, fmt::format("has {} twice", stated.text), "--max-error");
-      if (common.outsideError < error)
+      if (request.outsideError < error)
         return failure(ErrorCode::usage,
                        fmt::format("{} is below the error {} inside; it must not be smaller",
-                                   common.outsideError, error),
+                                   request.outsideError, error),
                        "--outside-error");
-      withErrors.push_back({common, stated.isShare ? stated.text : fmt::format("{}", error)});
+      withErrors.push_back({request, stated.isShare ? stated.text : fmt::format("{}", error)});
       withErrors.back().criterion.maxError = error;
     }
   }

@@ -10,8 +10,8 @@
 
 #include "cli/arguments/option_kinds.h"
 #include "engine/base/result.h"
-#include "io/query/extract/criterion.h"
 #include "io/query/extract/region_argument.h"
+#include "io/query/request/criterion.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {
@@ -44,7 +44,7 @@ struct CriterionArguments {
   Result<std::optional<Vec2>> placeAboveGround(const TerrainModel& outline) const;
   /// A criterion of terrain, and what stands for it in the name of a file: "5", "1%", "5_20000", "2px".
   struct OfTerrain {
-    ExtractCriterion criterion;
+    CutRequest criterion;
     std::string tag;
   };
   /// @param model the root, and the terrain at placeAboveGround(), are enough; the whole where
@@ -57,46 +57,49 @@ struct CriterionArguments {
   struct OfSurface {
     std::string maxErrors;     ///< empty: not stated
     std::string maxTriangles;  ///< empty: not stated
-    bool isSaturated = false;
     std::string region;        ///< --region; empty: none
     std::string outsideError;  ///< --outside-error; empty: not stated
     std::string camera;        ///< --camera; empty: none
     std::string viewport;      ///< --viewport; empty: not stated
-    std::optional<double> pixelError, fieldOfView;
-    bool isFitted = false;  ///< --fit rms
+    std::optional<double> fieldOfView;
+    std::string focus;  ///< --focus; empty: none
+    double errorGrowth = 0;
+    CutRequest common;  ///< what stands in a request as it is stated
   };
   /// Precondition: no option is stated that is for terrain.
   OfSurface ofSurface() const;
 
   const std::string& region() const { return region_; }
-  RegionText regionText() const { return {region_, distance_, regionCrs_}; }
-  bool hasDeadline() const { return deadline_ > 0; }
+  RegionText regionText() const { return {region_, stated_.distance, regionCrs_}; }
+  bool hasDeadline() const { return stated_.deadlineMilliseconds.has_value(); }
   /// Whether an error or a number of triangles is stated in percent of the whole.
   bool statesShares() const;
 
  private:
   bool hasBudget() const { return !maxTriangles_.empty(); }
+  bool hasOtherOrder() const { return !order_.empty() && order_ != "worst"; }
+  /// What does not depend on the model.
+  CutRequest common() const;
 
   static constexpr double kUnstated = std::numeric_limits<double>::quiet_NaN();
 
   Status checkFit() const;
-  std::string tagOf(const ExtractCriterion& criterion, const std::string& errorText,
+  std::string tagOf(const CutRequest& criterion, const std::string& errorText,
                     const std::string& budgetText) const;
-  Status placeCamera(const TerrainModel& model, ExtractCriterion& criterion) const;
-  Status placeFocus(const TerrainModel& model, ExtractCriterion& criterion) const;
+  Status placeCamera(const TerrainModel& model, CutRequest& criterion) const;
+  Status placeFocus(const TerrainModel& model, CutRequest& criterion) const;
 
   std::string maxErrors_;
   std::string maxTriangles_;
-  std::string method_ = "minimal", order_ = "worst";
+  std::string method_ = "minimal", order_;
   std::string region_, regionCrs_;
-  double distance_ = 0;
   std::string outsideErrorText_;
   std::string focus_;
   double growth_ = kUnstated;
   std::string camera_, look_, viewport_;
-  double fieldOfView_ = kUnstated, pixelError_ = kUnstated;
+  double fieldOfView_ = kUnstated;
   bool isLonLat_ = false;
-  double deadline_ = 0;  // 0: none
+  CutRequest stated_;  // options that are fields of it write there
   std::string fit_ = "none";
 };
 

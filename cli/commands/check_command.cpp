@@ -12,19 +12,6 @@
 namespace arete {
 namespace {
 
-const char* orderName(ExtractOrder order) {
-  switch (order) {
-    case ExtractOrder::breadth:
-      return "breadth";
-    case ExtractOrder::depth:
-      return "depth";
-    case ExtractOrder::twoQueues:
-      return "two-queues";
-    default:
-      return "worst";
-  }
-}
-
 /// The options that the build read the source with; without them the same file may be another terrain.
 std::string readingOptions(const SourceReading& reading) {
   std::string options;
@@ -41,7 +28,7 @@ std::string readingOptions(const SourceReading& reading) {
 
 }  // namespace
 
-std::string optionsOf(const ExtractCriterion& c) {
+std::string optionsOf(const CutRequest& c) {
   std::string options;
   const auto add = [&](const char* name, const auto& value) {
     options += fmt::format(" --{} {}", name, value);
@@ -67,14 +54,14 @@ std::string optionsOf(const ExtractCriterion& c) {
   if (std::isfinite(c.outsideError)) add("outside-error", c.outsideError);
   if (c.method == CutMethod::saturated) add("method", "saturated");
   if (c.deadlineMilliseconds) add("deadline", *c.deadlineMilliseconds);
-  if (c.order != ExtractOrder::worst) add("order", orderName(c.order));
-  if (c.fit != ExtractFit::none) add("fit", fitName(c.fit));
+  if (c.order != CutOrder::usual && c.order != CutOrder::worst) add("order", orderName(c.order));
+  if (c.fit != CutFit::none) add("fit", fitName(c.fit));
   return options;
 }
 
 std::string checkCommand(const ExtractRequest& request, const TerrainModel& model,
                          const std::string& modelPath, double promisedError) {
-  const ExtractCriterion& c = request.criterion;
+  const CutRequest& c = request.criterion;
   std::string command, tin = request.output;
   if (isGeoTiffName(request.output)) {
     tin = std::filesystem::path(request.output).replace_extension(".ply").string();

@@ -9,7 +9,7 @@
 namespace arete {
 
 /// The options of `arete extract` that state a criterion, each with a space before it.
-std::string optionsOf(const ExtractCriterion& criterion);
+std::string optionsOf(const CutRequest& criterion);
 
 /// The command that checks an export, for its certificate: `arete measure` with the options that the source
 /// was read with, behind an `arete extract` where the export is not a mesh. File names are quoted for a

@@ -7,34 +7,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 #include <memory>
-#include <span>
-#include <string_view>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/criterion.h"
 #include "cli/arguments/drop_attributes.h"
+#include "cli/arguments/extract_outputs.h"
 #include "cli/arguments/option_kinds.h"
 #include "cli/commands/check_command.h"
+#include "cli/commands/extract_text.h"
 #include "cli/session/model_file.h"
 #include "cli/surface/extract.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/map_scale.h"
 #include "io/geo/dem/raster_writer.h"
+#include "io/query/extract/extract.h"
 #include "io/query/extract/model_file.h"
 #include "io/query/extract/part.h"
 #include "io/query/extract/region_argument.h"
-#include "io/query/extract/report_json.h"
 #include "io/query/extract/tin.h"
+#include "io/query/request/wholes.h"
 #include "terrain/model/plan_box.h"
 #include "terrain/model/plan_region.h"
-#include "terrain/model/relief.h"
 
 namespace arete {
 namespace {
@@ -62,35 +62,28 @@ struct ExtractArguments {
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   CLI::Option* certificateOption = nullptr;
   OptionKinds kinds;
-};
 
-std::string certificateBeside(const std::string& output) {
-  return fs::path(output).replace_extension(".certificate.json").string();
-}
+  ExtractOutputs outputs(Session& session) const {
+    ExtractOutputs outputs{.output = output.open(session),
+                           .format = output.format,
+                           .errorRaster = errorRaster,
+                           .map = map,
+                           .existing = existing};
+    outputs.isStdout = outputs.output != output.path;
+    if (certificateOption->count() > 0) outputs.certificate = certificate;
+    return outputs;
+  }
+};
 
 Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments, const TerrainModel& model,
                                                Session& session) {
-  ARETE_TRY(auto criteria, arguments.criterion.criteria(model));
-  std::vector<ExtractRequest> requests;
-  const bool wantsCertificate = arguments.certificateOption->count() > 0;
+  ARETE_TRY(const auto criteria, arguments.criterion.criteria(model));
+  const ExtractOutputs outputs = arguments.outputs(session);
   const bool several = criteria.size() > 1;
-  const std::string output = arguments.output.open(session);
-  if (several && output != arguments.output.path)
-    return failure(ErrorCode::usage, "takes one tolerance", "--output -");
-  if (wantsCertificate && arguments.certificate.empty() && output != arguments.output.path)
-    return failure(ErrorCode::usage, "needs a name if the mesh goes to stdout", "--certificate");
-  for (auto& [criterion, tag] : criteria) {
-    ExtractRequest request;
-    request.existing = arguments.existing;
-    request.criterion = std::move(criterion);
-    request.output = outputName(output, tag, several);
-    request.format = arguments.output.format;
-    if (wantsCertificate)
-      request.certificate = arguments.certificate.empty() ? certificateBeside(request.output)
-                                                          : outputName(arguments.certificate, tag, several);
-    if (!arguments.errorRaster.empty()) request.errorRaster = outputName(arguments.errorRaster, tag, several);
-    requests.push_back(std::move(request));
-  }
+  ARETE_CHECK(outputs.check(several));
+  std::vector<ExtractRequest> requests;
+  for (const auto& [criterion, tag] : criteria)
+    requests.push_back(outputs.requestOf(criterion, tag, several));
   for (const ExtractRequest& request : requests) {
     if (Status known = checkExtractOutput(request.output, model, request.format); !known)
       return failure(known.error().code, known.error().message, fmt::format("--output {}", request.output));
@@ -110,20 +103,9 @@ Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments
 
 Status checkOutputs(const std::vector<ExtractRequest>& requests, const ExtractArguments& arguments,
                     const TerrainModel& model) {
-  std::vector<std::string> inputs = {arguments.model, model.source}, outputs;
+  std::vector<std::string> inputs = {arguments.model, model.source};
   if (fs::exists(arguments.criterion.region())) inputs.push_back(arguments.criterion.region());
-  const auto check = [&](const char* option, const std::string& path) -> Status {
-    if (path.empty()) return {};
-    ARETE_CHECK(checkOutput(option, path, inputs, outputs));
-    outputs.push_back(path);
-    return {};
-  };
-  for (const ExtractRequest& request : requests) {
-    ARETE_CHECK(check("--output", request.output));
-    ARETE_CHECK(check("--certificate", request.certificate));
-    ARETE_CHECK(check("--error-raster", request.errorRaster));
-  }
-  return {};
+  return checkOutputsOf(requests, inputs);
 }
 
 Result<std::optional<Region>> regionOf(const ExtractArguments& arguments, const TerrainModel& model,
@@ -138,83 +120,6 @@ Result<std::optional<Region>> regionOf(const ExtractArguments& arguments, const 
     return failure(ErrorCode::usage, fmt::format("does not meet the data of {}", arguments.model),
                    fmt::format("--region {}", text));
   return std::optional<Region>(std::move(region));
-}
-
-/// What ended the refinement where an error and a budget were stated, or a deadline; empty: nothing to say.
-std::string_view endedBy(const ExtractCriterion& criterion, const ExtractedTin& tin) {
-  if (!tin.isComplete && criterion.deadlineMilliseconds) return "deadline";
-  if (!criterion.maxError || !criterion.maxTriangles) return {};
-  return tin.isComplete ? "maxError" : "maxTriangles";
-}
-
-/// What shares are of, where something was stated as a share.
-struct Wholes {
-  std::optional<double> relief;
-  std::optional<std::uint64_t> finestTriangles;
-
-  double percent(std::uint64_t triangles) const {
-    return 100 * static_cast<double>(triangles) / static_cast<double>(*finestTriangles);
-  }
-};
-
-Json jsonOf(const ExtractRequest& request, const ExtractedTin& tin, bool isRaster, const Wholes& wholes) {
-  Json json = {{"file", request.output}};
-  if (request.criterion.maxError)
-    json["maxError"] =
-        std::isfinite(*request.criterion.maxError) ? Json(*request.criterion.maxError) : Json();
-  if (request.criterion.maxTriangles) json["maxTriangles"] = *request.criterion.maxTriangles;
-  if (request.criterion.pixelError) json["pixelError"] = *request.criterion.pixelError;
-  if (request.criterion.deadlineMilliseconds) json["deadline"] = *request.criterion.deadlineMilliseconds;
-  json["complete"] = tin.isComplete;
-  if (const std::string_view ended = endedBy(request.criterion, tin); !ended.empty()) json["endedBy"] = ended;
-  json["triangles"] = tin.triangles;
-  if (wholes.finestTriangles) json["trianglesPercent"] = wholes.percent(tin.triangles);
-  json["vertices"] = tin.vertices;
-  json["storedError"] = tin.storedError;
-  if (tin.pixels) json["pixels"] = std::isfinite(*tin.pixels) ? Json(*tin.pixels) : Json();
-  json["promisedError"] = std::isfinite(tin.promisedError) ? Json(tin.promisedError) : Json();
-  if (const auto relief = wholes.relief; relief && *relief > 0) {
-    if (request.criterion.maxError && std::isfinite(*request.criterion.maxError))
-      json["maxErrorPercent"] = 100 * *request.criterion.maxError / *relief;
-    json["storedErrorPercent"] = 100 * tin.storedError / *relief;
-  }
-  if (!request.certificate.empty()) json["certificate"] = request.certificate;
-  if (!request.errorRaster.empty()) json["errorRaster"] = request.errorRaster;
-  if (tin.fit)
-    json["fit"] = {{"for", fitName(request.criterion.fit)},
-                   {"trianglesBefore", tin.fit->trianglesBefore},
-                   {"errorBefore", tin.fit->errorBefore}};
-  if (tin.measured) json["measured"] = toJson(*tin.measured, isRaster);
-  if (tin.measuredInside) json["measuredInside"] = toJson(*tin.measuredInside, isRaster);
-  if (tin.measured) json["kept"] = tin.isKept;
-  return json;
-}
-
-std::string textOf(const ExtractRequest& request, const ExtractedTin& tin, const std::string& unit,
-                   const Wholes& wholes) {
-  std::string text = fmt::format(
-      "{}: {}{}, {}, error at most {}", request.output, grouped(tin.triangles, "triangle", "triangles"),
-      wholes.finestTriangles ? fmt::format(" ({:.4g} % of the finest)", wholes.percent(tin.triangles)) : "",
-      grouped(tin.vertices, "vertex", "vertices"), withReliefShare(tin.storedError, unit, wholes.relief));
-  if (!request.criterion.region.empty())
-    text += fmt::format(" (in the region {})", withUnit(tin.promisedError, unit));
-  if (tin.pixels && std::isfinite(*tin.pixels))
-    text += fmt::format(", {:.3g} pixels in the camera's picture", *tin.pixels);
-  else if (tin.pixels)
-    text += ", pixel error unknown around the camera";
-  const std::string_view ended = endedBy(request.criterion, tin);
-  if (ended == "deadline") text += "; ended by the deadline";
-  if (ended == "maxError") text += "; ended by --max-error";
-  if (ended == "maxTriangles") text += "; ended by --max-triangles";
-  if (tin.fit && request.criterion.fit == ExtractFit::triangles)
-    text += fmt::format("; {} before the fit", grouped(tin.fit->trianglesBefore, "triangle", "triangles"));
-  else if (tin.fit)
-    text += fmt::format("; {} before the fit", withUnit(tin.fit->errorBefore, unit));
-  if (tin.measured) text += fmt::format("; measured {}", withUnit(tin.measured->maxAbsError, unit));
-  if (tin.measuredInside) text += fmt::format(", {} inside", withUnit(tin.measuredInside->maxAbsError, unit));
-  if (!request.certificate.empty()) text += fmt::format("\n  certificate {}", request.certificate);
-  if (!request.errorRaster.empty()) text += fmt::format("\n  error raster {}", request.errorRaster);
-  return text + "\n";
 }
 
 /// Warns where the format rounds heights by more than the promise allows.
@@ -267,15 +172,12 @@ void warnOfMapMetres(const std::vector<ExtractRequest>& requests, const TerrainM
 
 Status runSurfaceExtract(const ExtractArguments& arguments, const AmtContainer& file, Session& session) {
   return extractSurface({.model = arguments.model,
-                         .output = arguments.output.open(session),
-                         .format = arguments.output.format,
+                         .outputs = arguments.outputs(session),
                          .asked = arguments.criterion.ofSurface(),
-                         .map = arguments.map,
                          .dropParts = arguments.dropParts,
                          .dropAttributes = arguments.dropAttributes,
                          .isBothWays = arguments.isBothWays,
-                         .isUndisplaced = arguments.isUndisplaced,
-                         .existing = arguments.existing},
+                         .isUndisplaced = arguments.isUndisplaced},
                         file, session);
 }
 
@@ -297,11 +199,8 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   ARETE_TRY(PartAndCut part, readForExtract(file, requests, outline, session.context()));
 
   const std::string& verticalUnit = outline.georeference.verticalUnit;
-  Wholes wholes;
-  if (statesShares) {
-    wholes.relief = reliefOf(outline);
-    wholes.finestTriangles = outline.mt.finestTriangleCount();
-  }
+  std::optional<Wholes> wholes;
+  if (statesShares) wholes = wholesOf(outline);
   TinExtractor extractor(
       std::move(part.model), arguments.model,
       [&file](const RunContext& context) { return file.read({}, context); },
@@ -311,18 +210,22 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   Json exports = Json::array();
   Status promise;
   for (const ExtractRequest& request : requests) {
-    ARETE_TRY(const ExtractedTin tin,
+    ARETE_TRY(ExtractedTin tin,
               extractor.extract(request, session.context(), std::exchange(part.cut, std::nullopt)));
+    if (wholes) {
+      tin.relief = wholes->length;
+      tin.finestTriangles = wholes->triangles;
+    }
     warnOfRounding(tin, request.output, verticalUnit, session);
-    session.say(textOf(request, tin, verticalUnit, wholes));
-    exports.push_back(jsonOf(request, tin, outline.isRaster, wholes));
+    session.say(extractText(request, tin, verticalUnit));
+    exports.push_back(toJson(request, ExtractReport(tin)));
     if (!tin.isKept && promise)
       promise = failure(ErrorCode::brokenPromise, brokenPromise(tin), request.output);
   }
   Json answer = {{"model", arguments.model}, {"verticalUnit", verticalUnit}};
-  if (wholes.relief) {
-    answer["relief"] = *wholes.relief;
-    answer["finestTriangles"] = *wholes.finestTriangles;
+  if (wholes) {
+    answer["relief"] = wholes->length;
+    answer["finestTriangles"] = wholes->triangles;
   }
   answer["exports"] = std::move(exports);
   session.answer(answer);
@@ -345,7 +248,9 @@ void addExtractCommand(CLI::App& app, Session& session) {
       "  arete extract dem.amt -o tin.ply --max-error 1 --region road.gpkg --distance 500\n"
       "  arete extract dem.amt -o tin.ply --camera 384000,3800000,50 --look 120,-10 --pixel-error 2\n"
       "  arete extract dem.amt -o - --format ply --max-error 5 | gzip > tin.ply.gz\n"
-      "  arete extract scan.amt -o small.glb --max-error 0.5%\n"
+      "  arete extract scan.amt -o small.glb --max-error 0.5% --certificate\n"
+      "  arete extract scan.amt -o small.ply --max-triangles 10%,2%       small_10%.ply, small_2%.ply\n"
+      "  arete extract scan.amt -o small.ply --max-error 0.1% --focus 1,2,0.5 --error-growth 0.01\n"
       "  arete extract dem.amt -o smooth.tif --max-error 5 --error-raster error.tif",
       [arguments](Session& s) { return runExtract(*arguments, s); });
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
@@ -356,14 +261,14 @@ void addExtractCommand(CLI::App& app, Session& session) {
   addOverwriteTo(*command, arguments->existing);
   OptionKinds& kinds = arguments->kinds;
   arguments->criterion.addTo(*command, kinds);
-  arguments->certificateOption = kinds.ofTerrain(
+  arguments->certificateOption =
       command
           ->add_option("--certificate", arguments->certificate,
-                       "Measure the TIN and write a certificate as JSON: promised error, measured error, and "
-                       "how to check them (default: the output's name with .certificate.json)")
+                       "Measure the mesh and write a certificate as JSON: promised error, measured error, "
+                       "and how to check them (default: the output's name with .certificate.json)")
           ->expected(0, 1)
           ->check(notTheModel())
-          ->type_name("[FILE]"));
+          ->type_name("[FILE]");
   kinds.ofTerrain(command
                       ->add_option("--error-raster", arguments->errorRaster,
                                    "GeoTIFF to write on the source grid: TIN height minus DEM height")

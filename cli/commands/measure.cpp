@@ -26,7 +26,7 @@
 #include "io/geo/dem/raster_writer.h"
 #include "io/query/extract/model_file.h"
 #include "io/query/extract/region_argument.h"
-#include "io/query/extract/report_json.h"
+#include "io/query/certificate/report_json.h"
 #include "terrain/measure/measure.h"
 #include "terrain/model/plan_region.h"
 #include "terrain/model/relief.h"

@@ -19,7 +19,7 @@
 #include "io/formats/exchange/metric_mesh.h"
 #include "io/geo/crs/names.h"
 #include "io/query/extract/model_file.h"
-#include "io/query/extract/report_json.h"
+#include "io/query/certificate/report_json.h"
 #include "io/store/amt/surface_file.h"
 #include "measure/mesh_distance.h"
 #include "surface/front/front.h"

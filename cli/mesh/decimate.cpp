@@ -19,16 +19,13 @@
 #include "cli/arguments/mesh_options.h"
 #include "cli/mesh/tolerance.h"
 #include "engine/base/stopwatch.h"
-#include "engine/criteria/refine_order.h"
-#include "engine/cut/cut.h"
-#include "io/files/file_writer.h"
 #include "io/formats/exchange/convert.h"
 #include "io/formats/exchange/mesh_formats.h"
-#include "io/query/surface/fit_front.h"
+#include "io/query/surface/map_file.h"
 #include "io/query/surface/mesh_input.h"
+#include "io/query/surface/take_surface.h"
 #include "surface/builder/build.h"
 #include "surface/decimate/decimate.h"
-#include "surface/diagnosis/diagnosis.h"
 #include "surface/edit/small_components.h"
 #include "surface/front/face_map.h"
 #include "surface/front/front.h"
@@ -119,11 +116,6 @@ Error tooFew(const std::string& budget, std::uint64_t least, const std::string& 
           fmt::format("--max-triangles {}", budget)};
 }
 
-Result<std::uint64_t> crossingsOf(const TriangleMesh& mesh, const RunContext& context) {
-  ARETE_TRY(const MeshDiagnosis d, diagnose(mesh, {.mostPlaces = 1}, context));
-  return d.selfIntersections->count;
-}
-
 Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
                          std::optional<std::uint32_t> maxTriangles, Session& session) {
   SurfaceBuildOptions options;
@@ -131,42 +123,34 @@ Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
   // A cut of so many triangles has what is coarser than a quarter of them whole.
   ARETE_TRY(const SurfaceModel model,
             buildSurface(std::move(mesh), options, session.context(), maxTriangles.value_or(0) / 4));
-  std::optional<double> maxError;
-  CutOptions wanted;
-  if (maxTriangles) {
-    if (*maxTriangles < model.mt.rootTriangleCount())
-      return tl::unexpected(tooFew(arguments.maxTriangles, model.mt.rootTriangleCount(), "measured",
-                                   finestSurfaceOf(model).mesh));
-    wanted.maxTriangles = *maxTriangles;
-    wanted.order = std::make_shared<LargestSquaresFirst>();
-  }
+  CutRequest request;
+  request.fit = CutFit::rms;
+  request.maxTriangles = maxTriangles;
+  if (maxTriangles && *maxTriangles < model.mt.rootTriangleCount())
+    return tl::unexpected(tooFew(arguments.maxTriangles, model.mt.rootTriangleCount(), "measured",
+                                 finestSurfaceOf(model).mesh));
   if (!arguments.maxError.empty()) {
     ARETE_TRY(const auto tolerances,
               parseSurfaceTolerances("--max-error", arguments.maxError, model.diagonal));
     if (tolerances.size() != 1) return failure(ErrorCode::usage, "takes one distance", "--max-error");
-    maxError = tolerances.front().distance;
+    request.maxError = tolerances.front().distance;
   }
-  ARETE_TRY(const Cut cut, takeCut(model.mt, UniformError(maxError.value_or(0)), wanted, session.context()));
-  SurfaceFront front = surfaceOf(model, cut);
-  ARETE_TRY(const auto fit, fitFront(front, finestSurfaceOf(model).mesh.shape(),
-                                     chartsOfCut(model, frontOfPrefix(model.mt, model.mt.nodeCount()), cut),
-                                     options.keepsBorders, cut.achievedError,
-                                     cut.isComplete ? maxError : std::nullopt, session.context()));
+  ARETE_TRY(TakenSurface taken, takeSurface(model, request, nullptr, session.context()));
   Outcome outcome;
-  outcome.mesh = std::move(front.mesh);
-  outcome.vertexOf = std::move(front.vertexOf);
-  outcome.fit = fit;
-  if (!arguments.map.empty()) outcome.triangleFor = facesOf(model, cut);
+  if (!arguments.map.empty()) outcome.triangleFor = facesOf(model, taken.whole);
+  outcome.mesh = std::move(taken.front.mesh);
+  outcome.vertexOf = std::move(taken.front.vertexOf);
+  outcome.fit = taken.fit;
   ARETE_TRY(const std::uint64_t crossings, crossingsOf(outcome.mesh, session.context()));
   outcome.crossings = crossings;
   if (crossings > 0) {
     ARETE_TRY(const std::uint64_t ofSource, crossingsOf(finestSurfaceOf(model).mesh, session.context()));
     outcome.sourceCrossings = ofSource;
   }
-  outcome.isComplete = cut.isComplete;
+  outcome.isComplete = taken.whole.isComplete;
   if (2 * model.mt.rootTriangleCount() > model.mt.finestTriangleCount())
     outcome.seams = seamsOf(finestSurfaceOf(model).mesh);
-  outcome.maxError = maxError;
+  outcome.maxError = request.maxError;
   outcome.dropsFlatNormals = model.mending.dropsFlatNormals;
   return outcome;
 }
@@ -202,19 +186,16 @@ Result<Outcome> contracted(const SurfaceMesh& mesh, const DecimateArguments& arg
 Status writeNumbers(const std::string& path, const Outcome& outcome, const MeshInput& input,
                     const std::vector<std::uint32_t>& vertexBefore,
                     const std::vector<std::uint32_t>& faceBefore) {
-  ARETE_TRY(FileWriter out, FileWriter::create(path));
-  out.write("what,output,input\n");
   const auto through = [](const std::vector<std::uint32_t>& map, std::uint32_t i) {
     return map.empty() ? i : map[i];
   };
-  for (std::size_t v = 0; v < outcome.vertexOf.size(); ++v)
-    out.write(fmt::format("vertex,{},{}\n", v,
-                          through(input.numbers.vertexOf, through(vertexBefore, outcome.vertexOf[v]))));
-  for (std::uint32_t f = 0; f < outcome.triangleFor.size(); ++f)
-    if (outcome.triangleFor[f] != MeshAttributes::kNone)
-      out.write(fmt::format("face,{},{}\n", outcome.triangleFor[f],
-                            through(input.numbers.faceOf, through(faceBefore, f))));
-  return out.finish();
+  return writeNumberMap(
+      path,
+      {.vertexOf = outcome.vertexOf,
+       .triangleFor = outcome.triangleFor,
+       .vertexOfFile =
+           [&](std::uint32_t v) { return through(input.numbers.vertexOf, through(vertexBefore, v)); },
+       .faceOfFile = [&](std::uint32_t f) { return through(input.numbers.faceOf, through(faceBefore, f)); }});
 }
 
 Status runDecimate(const DecimateArguments& arguments, Session& session) {
@@ -277,12 +258,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
                                                         .placing = arguments.placing,
                                                         .isOfFloats = isOfFloats},
                                                        session.context()));
-  if (!converted.triangleOf.empty()) {
-    std::vector<std::uint32_t> placeOf(converted.triangleOf.size());
-    for (std::uint32_t i = 0; i < placeOf.size(); ++i) placeOf[converted.triangleOf[i]] = i;
-    for (std::uint32_t& triangle : outcome->triangleFor)
-      if (triangle != MeshAttributes::kNone) triangle = placeOf[triangle];
-  }
+  renumberForFile(outcome->triangleFor, converted.triangleOf);
   if (!arguments.map.empty())
     ARETE_CHECK(writeNumbers(arguments.map, *outcome, input, dropped.vertexOf, dropped.triangleOf));
   warnOf(converted, arguments.input, target.format.name, session);

@@ -25,6 +25,8 @@ constexpr std::array kNames = {
     Name{"deadlineMilliseconds", "--deadline"},
     Name{"distance", "--distance"},
     Name{"drape", "--drape"},
+    Name{"dropAttributes", "--drop-attributes"},
+    Name{"dropParts", "--drop-parts"},
     Name{"earth", "--earth"},
     Name{"featureCount", "--features"},
     Name{"featurePersistence", "--feature-persistence"},

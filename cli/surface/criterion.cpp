@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -49,36 +51,43 @@ Result<SurfaceCamera> readStatedCamera(const CriterionArguments::OfSurface& aske
 
 }  // namespace
 
-Result<SurfaceCriterion> readSurfaceCriterion(const CriterionArguments::OfSurface& asked,
-                                              std::optional<double> maxError,
-                                              std::optional<std::uint32_t> maxTriangles,
-                                              const SurfaceModel& model, const RunContext& context) {
-  SurfaceCriterion criterion;
-  criterion.maxError = maxError;
-  criterion.maxTriangles = maxTriangles;
-  criterion.pixelError = asked.pixelError;
-  if (asked.isSaturated) criterion.method = CutMethod::saturated;
+Result<CutRequest> readSurfaceRequest(const CriterionArguments::OfSurface& asked, const SurfaceModel& model,
+                                      const RunContext& context) {
+  CutRequest request = asked.common;
   if (!asked.outsideError.empty()) {
     ARETE_TRY(const auto stated,
               parseSurfaceTolerances("--outside-error", asked.outsideError, model.diagonal));
     if (stated.size() != 1) return failure(ErrorCode::usage, "takes one distance", "--outside-error");
-    criterion.outsideError = stated.front().distance;
+    request.outsideError = stated.front().distance;
   }
   if (!asked.region.empty()) {
     ARETE_TRY(auto region, readSurfaceRegion(asked.region, context));
-    criterion.region = std::move(region);
+    request.spaceRegion = std::move(region);
   }
   if (!asked.camera.empty()) {
     ARETE_TRY(const auto camera, readStatedCamera(asked));
-    criterion.camera = camera;
+    request.spaceCamera = camera;
+    request.cameraText = asked.camera;
   }
+  if (!asked.focus.empty()) {
+    const std::string option = "--focus " + asked.focus;
+    ARETE_TRY(const auto numbers, parseNumbers(option, asked.focus));
+    if (numbers.size() != 3 || !std::ranges::all_of(numbers, [](double n) { return std::isfinite(n); }))
+      return failure(ErrorCode::usage, "the focus of a surface is x,y,z in the file's unit", option);
+    request.focus = {
+        .xy = {numbers[0], numbers[1]}, .growth = asked.errorGrowth, .text = asked.focus, .z = numbers[2]};
+  }
+  return request;
+}
+
+Status checkSurfaceRequest(const CutRequest& request, const CriterionArguments::OfSurface& asked,
+                           const SurfaceModel& model) {
   // Its errors name fields; here they are options.
-  if (const auto valid = engineCriterion(criterion, model); !valid) {
-    const bool isOfCamera = valid.error().culprit == "camera";
-    return failure(valid.error().code, valid.error().message,
-                   isOfCamera ? fmt::format("--camera {}", asked.camera) : "--outside-error");
-  }
-  return criterion;
+  const auto valid = engineCriterion(request, model);
+  if (valid) return {};
+  const bool isOfCamera = valid.error().culprit == "camera";
+  return failure(valid.error().code, valid.error().message,
+                 isOfCamera ? fmt::format("--camera {}", asked.camera) : "--outside-error");
 }
 
 }  // namespace arete

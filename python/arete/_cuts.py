@@ -4,7 +4,7 @@
 import dataclasses
 import math
 import os
-from typing import Any, Callable, Optional, Tuple, Union
+from typing import Any, Callable, List, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,6 +77,11 @@ class Tin:
         return self._tin.errors
 
     @property
+    def source_vertices(self) -> NDArray[np.uint32]:
+        """Of a surface, (n,): the vertex of the source that each one is. Empty of terrain."""
+        return self._tin.source_vertices
+
+    @property
     def error(self) -> float:
         """The largest of them, anywhere."""
         return self._tin.error
@@ -88,7 +93,7 @@ class Tin:
 
     @property
     def is_complete(self) -> bool:
-        """False where a number of triangles ended the refinement before the error was reached."""
+        """False where a number of triangles or a deadline ended the refinement before the error was reached."""
         return self._tin.is_complete
 
     @property
@@ -99,7 +104,14 @@ class Tin:
     def __reduce__(self) -> Tuple[Callable[..., Any], Tuple[Any, ...]]:
         tin = self._tin
         return _tin_of, (np.array(tin.vertices), np.array(tin.triangles), np.array(tin.errors), tin.error, tin.is_complete,
-                         tin.pixels, tin.crs_wkt)
+                         tin.pixels, tin.crs_wkt, tin.file_parts, np.array(tin.source_vertices))
+
+    def save(self, path: PathLike, progress: Progress = None) -> List[str]:
+        """Writes a mesh in the format that the name says, with its CRS, unit, errors and, of a surface, attributes.
+
+        Returns what the format cannot hold: ["the CRS"].
+        """
+        return list(self._tin.save(os.fspath(path), progress))
 
     def to_meshio(self) -> Any:
         """A meshio.Mesh with the data "error" of each cell."""
@@ -121,10 +133,15 @@ class Asked:
     outside_error: float
     has_camera: bool
     pixel_error: Optional[float]
+    focus: Optional[Tuple[float, ...]] = None
+    error_growth: Optional[float] = None
+    deadline: Optional[float] = None
+    order: Optional[str] = None
+    fit: Optional[str] = None
 
     def check(self) -> None:
-        if self.max_error is None and self.max_triangles is None and not self.has_camera:
-            raise TypeError("cut() needs max_error, max_triangles or a camera")
+        if self.max_error is None and self.max_triangles is None and not self.has_camera and self.deadline is None:
+            raise TypeError("cut() needs max_error, max_triangles, a camera or a deadline")
         if self.max_error is not None and not self.max_error >= 0:
             raise ValueError(f"max_error={self.max_error} is not at least 0")
         if self.has_camera and (self.max_error is not None or self.has_region):
@@ -133,18 +150,57 @@ class Asked:
             raise ValueError("pixel_error needs a camera")
         if self.pixel_error is not None and not 0 < self.pixel_error < math.inf:
             raise ValueError(f"pixel_error={self.pixel_error} is not above 0")
-        if not self.has_region and not self.has_camera and self.outside_error != math.inf:
-            raise ValueError("outside_error needs a region or a camera")
+        if not self.has_region and not self.has_camera and self.focus is None and self.outside_error != math.inf:
+            raise ValueError("outside_error needs a region, a focus or a camera")
         if math.isnan(self.outside_error) or self.outside_error < (self.max_error or 0):
             raise ValueError(f"outside_error={self.outside_error} is below the error inside")
+        self._check_focus()
+        if self.deadline is not None and not 0 < self.deadline < math.inf:
+            raise ValueError(f"deadline={self.deadline} is not above 0")
+        if self.order not in (None, "worst", "breadth", "depth", "two-queues"):
+            raise ValueError(f"order={self.order!r} is not \"worst\", \"breadth\", \"depth\" or \"two-queues\"")
+        if self.order is not None and self.max_triangles is None and self.deadline is None:
+            raise ValueError("order needs max_triangles or a deadline")
+        if self.order == "two-queues" and not self.has_camera:
+            raise ValueError("order=\"two-queues\" needs a camera")
+        if self.fit is not None and (self.focus is not None or self.deadline is not None):
+            raise ValueError("a fit is not for a focus or a deadline")
 
-    @property
-    def error(self) -> Optional[float]:
-        return None if self.max_error is None else float(self.max_error)
+    def _check_focus(self) -> None:
+        if (self.focus is None) != (self.error_growth is None):
+            raise ValueError("a focus and error_growth need each other")
+        if self.focus is not None and (self.has_region or self.has_camera):
+            raise ValueError("a focus is its own place: no region, no camera")
+        if self.error_growth is not None and not 0 <= self.error_growth < math.inf:
+            raise ValueError(f"error_growth={self.error_growth} is not at least 0")
 
-    @property
-    def pixels(self) -> Optional[float]:
-        return None if self.pixel_error is None else float(self.pixel_error)
+    def request(self) -> _arete.CutRequest:
+        """The same as the module takes it."""
+        request = _arete.CutRequest()
+        request.max_error = None if self.max_error is None else float(self.max_error)
+        request.max_triangles = self.max_triangles
+        request.outside_error = float(self.outside_error)
+        request.pixel_error = None if self.pixel_error is None else float(self.pixel_error)
+        request.deadline = None if self.deadline is None else float(self.deadline)
+        if self.focus is not None and self.error_growth is not None:
+            x, y, z = (*self.focus, None)[:3]
+            request.set_focus(x, y, z, float(self.error_growth))
+        request.set_order(self.order or "")
+        request.set_fit(self.fit or "")
+        return request
+
+
+def focus_of(focus: Any, count: int) -> Optional[Tuple[float, ...]]:
+    """The place of a focus, checked."""
+    if focus is None:
+        return None
+    try:
+        numbers = tuple(float(value) for value in focus)
+    except (TypeError, ValueError):
+        raise TypeError(f"a focus is {count} numbers, not {focus!r}") from None
+    if len(numbers) != count or not all(math.isfinite(number) for number in numbers):
+        raise ValueError(f"a focus is {count} numbers, not {focus!r}")
+    return numbers
 
 
 class Stored:

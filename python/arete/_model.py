@@ -3,7 +3,7 @@
 
 import math
 import os
-from typing import Any, Dict, NamedTuple, Optional, Tuple, Union
+from typing import Any, Dict, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arete
 from ._arrays import crs_text, geotransform_of, heights_of, line_of, mesh_of, region_of
 from ._arrays import places_of, some_mesh_of, unmasked_places
-from ._cuts import Asked, Camera, PathLike, Progress, Stored, Tin
+from ._cuts import Asked, Camera, PathLike, Progress, Stored, Tin, focus_of
 from ._sizes import Size, count_of, counted, size_of
 
 
@@ -58,13 +58,17 @@ class Model(Stored):
 
     def cut(self, max_error: Optional[Size] = None, max_triangles: Union[int, str, None] = None, region: Any = None,
             outside_error: Size = math.inf, camera: Optional[Camera] = None, pixel_error: Optional[float] = None,
-            fit: Optional[str] = None, progress: Progress = None) -> Tin:
+            fit: Optional[str] = None, progress: Progress = None, focus: Optional[Sequence[float]] = None,
+            error_growth: Optional[float] = None, deadline: Optional[float] = None, order: Optional[str] = None) -> Tin:
         """The fewest triangles within `max_error`, or the best of at most `max_triangles`; both: whichever ends first.
 
         region: a box (xmin, ymin, xmax, ymax) or polygons (shapely, geopandas) in the CRS of the source, in which
             max_error holds; elsewhere outside_error does. Polygons that overlap are united, as `arete extract --region`
             does it.
         camera: the error is at most pixel_error (1 by default) in its picture, and outside_error out of sight.
+        focus: x, y of a place where max_error holds; from there the error grows by error_growth per metre.
+        deadline: milliseconds after which the refinement ends as far as it is; the TIN conforms.
+        order: what is refined first under max_triangles or a deadline: "worst", "breadth", "depth", or "two-queues".
         fit: moves the heights of the vertices: "triangles" for fewer triangles within max_error, "error" for a smaller
             error of as many. What that comes to is certain once measure() has found it.
 
@@ -73,7 +77,8 @@ class Model(Stored):
         """
         max_error, outside_error = self._error("max_error", max_error), self._error("outside_error", outside_error)
         max_triangles = count_of("max_triangles", max_triangles, lambda: self.finest_triangles)
-        asked = Asked(max_error, max_triangles, region is not None, outside_error, camera is not None, pixel_error)
+        asked = Asked(max_error, max_triangles, region is not None, outside_error, camera is not None, pixel_error,
+                      focus_of(focus, 2), error_growth, deadline, order, fit)
         asked.check()
         if fit not in (None, "triangles", "error"):
             raise ValueError(f"fit={fit!r} is neither \"triangles\" nor \"error\"")
@@ -84,8 +89,7 @@ class Model(Stored):
         if fit == "error" and region is not None:
             raise ValueError("fit=\"error\" is not for a region")
         numbers = None if camera is None else camera.numbers()
-        return Tin(self._terrain.cut(asked.error, max_triangles, region_of(region), float(outside_error), numbers, asked.pixels,
-                                     fit or "", progress))
+        return Tin(self._terrain.cut(asked.request(), region_of(region), numbers, progress))
 
     def _error(self, name: str, value: Any) -> Any:
         return size_of(name, value, lambda: self._terrain.relief)

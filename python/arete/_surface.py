@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from . import _arete
 from ._arrays import mesh_of, some_mesh_of
-from ._cuts import Asked, PathLike, Progress, Stored, SurfaceCamera, Tin
+from ._cuts import Asked, PathLike, Progress, Stored, SurfaceCamera, Tin, focus_of
 from ._sizes import Size, count_of, counted, size_of
 
 
@@ -22,13 +22,20 @@ class Surface(Stored):
 
     def cut(self, max_error: Optional[Size] = None, max_triangles: Union[int, str, None] = None, region: Any = None,
             outside_error: Size = math.inf, camera: Optional[SurfaceCamera] = None, pixel_error: Optional[float] = None,
-            displaced: bool = True, fit: Optional[str] = None, progress: Progress = None) -> Tin:
+            displaced: bool = True, fit: Optional[str] = None, progress: Progress = None,
+            focus: Optional[Sequence[float]] = None, error_growth: Optional[float] = None, deadline: Optional[float] = None,
+            order: Optional[str] = None, drop_parts: Size = 0) -> Tin:
         """The fewest triangles of which no point of the source is farther than `max_error`, or the best of at most
         `max_triangles`.
 
         region: where max_error holds: a box (x0, y0, z0, x1, y1, z1), a ball (x, y, z, r), or a closed mesh, as a file
             or as build_surface() takes it; elsewhere outside_error does.
         camera: the error is at most pixel_error (1 by default) in its picture.
+        focus: x, y, z of a place where max_error holds; from there the error grows by error_growth per unit.
+        deadline: milliseconds after which the refinement ends as far as it is; the mesh conforms.
+        order: what is refined first under max_triangles or a deadline: "worst", "breadth", "depth", or "two-queues"; by
+            default, without a place, where the mean square distance is large.
+        drop_parts: leaves out the components whose box has a smaller diagonal; the error is that of the rest.
         displaced: where the model was built with displacement, draw it nearer to the source at the same error.
         fit: "rms" moves vertices to where the mean square distance is small; within max_error, if it is stated.
 
@@ -37,15 +44,19 @@ class Surface(Stored):
         max_error = size_of("max_error", max_error, lambda: self.diagonal)
         outside_error = size_of("outside_error", outside_error, lambda: self.diagonal)  # type: ignore[assignment]
         max_triangles = count_of("max_triangles", max_triangles, lambda: self.finest_triangles)
-        asked = Asked(max_error, max_triangles, region is not None, outside_error, camera is not None, pixel_error)
+        drop_parts = size_of("drop_parts", drop_parts, lambda: self.diagonal)  # type: ignore[assignment]
+        asked = Asked(max_error, max_triangles, region is not None, outside_error, camera is not None, pixel_error,
+                      focus_of(focus, 3), error_growth, deadline, order, fit)
         asked.check()
         if fit not in (None, "rms"):
             raise ValueError(f"fit={fit!r} is not \"rms\"")
         if fit is not None and (region is not None or camera is not None):
             raise ValueError("a fit is for a cut by max_error or max_triangles everywhere")
         numbers = None if camera is None else camera.numbers()
-        return Tin(self._surface.cut(asked.error, max_triangles, _region_of(region, progress), float(outside_error), numbers,
-                                     asked.pixels, displaced, fit is not None, progress))
+        request = asked.request()
+        request.displaced = displaced
+        request.drop_parts = float(drop_parts)
+        return Tin(self._surface.cut(request, _region_of(region, progress), numbers, progress))
 
     def measure(self, mesh: Any, triangles: Optional[ArrayLike] = None, samples: int = 0,
                 progress: Progress = None) -> Dict[str, Any]:

@@ -8,15 +8,11 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 
-#include "engine/base/float_bounds.h"
-#include "engine/criteria/criterion.h"
-#include "engine/cut/cut.h"
 #include "io/query/extract/model_file.h"
 #include "io/query/surface/build_model.h"
-#include "io/query/surface/criterion.h"
-#include "io/query/surface/fit_front.h"
 #include "io/query/surface/region.h"
 #include "io/query/surface/write_model.h"
 #include "io/store/amt/container.h"
@@ -25,7 +21,6 @@
 #include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
 #include "python/bindings/tin.h"
-#include "surface/displacement/displaced_places.h"
 #include "surface/front/front.h"
 #include "surface/region/closed_mesh_region.h"
 
@@ -70,62 +65,18 @@ SurfacePtr buildArrays(const Doubles& vertices, const Indices& triangles, const 
   return buildOf(std::move(input), "arrays", options, progress);
 }
 
-/// What is asked of a cut.
-struct SurfaceCutRequest {
-  SurfaceCriterion criterion;
-  bool isDisplaced = true, isFitted = false;
-};
-
-/// Adds a warning where rounding leaves more than the tolerance.
-void sayWhatRoundingLeft(const SurfaceModel& model, const SurfaceCutRequest& request,
-                         const Criterion& criterion, const Cut& cut, Tin& tin) {
-  const SurfaceCriterion& c = request.criterion;
-  if (!c.maxError && !c.pixelError && (!c.camera || c.maxTriangles))
-    return;  // a budget alone states no tolerance
-  const double left = errorLeftByRounding(model, criterion, cut);
-  if (left == 0) return;
-  tin.isComplete = false;
-  tin.warnings.push_back(
-      {WarningCode::bound,
-       fmt::format("the tolerance is not kept everywhere: rounding (position_bits) has moved vertices of the "
-                   "source by up to {:.6g}, and with it no error is below {:.6g}",
-                   model.positionError, left)});
-}
-
-Result<Tin> takeSurfaceTin(const SurfaceModel& model, const SurfaceCutRequest& request,
-                           const RunContext& context) {
-  ARETE_TRY(const auto criterion, engineCriterion(request.criterion, model));
-  ARETE_TRY(const Cut cut, takeCut(model.mt, *criterion, engineOptions(request.criterion), context));
-  Tin tin;
-  tin.error = cut.achievedError;
-  tin.isComplete = cut.isComplete;
-  tin.crsWkt = model.crsWkt;
-  tin.triangles = cut.triangles;
-  if (request.criterion.camera) tin.pixels = worstSeverity(model.mt, *criterion, cut);
-  if (request.isFitted) {
-    SurfaceFront front = surfaceOf(model, cut);
-    ARETE_TRY(const auto fit, fitFront(front, finestSurfaceOf(model).mesh.shape(),
-                                       chartsOfCut(model, frontOfPrefix(model.mt, model.mt.nodeCount()), cut),
-                                       model.options.keepsBorders, cut.achievedError,
-                                       request.criterion.maxError, context, model.positionError));
-    tin.vertices = std::move(front.mesh.positions);
-    tin.error = fit.distance;
-    if (request.criterion.maxError && fit.distance > *request.criterion.maxError)
-      sayWhatRoundingLeft(model, request, *criterion, cut, tin);
-    tin.errors.assign(tin.triangles.size(), floatAtLeast(fit.distance));
-    return tin;
-  }
-  sayWhatRoundingLeft(model, request, *criterion, cut, tin);
-  if (request.isDisplaced && !model.displacement.isEmpty()) {
-    const std::vector<double> promised = promisedErrors(model.mt, cut, criterion.get());
-    tin.vertices = displacedPlaces(model.mt, model.displacement, cut, promised);
-    for (const double error : promised) tin.errors.push_back(floatAtLeast(error));
-    return tin;
-  }
-  for (const std::uint32_t v : cut.vertices) tin.vertices.push_back(model.mt.position(VertexId(v)));
-  for (const std::uint32_t t : cut.ids)
-    tin.errors.push_back(static_cast<float>(model.mt.error(TriangleId(t))));
-  return tin;
+CutTin takeSurfaceTin(const SurfaceModel& model, CutRequest request,
+                      const std::optional<RegionOfSpace>& region, const std::optional<SurfaceCamera>& camera,
+                      const py::object& progress) {
+  if (region) request.spaceRegion = region->region;
+  request.spaceCamera = camera;
+  Tin tin = call(progress, [&](const RunContext& context) { return cut(model, request, context); });
+  constexpr std::string_view kBits = "positionBits";
+  for (Warning& warning : tin.warnings)
+    if (const std::size_t at = warning.sentence.find(kBits); at != std::string::npos)
+      warning.sentence.replace(at, kBits.size(), "position_bits");
+  warn(tin.warnings);
+  return CutTin(std::move(tin));
 }
 
 py::dict oneWay(const DistanceOneWay& way) {
@@ -190,25 +141,7 @@ void defineModel(py::module_& module) {
             {eye[0], eye[1], eye[2]}, {target[0], target[1], target[2]}, fieldOfView, size[0], size[1]};
       }));
   py::class_<SurfaceModel, SurfacePtr>(module, "Surface")
-      .def("cut",
-           [](const SurfaceModel& model, std::optional<double> maxError,
-              std::optional<std::uint32_t> maxTriangles, const std::optional<RegionOfSpace>& region,
-              double outsideError, const std::optional<SurfaceCamera>& camera,
-              std::optional<double> pixelError, bool isDisplaced, bool isFitted, const py::object& progress) {
-             SurfaceCutRequest request{.criterion = {.maxError = maxError,
-                                                     .maxTriangles = maxTriangles,
-                                                     .region = region ? region->region : nullptr,
-                                                     .outsideError = outsideError,
-                                                     .camera = camera,
-                                                     .pixelError = pixelError},
-                                       .isDisplaced = isDisplaced,
-                                       .isFitted = isFitted};
-             Tin tin = call(progress, [&](const RunContext& context) {
-               return takeSurfaceTin(model, request, context);
-             });
-             warn(tin.warnings);
-             return tin;
-           })
+      .def("cut", &takeSurfaceTin)
       .def("measure", &measureSurfaceMesh)
       .def("save",
            [](const SurfaceModel& model, const std::string& path, bool isPacked, int positionBits,

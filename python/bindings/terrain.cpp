@@ -18,7 +18,6 @@
 #include "io/geo/dem/dem_reader.h"
 #include "io/query/extract/model_file.h"
 #include "io/query/extract/region_argument.h"
-#include "io/query/extract/tin.h"
 #include "io/store/amt/file.h"
 #include "python/bindings/array_file.h"
 #include "python/bindings/arrays.h"
@@ -159,51 +158,24 @@ Result<Region> planRegionOf(const AskedRegion& asked, const TerrainModel& model,
   return region;
 }
 
-/// What is asked of a cut.
-struct CutRequest {
-  std::optional<double> maxError;
-  std::optional<std::uint32_t> maxTriangles;
-  std::optional<AskedRegion> region;  ///< nothing: everywhere
-  double outsideError = 0;
-  std::optional<CameraNumbers> camera;
-  std::optional<double> pixelError;
-  std::string fit;  ///< "triangles", "error" or empty
-};
-
-Tin takeTinOf(const Terrain& terrain, const CutRequest& request, const py::object& progress) {
+CutTin takeTinOf(const Terrain& terrain, CutRequest request, const std::optional<AskedRegion>& region,
+                 const std::optional<CameraNumbers>& camera, const py::object& progress) {
   Warnings warnings;
   Tin taken = call(progress, [&](const RunContext& context) -> Result<Tin> {
-    const TerrainModel& model = terrain.model();
-    ExtractCriterion criterion;
-    criterion.maxError = request.maxError;
-    criterion.maxTriangles = request.maxTriangles;
-    criterion.outsideError = request.outsideError;
-    std::optional<Region> region;
-    if (request.region) {
-      ARETE_TRY(auto inPlan, planRegionOf(*request.region, model, warnings));
-      region = std::move(inPlan);
+    if (region) {
+      ARETE_TRY(Region inPlan, planRegionOf(*region, terrain.model(), warnings));
+      request.planRegion = std::make_shared<const Region>(std::move(inPlan));
     }
-    if (request.camera) {
-      ARETE_TRY(const auto camera, cameraOf(*request.camera, terrain));
-      criterion.camera = camera;
-      criterion.pixelError = request.pixelError;
-      if (!request.pixelError && !request.maxTriangles) criterion.pixelError = 1;
+    if (camera) {
+      ARETE_TRY(const auto placed, cameraOf(*camera, terrain));
+      request.camera = placed;
     }
-    if (request.fit == "triangles") criterion.fit = ExtractFit::triangles;
-    if (request.fit == "error") criterion.fit = ExtractFit::error;
-    ExtractedTin said;
-    ARETE_TRY(TinExport tin, takeTin(model, criterion, region, 0, std::nullopt, said, context));
-    return Tin{std::move(tin.mesh.positions),
-               std::move(tin.mesh.triangles),
-               std::move(tin.errors),
-               said.storedError,
-               said.isComplete,
-               said.pixels,
-               model.georeference.crsWkt};
+    if (request.focus) request.focus->xy = LongitudeTurns(terrain.model())(request.focus->xy);
+    return cut(terrain.model(), request, context);
   });
   for (Warning& warning : warnings) warning = warning.behind("region: ");
   warn(warnings);
-  return taken;
+  return CutTin(std::move(taken));
 }
 
 /// NaN where there is no terrain.
@@ -274,14 +246,7 @@ void defineTerrain(py::module_& module) {
         return CameraNumbers{place[0], place[1],    place[2], std::move(kind), azimuth,
                              pitch,    fieldOfView, size[0],  size[1]};
       }));
-  its.def("cut",
-          [](const Terrain& terrain, std::optional<double> maxError,
-             std::optional<std::uint32_t> maxTriangles, const std::optional<AskedRegion>& region,
-             double outsideError, const std::optional<CameraNumbers>& camera,
-             std::optional<double> pixelError, const std::string& fit, const py::object& progress) {
-            return takeTinOf(terrain, {maxError, maxTriangles, region, outsideError, camera, pixelError, fit},
-                             progress);
-          })
+  its.def("cut", &takeTinOf)
       .def("heights", &heightsAt)
       .def("grid_of", &gridOf)
       .def("isolated", &isolatedOf)

@@ -4,9 +4,15 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <array>
+#include <optional>
+#include <string>
+#include <tuple>
 #include <utility>
 
+#include "engine/base/float_bounds.h"
 #include "python/bindings/arrays.h"
+#include "python/bindings/calls.h"
 
 namespace arete::python {
 namespace {
@@ -27,42 +33,108 @@ py::ssize_t sizeOf(const auto& array) {
 
 }  // namespace
 
+CutTin::CutTin(Tin taken) : tin(std::move(taken)), errors(tin.errors) {
+  if (errors.empty()) errors.assign(tin.mesh.triangles.size(), floatAtLeast(tin.error));
+}
+
+namespace {
+
+void defineRequest(py::module_& module) {
+  py::class_<CutRequest>(module, "CutRequest")
+      .def(py::init<>())
+      .def_readwrite("max_error", &CutRequest::maxError)
+      .def_readwrite("max_triangles", &CutRequest::maxTriangles)
+      .def_readwrite("outside_error", &CutRequest::outsideError)
+      .def_readwrite("pixel_error", &CutRequest::pixelError)
+      .def_readwrite("deadline", &CutRequest::deadlineMilliseconds)
+      .def_readwrite("displaced", &CutRequest::isDisplaced)
+      .def_readwrite("drop_parts", &CutRequest::dropParts)
+      .def("set_focus",
+           [](CutRequest& request, double x, double y, std::optional<double> z, double growth) {
+             request.focus = {.xy = {x, y}, .growth = growth, .z = z};
+           })
+      .def("set_method",
+           [](CutRequest& request, const std::string& name) {
+             request.method = name == "saturated" ? CutMethod::saturated : CutMethod::minimal;
+           })
+      .def("set_order",
+           [](CutRequest& request, const std::string& name) {
+             for (const CutOrder order :
+                  {CutOrder::worst, CutOrder::breadth, CutOrder::depth, CutOrder::twoQueues})
+               if (orderName(order) == name) request.order = order;
+           })
+      .def("set_fit", [](CutRequest& request, const std::string& name) {
+        for (const CutFit fit : {CutFit::triangles, CutFit::error, CutFit::rms})
+          if (fitName(fit) == name) request.fit = fit;
+      });
+}
+
+/// @param file vertical unit, its metres, the origin (three numbers or none), which axis is up, and a note.
+using FileParts = std::tuple<std::string, double, std::optional<std::array<double, 3>>, int, std::string>;
+
+FileParts filePartsOf(const Tin& tin) {
+  std::optional<std::array<double, 3>> origin;
+  if (tin.origin) origin = {tin.origin->x, tin.origin->y, tin.origin->z};
+  return {tin.verticalUnit, tin.verticalUnitMetres, origin, static_cast<int>(tin.up), tin.note};
+}
+
+}  // namespace
+
 void defineTin(py::module_& module) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
-  py::class_<Tin>(module, "Tin")
+  defineRequest(module);
+  py::class_<CutTin>(module, "Tin")
       .def(py::init([](const Doubles& vertices, const Indices& triangles,
                        const py::array_t<float, py::array::c_style>& errors, double error, bool isComplete,
-                       std::optional<double> pixels, std::string crsWkt) {
-        TriangleMesh mesh = meshOf(vertices, triangles);
-        return Tin{std::move(mesh.positions),
-                   std::move(mesh.triangles),
-                   {errors.data(), errors.data() + errors.size()},
-                   error,
-                   isComplete,
-                   pixels,
-                   std::move(crsWkt)};
+                       std::optional<double> pixels, std::string crsWkt, const FileParts& file,
+                       const Indices& vertexOf) {
+        Tin tin;
+        tin.mesh = SurfaceMesh(meshOf(vertices, triangles));
+        tin.errors.assign(errors.data(), errors.data() + errors.size());
+        tin.error = error;
+        tin.isComplete = isComplete;
+        tin.pixels = pixels;
+        tin.crsWkt = std::move(crsWkt);
+        std::optional<std::array<double, 3>> origin;
+        int up = 0;
+        std::tie(tin.verticalUnit, tin.verticalUnitMetres, origin, up, tin.note) = file;
+        if (origin) tin.origin = Vec3{(*origin)[0], (*origin)[1], (*origin)[2]};
+        tin.up = static_cast<MeshUp>(up);
+        tin.vertexOf.assign(vertexOf.data(), vertexOf.data() + vertexOf.size());
+        return CutTin(std::move(tin));
       }))
-      .def_property_readonly("vertices",
-                             [](const py::object& self) {
-                               const auto& tin = self.cast<const Tin&>();
-                               return viewOf(reinterpret_cast<const double*>(tin.vertices.data()),
-                                             {sizeOf(tin.vertices), 3}, self);
-                             })
+      .def("save",
+           [](const CutTin& self, const std::string& path, const py::object& progress) {
+             return call(progress, [&](const RunContext& context) { return write(self.tin, path, context); })
+                 .lost;
+           })
+      .def_property_readonly(
+          "vertices",
+          [](const py::object& self) {
+            const auto& positions = self.cast<const CutTin&>().tin.mesh.positions;
+            return viewOf(reinterpret_cast<const double*>(positions.data()), {sizeOf(positions), 3}, self);
+          })
       .def_property_readonly("triangles",
                              [](const py::object& self) {
-                               const auto& tin = self.cast<const Tin&>();
-                               return viewOf(reinterpret_cast<const std::uint32_t*>(tin.triangles.data()),
-                                             {sizeOf(tin.triangles), 3}, self);
+                               const auto& triangles = self.cast<const CutTin&>().tin.mesh.triangles;
+                               return viewOf(reinterpret_cast<const std::uint32_t*>(triangles.data()),
+                                             {sizeOf(triangles), 3}, self);
+                             })
+      .def_property_readonly("source_vertices",
+                             [](const py::object& self) {
+                               const auto& numbers = self.cast<const CutTin&>().tin.vertexOf;
+                               return viewOf(numbers.data(), {sizeOf(numbers)}, self);
                              })
       .def_property_readonly("errors",
                              [](const py::object& self) {
-                               const auto& tin = self.cast<const Tin&>();
+                               const auto& tin = self.cast<const CutTin&>();
                                return viewOf(tin.errors.data(), {sizeOf(tin.errors)}, self);
                              })
-      .def_readonly("error", &Tin::error)
-      .def_readonly("is_complete", &Tin::isComplete)
-      .def_readonly("pixels", &Tin::pixels)
-      .def_readonly("crs_wkt", &Tin::crsWkt);
+      .def_property_readonly("error", [](const CutTin& self) { return self.tin.error; })
+      .def_property_readonly("is_complete", [](const CutTin& self) { return self.tin.isComplete; })
+      .def_property_readonly("pixels", [](const CutTin& self) { return self.tin.pixels; })
+      .def_property_readonly("crs_wkt", [](const CutTin& self) { return self.tin.crsWkt; })
+      .def_property_readonly("file_parts", [](const CutTin& self) { return filePartsOf(self.tin); });
 }
 
 }  // namespace arete::python

@@ -64,6 +64,19 @@ std::string everyHeader(const fs::path& include) {
   return text + "int main() { return arete::toString(arete::ErrorCode::usage).empty() ? 1 : 0; }\n";
 }
 
+/// The indented block of README.md that includes arete.h.
+std::string firstProgram() {
+  std::istringstream lines(contentOf(ARETE_README));
+  std::string program;
+  for (std::string line; std::getline(lines, line);) {
+    const bool begins = line == "    #include <arete/arete.h>";
+    if (program.empty() && !begins) continue;
+    if (!line.starts_with("    ")) break;
+    program += line.substr(4) + "\n";
+  }
+  return program;
+}
+
 TEST_F(Library, IsInstalledFoundBuiltAgainstAndAnswers) {
   run(fmt::format("'{}' --install '{}' --prefix prefix", ARETE_CMAKE, ARETE_BUILD_FOLDER));
   const fs::path prefix = folder_ / "prefix";
@@ -101,6 +114,26 @@ TEST_F(Library, IsInstalledFoundBuiltAgainstAndAnswers) {
   EXPECT_NE(out_.find("kept"), std::string::npos) << out_;
   run("prefix/bin/arete extract dem.amt -o tin2.ply --max-error 5 --json");
   EXPECT_NE(out_.find(fmt::format("\"triangles\": {},", triangles)), std::string::npos) << out_;
+
+  run("examples/first dem.amt 5 tin3.ply");
+  EXPECT_EQ(out_.substr(0, out_.find(' ')), triangles) << out_;
+  run("prefix/bin/arete measure tin3.ply dem.tif --expect 5");
+
+  // The first program of the README, as it stands there.
+  fs::create_directory(folder_ / "readme");
+  const std::string program = firstProgram();
+  ASSERT_EQ(std::count(program.begin(), program.end(), '\n'), 6) << program;
+  std::ofstream(folder_ / "readme" / "main.cpp") << program;
+  std::ofstream(folder_ / "readme" / "CMakeLists.txt")
+      << "cmake_minimum_required(VERSION 3.22)\nproject(readme LANGUAGES CXX)\nfind_package(Arete REQUIRED)\n"
+         "add_executable(first main.cpp)\ntarget_link_libraries(first PRIVATE Arete::arete)\n"
+         "target_compile_options(first PRIVATE -Wall -Wextra -Werror)\n";
+  run(fmt::format("'{}' -S readme -B readme/build {} -DCMAKE_PREFIX_PATH='{}'", ARETE_CMAKE,
+                  ARETE_CMAKE_ARGUMENTS, prefix.string()));
+  run(fmt::format("'{}' --build readme/build", ARETE_CMAKE));
+  run("cp dem.amt alps.amt && readme/build/first");
+  run("prefix/bin/arete measure alps.glb dem.tif --expect 5.01");
+  EXPECT_NE(out_.find("kept"), std::string::npos) << out_;
 
   std::string places, expected;
   for (const std::uint32_t i : {0u, 5000u, 16640u}) {

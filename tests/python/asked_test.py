@@ -123,8 +123,14 @@ class Hosts(unittest.TestCase):
     def test_a_tin_is_pickled_and_copied(self):
         for tin in (arete.build(hills()).cut(max_error=2), arete.build_surface(np.eye(3), [[0, 1, 2]]).cut(max_error=0)):
             for again in (pickle.loads(pickle.dumps(tin)), copy.copy(tin), copy.deepcopy(tin)):
-                for name in ("vertices", "triangles", "errors"):
+                for name in ("vertices", "triangles", "errors", "source_vertices"):
                     self.assertTrue(np.array_equal(getattr(tin, name), getattr(again, name)))
+                with tempfile.TemporaryDirectory() as folder:
+                    paths = [os.path.join(folder, name) for name in ("tin.ply", "again.ply")]
+                    for one, path in zip((tin, again), paths):
+                        self.assertEqual(one.save(path), [])
+                    with open(paths[0], "rb") as first, open(paths[1], "rb") as second:
+                        self.assertEqual(first.read(), second.read())
                 self.assertEqual((tin.error, tin.is_complete, tin.pixels, tin.crs),
                                  (again.error, again.is_complete, again.pixels, again.crs))
 

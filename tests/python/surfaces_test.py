@@ -66,6 +66,42 @@ class Surfaces(unittest.TestCase):
                 with open(self.path("python.amt"), "rb") as ours, open(self.path("command.amt"), "rb") as theirs:
                     self.assertEqual(ours.read(), theirs.read())
 
+    def test_cuts_are_limited_ordered_and_focused_as_the_command_has_it(self):
+        for options, words in (({"max_error": 0.02, "focus": (10, 0, 0), "error_growth": 0.05, "outside_error": 1},
+                                ["--max-error", 0.02, "--focus", "10,0,0", "--error-growth", 0.05, "--outside-error", 1]),
+                               ({"max_triangles": 300, "order": "worst"}, ["--max-triangles", 300, "--order", "worst"]),
+                               ({"max_triangles": "10%"}, ["--max-triangles", "10%"]),
+                               ({"max_error": 0.1, "deadline": 1e6}, ["--max-error", 0.1, "--deadline", 1e6])):
+            with self.subTest(options):
+                tin, said = self.surface.cut(**options), self.said(*words)
+                self.assertEqual(len(tin.triangles), said["triangles"])
+                self.assertEqual(tin.error, said["error"])
+                self.assertEqual(tin.is_complete, said["complete"])
+        early = self.surface.cut(deadline=1e-9)
+        self.assertFalse(early.is_complete)
+        self.assertGreater(len(early.triangles), 3)
+        for wrong in ({"focus": (1, 0, 0)}, {"error_growth": 1}, {"focus": (1, 0), "error_growth": 1}, {"order": "depth"},
+                      {"deadline": -1}, {"deadline": 5, "order": "two-queues"}, {"deadline": 5, "fit": "rms"}):
+            with self.subTest(wrong), self.assertRaises(ValueError):
+                self.surface.cut(max_error=0.1, **wrong)
+
+    def test_parts_are_left_out_and_a_cut_is_written_with_where_it_comes_from(self):
+        far = self.vertices[:4] / 1000 + [30, 0, 0]
+        far[3] += [0, 0, 0.01]
+        n = len(self.vertices)
+        both = arete.build_surface(np.concatenate([self.vertices, far]),
+                                   np.concatenate([self.triangles, n + np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])]))
+        tin = both.cut(max_error=0.1, drop_parts="5%")
+        self.assertLess(tin.vertices[:, 0].max(), 15)
+        self.assertTrue(np.array_equal(tin.vertices, np.concatenate([self.vertices, far])[tin.source_vertices]))
+        with self.assertRaisesRegex(ValueError, "drop_parts"):
+            both.cut(max_error=0.1, drop_parts=1e6)
+        tin = self.surface.cut(max_error=0.1)
+        self.assertEqual(tin.save(self.path("python.ply")), [])
+        command("extract", self.file, "-o", self.path("command.ply"), "--max-error", 0.1, "--quiet")
+        with open(self.path("python.ply"), "rb") as ours, open(self.path("command.ply"), "rb") as theirs:
+            self.assertEqual(ours.read(), theirs.read())
+
     def test_arrays_build_what_their_file_does(self):
         wanted = self.surface.cut(max_error=0.1)
         for vertices, triangles in ((self.vertices, self.triangles), (self.vertices.astype(">f8"), self.triangles.astype("i2")),

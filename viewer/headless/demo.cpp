@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -19,10 +20,9 @@
 #include "engine/base/stopwatch.h"
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
-#include "io/formats/exchange/export_tin.h"
-#include "io/formats/exchange/mesh_formats.h"
+#include "io/files/shell_text.h"
 #include "io/geo/dem/dem_reader.h"
-#include "io/query/extract/certificate.h"
+#include "io/query/extract/tin.h"
 #include "io/store/amt/file.h"
 #include "terrain/builder/build.h"
 #include "terrain/features/fixed_vertices.h"
@@ -66,13 +66,6 @@ std::string withUnit(double value, const std::string& unit) {
 /// What a person calls the unit.
 std::string shortUnit(const std::string& unit) {
   return unit == "metre" || unit == "meter" ? "m" : unit == "foot" ? "ft" : unit;
-}
-
-/// The argument as a shell takes it.
-std::string shellArgument(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
 }
 
 Status interruptedIf(const RunContext& context) {
@@ -180,10 +173,16 @@ class Demo {
     for (const double percent : options_.reliefShares) stated.push_back(percent / 100 * report_.relief);
     std::vector<double> tolerances = *checkedTolerances(std::move(stated));
     if (tolerances.empty()) tolerances = chosenTolerances(report_.curve, model_.mt, options_.mostTolerances);
+    TinExtractor extractor(
+        std::shared_ptr<const TerrainModel>(std::shared_ptr<void>(), &model_),  // this outlives it
+        path("dem.amt"), {}, [&](const ExtractRequest& asked, double promised) {
+          return fmt::format("arete measure {} {} --expect {}", shellQuoted(asked.output),
+                             shellQuoted(report_.dem), promised);
+        });
     for (std::size_t i = 0; i < tolerances.size(); ++i) {
       context_.report("extract", double(i) / double(tolerances.size()));
       ARETE_CHECK(interruptedIf(context_));
-      ARETE_CHECK(take(tolerances[i], i >= firstPictured(tolerances.size())));
+      ARETE_CHECK(take(extractor, tolerances[i], i >= firstPictured(tolerances.size())));
     }
     context_.report("extract", 1);
     return {};
@@ -202,50 +201,33 @@ class Demo {
   }
 
   /// Cut, write, measure, certify.
-  Status take(double maxError, bool isPictured) {
+  Status take(TinExtractor& extractor, double maxError, bool isPictured) {
     const Stopwatch watch;
-    ARETE_TRY(const Cut cut, takeCut(model_.mt, UniformError(maxError), {}, quiet()));
+    ARETE_TRY(Cut cut, takeCut(model_.mt, UniformError(maxError), {}, quiet()));
     const double seconds = watch.seconds();
-    ARETE_TRY(TinExport exported, exportTin(model_, cut));
-    TinExport& tin = exported;
 
+    ExtractRequest request;
+    request.criterion.maxError = maxError;
     const std::string name = fmt::format("tin-{:g}", maxError);
-    MeshWriteOptions mesh;
-    mesh.crsWkt = field_.georeference.crsWkt;
-    mesh.verticalUnit = field_.georeference.verticalUnit;
-    mesh.triangleErrors = tin.errors;
-    mesh.notes = {fmt::format("within {} of {}", withUnit(maxError, report_.unit), report_.dem)};
-    const std::string file = written(name + ".ply");
-    ARETE_CHECK(writeMesh(tin.mesh, file, mesh, quiet()));
-
-    MeasureRasters rasters;
-    ARETE_TRY(const MeasureReport measured,
-              measure(tin.mesh, field_, {}, quiet(), isPictured ? &rasters : nullptr));
-    Certificate certificate;
-    certificate.file = file;
-    certificate.model = path("dem.amt");
-    certificate.criterion.maxError = maxError;
-    certificate.storedError = cut.achievedError;
-    certificate.measured = measured;
-    certificate.promisedError = maxError;
-    certificate.isKept = keepsPromise(measured, maxError);
-    certificate.checkCommand = fmt::format("arete measure {} {} --expect {}", shellArgument(file),
-                                           shellArgument(report_.dem), maxError);
-    ARETE_CHECK(writeCertificate(written(name + ".certificate.json"), certificate, model_));
+    request.output = written(name + ".ply");
+    request.certificate = written(name + ".certificate.json");
+    request.keepsMesh = isPictured;
+    ARETE_TRY(ExtractedTin tin, extractor.extract(request, quiet(), std::move(cut)));
+    const MeasureReport& measured = *tin.measured;
 
     DemoResult row;
     row.maxError = maxError;
     if (report_.relief > 0) row.percentOfRelief = 100 * maxError / report_.relief;
-    row.triangles = static_cast<std::uint32_t>(cut.triangles.size());
+    row.triangles = static_cast<std::uint32_t>(tin.triangles);
     row.percentOfFinest = 100.0 * row.triangles / report_.finestTriangles;
     row.measuredMax = measured.maxAbsError;
     row.measuredRms = measured.rmsError;
     row.uncovered = measured.uncovered;
     row.cutSeconds = seconds;
-    row.isKept = certificate.isKept;
+    row.isKept = tin.isKept;
     report_.results.push_back(row);
     report_.isolated = measured.isolated;
-    if (isPictured) shown_.push_back({maxError, std::move(tin.mesh), measured, std::move(rasters.errors)});
+    if (isPictured) shown_.push_back({maxError, std::move(tin.mesh), measured, std::move(tin.errors)});
     return {};
   }
 

@@ -28,7 +28,7 @@
 #include "engine/criteria/view_error.h"
 #include "engine/cut/cut.h"
 #include "io/formats/exchange/mesh_formats.h"
-#include "io/query/extract/criterion.h"
+#include "io/query/request/criterion.h"
 #include "io/query/extract/view_footprint.h"
 
 namespace arete {
@@ -45,13 +45,13 @@ bool needsAllSamples(const ExtractRequest& request) {
 /// Whether the spheres of nodes decide which nodes are in the cut. A packed file stores none, and those made
 /// of a part are smaller.
 bool dependsOnSpheres(const ExtractRequest& request) {
-  const ExtractCriterion& c = request.criterion;
+  const CutRequest& c = request.criterion;
   return c.method == CutMethod::saturated && (c.camera || c.focus || request.region);
 }
 
 /// The criterion with the smallest tolerance that rounding by the format may lead to.
-ExtractCriterion readFor(const ExtractRequest& request) {
-  ExtractCriterion criterion = request.criterion;
+CutRequest readFor(const ExtractRequest& request) {
+  CutRequest criterion = request.criterion;
   const Result<MeshFormat> format = meshFormatOf(request.output, request.format);
   if (format && !format->holds.isExact && criterion.promisesMaxError(true))
     criterion.maxError = (1 - TinExtractor::kReadReserve) * *criterion.maxError;
@@ -60,10 +60,10 @@ ExtractCriterion readFor(const ExtractRequest& request) {
 
 /// Whether the request is a budget of triangles and nothing else, worst first.
 bool isBudgetAlone(const ExtractRequest& request) {
-  const ExtractCriterion& c = request.criterion;
+  const CutRequest& c = request.criterion;
   return c.maxTriangles && !c.maxError && !c.camera && !c.focus && !request.region &&
-         !c.deadlineMilliseconds && c.method == CutMethod::minimal && c.order == ExtractOrder::worst &&
-         c.fit == ExtractFit::none;
+         !c.deadlineMilliseconds && c.method == CutMethod::minimal && c.order == CutOrder::worst &&
+         c.fit == CutFit::none;
 }
 
 Result<PartAndCut> readAll(const AmtFile& file, const RunContext& context) {
@@ -77,7 +77,7 @@ struct CriterionAndCut {
   Cut cut;
 };
 
-Result<CriterionAndCut> takeCutOf(const TerrainModel& part, const ExtractCriterion& requested,
+Result<CriterionAndCut> takeCutOf(const TerrainModel& part, const CutRequest& requested,
                                   const RunContext& context) {
   ARETE_TRY(auto criterion, engineCriterion(requested, std::nullopt, 0, part));
   ARETE_TRY(const auto options, engineOptions(requested, part));
@@ -85,7 +85,7 @@ Result<CriterionAndCut> takeCutOf(const TerrainModel& part, const ExtractCriteri
   return CriterionAndCut{std::move(criterion), std::move(cut)};
 }
 
-Result<PartAndCut> readForBudget(const AmtFile& file, const ExtractCriterion& requested,
+Result<PartAndCut> readForBudget(const AmtFile& file, const CutRequest& requested,
                                  const RunContext& context) {
   const std::uint64_t nodes = file.nodeCount();
   // A node adds two triangles, and the least cut at an error has nearly all nodes down to it: these are twice
@@ -103,8 +103,8 @@ Result<PartAndCut> readForBudget(const AmtFile& file, const ExtractCriterion& re
 /// Whether the criterion is an error in pixels of a camera, or a budget of triangles in its picture, worst
 /// first.
 bool isViewAlone(const ExtractRequest& request) {
-  const ExtractCriterion& c = request.criterion;
-  const bool isWorstFirst = c.method == CutMethod::minimal && c.order == ExtractOrder::worst;
+  const CutRequest& c = request.criterion;
+  const bool isWorstFirst = c.method == CutMethod::minimal && c.order == CutOrder::worst;
   return c.camera && (!c.maxTriangles || isWorstFirst) && !c.deadlineMilliseconds;
 }
 
@@ -131,12 +131,12 @@ double refinedTriangles(const TerrainModel& part, const Criterion& criterion, co
   return cut ? static_cast<double>(cut->ids.size()) - part.mt.rootTriangleCount() : 0;
 }
 
-Result<PartAndCut> readForView(const AmtFile& file, const ExtractCriterion& requested,
+Result<PartAndCut> readForView(const AmtFile& file, const CutRequest& requested,
                                const TerrainModel& outline, const RunContext& context) {
   // The pixels that a budget comes to are not known. Half as many pixels take about twice the triangles.
   constexpr double kFirstGuess = 16, kMore = 1.5, kMost = 1.0 / 16;
   constexpr int kGuesses = 4;
-  ExtractCriterion guess = requested;
+  CutRequest guess = requested;
   guess.pixelError = requested.pixelError.value_or(kFirstGuess);
   for (int i = 0; i < kGuesses; ++i) {
     ARETE_TRY(const auto view, engineCriterion(guess, std::nullopt, 0, outline));
@@ -156,7 +156,7 @@ Result<PartAndCut> readForView(const AmtFile& file, const ExtractCriterion& requ
 
 Result<PartAndCut> readForExtract(const AmtFile& file, std::span<const ExtractRequest> requests,
                                   const TerrainModel& outline, const RunContext& context) try {
-  std::vector<ExtractCriterion> criteria;
+  std::vector<CutRequest> criteria;
   std::optional<Region> region;
   for (const ExtractRequest& request : requests) {
     if (needsAllSamples(request) || (file.isPacked() && dependsOnSpheres(request)))

@@ -21,7 +21,7 @@
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/formats/exchange/written_mesh.h"
 #include "io/geo/dem/raster_writer.h"
-#include "io/query/extract/criterion.h"
+#include "io/query/request/criterion.h"
 #include "terrain/model/plan_region.h"
 
 namespace arete {
@@ -101,9 +101,9 @@ Status checkExtractOutput(const std::string& path, const TerrainModel& model, co
   return caughtFailure();
 }
 
-Result<TinExport> takeTin(const TerrainModel& model, const ExtractCriterion& c,
-                          const std::optional<Region>& region, double reserve, std::optional<Cut> taken,
-                          ExtractedTin& tin, const RunContext& context) try {
+Result<TinExport> takeTin(const TerrainModel& model, const CutRequest& c, const std::optional<Region>& region,
+                          double reserve, std::optional<Cut> taken, ExtractedTin& tin,
+                          const RunContext& context) try {
   const auto describe = [&](const Cut& cut) {
     tin.isComplete = cut.isComplete;
     tin.triangles = cut.triangles.size();
@@ -120,7 +120,7 @@ Result<TinExport> takeTin(const TerrainModel& model, const ExtractCriterion& c,
     tin.fit = FitFigures{fitted->trianglesBefore, fitted->errorBefore};
     return exportTin(model, *fitted);
   };
-  if (c.fit == ExtractFit::triangles) {
+  if (c.fit == CutFit::triangles) {
     const double maxError = std::max(0.0, c.maxError.value_or(0) - reserve);
     const Result<FittedCut> fewest = fitFewestTriangles(model,
                                                         {.maxError = maxError,
@@ -136,7 +136,7 @@ Result<TinExport> takeTin(const TerrainModel& model, const ExtractCriterion& c,
     ARETE_TRY(Cut cut, takeCut(model.mt, *criterion, options, context));
     taken = std::move(cut);
   }
-  if (c.fit == ExtractFit::error || (c.fit == ExtractFit::triangles && !region))
+  if (c.fit == CutFit::error || (c.fit == CutFit::triangles && !region))
     return finish(fitLeastError(model, *taken, {}, context));
   if (c.camera) tin.pixels = worstSeverity(model.mt, *criterion, *taken);
   // Where a triangle passed by the bound over a node's ball, its own bound may be the looser of the two.
@@ -149,10 +149,10 @@ Result<TinExport> takeTin(const TerrainModel& model, const ExtractCriterion& c,
 
 const TinExtractor::Samples& TinExtractor::samples() {
   if (!samples_) {
-    if (model_.isRaster)
-      samples_.emplace(model_.rasterSamples());
+    if (model_->isRaster)
+      samples_.emplace(model_->rasterSamples());
     else
-      samples_.emplace(model_.pointSamples());
+      samples_.emplace(model_->pointSamples());
   }
   return *samples_;
 }
@@ -161,24 +161,24 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
                                                std::optional<Cut> taken, ExtractedTin& tin,
                                                const RunContext& context) const {
   ARETE_TRY(TinExport made,
-            takeTin(model_, request.criterion, request.region, reserve, std::move(taken), tin, context));
+            takeTin(*model_, request.criterion, request.region, reserve, std::move(taken), tin, context));
   TinExport& exported = made;
   if (isRaster(request)) {
     tin.format = {.name = "GeoTIFF",
-                  .saysCrs = !model_.georeference.crsWkt.empty(),
-                  .saysVerticalUnit = !model_.georeference.verticalUnit.empty()};
+                  .saysCrs = !model_->georeference.crsWkt.empty(),
+                  .saysVerticalUnit = !model_->georeference.verticalUnit.empty()};
     return std::move(exported.mesh);
   }
-  const MeshWriteOptions write{.crsWkt = model_.georeference.crsWkt,
-                               .verticalUnit = model_.georeference.verticalUnit,
-                               .verticalUnitMetres = model_.georeference.verticalUnitMetres,
+  const MeshWriteOptions write{.crsWkt = model_->georeference.crsWkt,
+                               .verticalUnit = model_->georeference.verticalUnit,
+                               .verticalUnitMetres = model_->georeference.verticalUnitMetres,
                                .triangleErrors = exported.errors,
                                .origin = exported.origin,
                                .format = request.format,
-                               .notes = {commentOf(request, model_, tin)},
+                               .notes = {commentOf(request, *model_, tin)},
                                .existing = request.existing};
   Result<WrittenMesh> written =
-      writeAndReadBack(exported.mesh, request.output, write, model_.isRaster, context);
+      writeAndReadBack(exported.mesh, request.output, write, model_->isRaster, context);
   if (!written) return tl::unexpected(within(tl::unexpected(written.error()), request.output).error());
   tin.format = formatOf(request.output, *written, write);
   if (!request.criterion.promisesMaxError(tin.isComplete)) tin.promisedError += tin.format.heightRounding;
@@ -188,7 +188,7 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
 Status TinExtractor::deepen(double maxError, double reserve, const RunContext& context) {
   if (!readAll_ || reserve <= kReadReserve * maxError) return {};
   ARETE_TRY(TerrainModel whole, readAll_(context));
-  model_ = std::move(whole);
+  model_ = std::make_shared<const TerrainModel>(std::move(whole));
   readAll_ = {};
   return {};
 }
@@ -209,10 +209,12 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
     if (!mesh) return tl::unexpected(mesh.error());
   }
   // A fit promises nothing before it is measured.
+  tin.isRaster = model_->isRaster;
   const bool needsMeasure =
       tin.fit || isRaster(request) || !request.certificate.empty() || !request.errorRaster.empty();
   if (needsMeasure) ARETE_CHECK(measureAndWrite(request, *mesh, tin, context));
   ARETE_CHECK(together.commit());
+  if (request.keepsMesh) tin.mesh = std::move(*mesh);
   return tin;
 } catch (...) {
   return caughtFailure(request.output);
@@ -220,7 +222,8 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
 
 Status TinExtractor::measureAndWrite(const ExtractRequest& request, const TriangleMesh& mesh,
                                      ExtractedTin& tin, const RunContext& context) {
-  const bool wantsRasters = isRaster(request) || !request.errorRaster.empty();
+  const bool wantsRasters =
+      isRaster(request) || !request.errorRaster.empty() || (request.keepsMesh && model_->isRaster);
   MeasureRasters rasters;
   const Vec3& rounding = tin.format.frame.rounding;
   const auto measureWith = [&](MeasureOptions options, MeasureRasters* into) {
@@ -238,14 +241,15 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
     ARETE_TRY(MeasureReport inside, measureWith(options, nullptr));
     tin.measuredInside = std::move(inside);
   }
-  const ExpectOptions expect{.allowCoveredNodata = model_.options.rimTolerance > 0};
+  const ExpectOptions expect{.allowCoveredNodata = model_->options.rimTolerance > 0};
   tin.isKept =
       keepsPromise(tin.measuredInside ? *tin.measuredInside : *tin.measured, tin.promisedError, expect);
 
   if (!isRaster(request))
     tin.format.planTolerancePixels =
-        planTolerancePixels({.planRounding = {rounding.x, rounding.y}}, model_.georeference);
+        planTolerancePixels({.planRounding = {rounding.x, rounding.y}}, model_->georeference);
   ARETE_CHECK(writeRasters(request, rasters, tin, context));
+  if (request.keepsMesh) tin.errors = std::move(rasters.errors);
   if (request.certificate.empty()) return {};
   const Certificate certificate{
       .file = request.output,
@@ -260,7 +264,7 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
       .promisedError = tin.promisedError,
       .isKept = tin.isKept,
       .checkCommand = checkCommand_ ? checkCommand_(request, tin.promisedError) : ""};
-  return within(writeCertificate(request.certificate, certificate, model_), request.certificate);
+  return within(writeCertificate(request.certificate, certificate, *model_), request.certificate);
 }
 
 Status TinExtractor::writeRasters(const ExtractRequest& request, const MeasureRasters& rasters,
@@ -276,16 +280,16 @@ Status TinExtractor::writeRasters(const ExtractRequest& request, const MeasureRa
     tin.format.frame.coordinates = options.sample == GeoTiffOptions::Sample::float64
                                        ? "float64 heights on the source grid"
                                        : "float32 heights on the source grid";
-    if (Status written = writeGeoTiff(request.output, model_.columns, model_.rows, rasters.tinHeights,
-                                      model_.georeference, options, context);
+    if (Status written = writeGeoTiff(request.output, model_->columns, model_->rows, rasters.tinHeights,
+                                      model_->georeference, options, context);
         !written)
       return within(written, request.output);
   }
   if (request.errorRaster.empty()) return {};
   GeoTiffOptions options;
   options.description = "TIN height minus DEM height";
-  return within(writeGeoTiff(request.errorRaster, model_.columns, model_.rows, rasters.errors,
-                             model_.georeference, options, context),
+  return within(writeGeoTiff(request.errorRaster, model_->columns, model_->rows, rasters.errors,
+                             model_->georeference, options, context),
                 request.errorRaster);
 }
 

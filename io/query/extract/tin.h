@@ -3,34 +3,25 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "engine/base/result.h"
 #include "engine/criteria/region.h"
 #include "engine/cut/cut.h"
 #include "engine/parallel/run_context.h"
 #include "io/formats/exchange/export_tin.h"
-#include "io/query/extract/certificate.h"
+#include "io/query/certificate/certificate.h"
+#include "io/query/request/extract_request.h"
 #include "terrain/measure/measure.h"
 #include "terrain/model/heightfield.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {
-
-/// One TIN to take from a model, and the files to write.
-struct ExtractRequest {
-  ExtractCriterion criterion;
-  std::optional<Region> region;  ///< criterion.region in plan coordinates
-  std::string output;       ///< a mesh by its extension, or .tif: the TIN sampled back on the source grid
-  std::string format;       ///< MeshWriteOptions::format; empty: by the extension
-  std::string certificate;  ///< JSON; empty = none
-  std::string errorRaster;  ///< GeoTIFF of z_TIN - z_DEM; empty = none
-  /// What happens to the other layers of a GeoPackage that exists.
-  ExistingFile existing = ExistingFile::keepsOtherLayers;
-};
 
 /// What extract() made of a request.
 struct ExtractedTin {
@@ -44,6 +35,12 @@ struct ExtractedTin {
   std::optional<MeasureReport> measured;  ///< where a certificate, a raster or a fit needs it
   std::optional<MeasureReport> measuredInside;  ///< the same of the samples inside the region
   bool isKept = true;                           ///< false when the measurement contradicts the promise
+  bool isRaster = false;                        ///< the source is a raster: samples have a column and a row
+  /// Where the caller states shares: what they are of.
+  std::optional<double> relief;
+  std::optional<std::uint64_t> finestTriangles;
+  TriangleMesh mesh = {};           ///< ExtractRequest::keepsMesh: as the file holds it
+  std::vector<double> errors = {};  ///< with it, where a raster was measured: TIN minus DEM by sample, or NaN
 };
 
 /// Checks that an output's format, or else its extension, names a format that can be written; .tif needs a
@@ -57,7 +54,7 @@ Status checkExtractOutput(const std::string& path, const TerrainModel& model, co
 /// @param taken    the cut, where it is known
 /// @param tin      receives the counts and errors of the TIN
 /// Errors: those of takeCut() and of the fit (terrain/fit/fit.h).
-Result<TinExport> takeTin(const TerrainModel& model, const ExtractCriterion& criterion,
+Result<TinExport> takeTin(const TerrainModel& model, const CutRequest& criterion,
                           const std::optional<Region>& region, double reserve, std::optional<Cut> taken,
                           ExtractedTin& tin, const RunContext& context = {});
 
@@ -77,6 +74,10 @@ class TinExtractor {
   ///                      rounds heights by more than kReadReserve provides for.
   /// @param checkCommand  the `check` of certificates; empty = an empty text
   TinExtractor(TerrainModel model, std::string modelPath, ReadAll readAll = {},
+               CheckCommand checkCommand = {})
+      : TinExtractor(std::make_shared<const TerrainModel>(std::move(model)), std::move(modelPath),
+                     std::move(readAll), std::move(checkCommand)) {}
+  TinExtractor(std::shared_ptr<const TerrainModel> model, std::string modelPath, ReadAll readAll = {},
                CheckCommand checkCommand = {})
       : model_(std::move(model)),
         modelPath_(std::move(modelPath)),
@@ -109,7 +110,7 @@ class TinExtractor {
   Status writeRasters(const ExtractRequest& request, const MeasureRasters& rasters, ExtractedTin& tin,
                       const RunContext& context) const;
 
-  TerrainModel model_;
+  std::shared_ptr<const TerrainModel> model_;
   std::string modelPath_;
   ReadAll readAll_;
   CheckCommand checkCommand_;

@@ -38,7 +38,7 @@ TEST(CheckCommand, StatesHowTheSourceWasRead) {
 }
 
 TEST(CheckCommand, StatesEveryOptionOfTheCriterion) {
-  ExtractCriterion c;
+  CutRequest c;
   EXPECT_EQ(optionsOf(c), "");
   c.maxError = 2.5;
   c.maxTriangles = 100;
@@ -47,16 +47,16 @@ TEST(CheckCommand, StatesEveryOptionOfTheCriterion) {
   c.isLonLat = true;
   c.method = CutMethod::saturated;
   c.deadlineMilliseconds = 8;
-  c.order = ExtractOrder::twoQueues;
-  c.fit = ExtractFit::triangles;
+  c.order = CutOrder::twoQueues;
+  c.fit = CutFit::triangles;
   EXPECT_EQ(
       optionsOf(c),
       " --max-error 2.5 --max-triangles 100 --region 'a b.gpkg' --distance 30 --lonlat --method saturated "
       "--deadline 8 --order two-queues --fit triangles");
-  ExtractCriterion focus;
+  CutRequest focus;
   focus.focus = {.xy = {1, 2}, .growth = 0.5, .text = "1,2"};
   EXPECT_EQ(optionsOf(focus), " --focus 1,2 --error-growth 0.5");
-  ExtractCriterion camera;
+  CutRequest camera;
   camera.camera = Camera();
   camera.camera->azimuthDegrees = 90;
   camera.camera->pitchDegrees = -5;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/query/extract/certificate.h"
+#include "io/query/certificate/certificate.h"
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ TEST(Certificate, SaysWhatTheFormatHoldsAndWhatIsMissingInIt) {
 TEST(Certificate, StatesTheFitAndTheCriterionsPlaces) {
   Certificate certificate = someCertificate();
   certificate.fit = FitFigures{100, 5};
-  certificate.criterion.fit = ExtractFit::triangles;
+  certificate.criterion.fit = CutFit::triangles;
   certificate.criterion.focus = {.xy = {1, 2}, .growth = 0.25};
   certificate.criterion.camera = Camera();
   certificate.criterion.camera->azimuthDegrees = 45;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/query/extract/criterion.h"
+#include "io/query/request/criterion.h"
 
 #include <gtest/gtest.h>
 
@@ -22,30 +22,30 @@ TerrainModel hillyModel() {
   return test::built(build(field));
 }
 
-ExtractCriterion within(double maxError) {
-  ExtractCriterion c;
+CutRequest within(double maxError) {
+  CutRequest c;
   c.maxError = maxError;
   return c;
 }
 
-TEST(ExtractCriterion, PromisesItsToleranceOnlyWhereNothingElseDecides) {
+TEST(CutRequest, PromisesItsToleranceOnlyWhereNothingElseDecides) {
   EXPECT_TRUE(within(5).promisesMaxError());
-  EXPECT_FALSE(ExtractCriterion().promisesMaxError());
-  ExtractCriterion c = within(5);
+  EXPECT_FALSE(CutRequest().promisesMaxError());
+  CutRequest c = within(5);
   c.maxTriangles = 10;
   EXPECT_FALSE(c.promisesMaxError());
   c = within(5);
   c.deadlineMilliseconds = 10;
   EXPECT_FALSE(c.promisesMaxError());
   c = within(5);
-  c.focus = ExtractCriterion::Focus();
+  c.focus = CutRequest::Focus();
   EXPECT_FALSE(c.promisesMaxError());
   c = within(5);
   c.camera = Camera();
   EXPECT_FALSE(c.promisesMaxError());
 }
 
-TEST(ExtractCriterion, IsTheEnginesWithWhatAFormatRoundsTakenOff) {
+TEST(CutRequest, IsTheEnginesWithWhatAFormatRoundsTakenOff) {
   const TerrainModel model = hillyModel();
   const auto uniform = engineCriterion(within(5), std::nullopt, 0.5, model);
   ASSERT_TRUE(uniform);
@@ -55,9 +55,9 @@ TEST(ExtractCriterion, IsTheEnginesWithWhatAFormatRoundsTakenOff) {
   EXPECT_EQ((*engineCriterion(within(0.25), std::nullopt, 0.5, model))->allowedError({0, 0, 0, 1}), 0);
 }
 
-TEST(ExtractCriterion, OfACameraIsAViewWhateverElseIsStated) {
+TEST(CutRequest, OfACameraIsAViewWhateverElseIsStated) {
   const TerrainModel model = hillyModel();
-  ExtractCriterion c;
+  CutRequest c;
   c.camera = Camera();
   c.camera->xy = {10, 10};
   c.camera->height = 500;
@@ -69,13 +69,13 @@ TEST(ExtractCriterion, OfACameraIsAViewWhateverElseIsStated) {
   EXPECT_EQ(engineCriterion(c, std::nullopt, 0, model).error().code, ErrorCode::usage);
 }
 
-TEST(ExtractCriterion, RequiresAnErrorOfBoxesWhereAToleranceDecides) {
+TEST(CutRequest, RequiresAnErrorOfBoxesWhereAToleranceDecides) {
   const TerrainModel model = hillyModel();
   const auto everywhere = requiredBy(std::vector{within(5), within(2)}, std::nullopt, model);
   ASSERT_TRUE(everywhere && *everywhere);
   EXPECT_EQ((*everywhere)({0, 0, 1, 1}), 2);
 
-  ExtractCriterion focus = within(1);
+  CutRequest focus = within(1);
   focus.focus = {.xy = {10, 10}, .growth = 1};
   const auto around = requiredBy(std::vector{focus}, std::nullopt, model);
   ASSERT_TRUE(around && *around);
@@ -83,7 +83,7 @@ TEST(ExtractCriterion, RequiresAnErrorOfBoxesWhereAToleranceDecides) {
   EXPECT_LE(near, 2);
   EXPECT_GT(far, 20);
 
-  ExtractCriterion outside = within(1);
+  CutRequest outside = within(1);
   outside.outsideError = kInfinity;
   const Region region = Region::box({5, 5, 15, 15});
   const auto inside = requiredBy(std::vector{outside}, region, model);
@@ -92,28 +92,28 @@ TEST(ExtractCriterion, RequiresAnErrorOfBoxesWhereAToleranceDecides) {
   EXPECT_EQ((*inside)({40, 40, 41, 41}), kInfinity);
 }
 
-TEST(ExtractCriterion, RequiresEverythingWhereMoreThanAToleranceDecides) {
+TEST(CutRequest, RequiresEverythingWhereMoreThanAToleranceDecides) {
   const TerrainModel model = hillyModel();
-  ExtractCriterion budget, camera = within(1), fit = within(1);
+  CutRequest budget, camera = within(1), fit = within(1);
   budget.maxTriangles = 10;
   camera.camera.emplace();
-  fit.fit = ExtractFit::error;
-  for (const ExtractCriterion& c : {budget, camera, fit}) {
+  fit.fit = CutFit::error;
+  for (const CutRequest& c : {budget, camera, fit}) {
     const auto required = requiredBy(std::vector{within(1), c}, std::nullopt, model);
     ASSERT_TRUE(required);
     EXPECT_FALSE(*required);
   }
 }
 
-TEST(ExtractCriterion, HasTheEnginesOptions) {
+TEST(CutRequest, HasTheEnginesOptions) {
   const TerrainModel model = hillyModel();
-  ExtractCriterion c = within(1);
+  CutRequest c = within(1);
   EXPECT_EQ(engineOptions(c, model)->order, nullptr);
   EXPECT_FALSE(engineOptions(c, model)->deadline);
   c.method = CutMethod::saturated;
   c.maxTriangles = 9;
   c.deadlineMilliseconds = 5;
-  c.order = ExtractOrder::breadth;
+  c.order = CutOrder::breadth;
   const auto options = engineOptions(c, model);
   ASSERT_TRUE(options);
   EXPECT_EQ(options->method, CutMethod::saturated);
@@ -122,10 +122,10 @@ TEST(ExtractCriterion, HasTheEnginesOptions) {
   EXPECT_NE(dynamic_cast<const BreadthFirst*>(options->order.get()), nullptr);
 }
 
-TEST(ExtractCriterion, NeedsACameraForTwoQueuesAndNamesTheField) {
+TEST(CutRequest, NeedsACameraForTwoQueuesAndNamesTheField) {
   const TerrainModel model = hillyModel();
-  ExtractCriterion c = within(1);
-  c.order = ExtractOrder::twoQueues;
+  CutRequest c = within(1);
+  c.order = CutOrder::twoQueues;
   const auto refused = engineOptions(c, model);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::usage);
@@ -135,10 +135,10 @@ TEST(ExtractCriterion, NeedsACameraForTwoQueuesAndNamesTheField) {
   EXPECT_TRUE(engineOptions(c, model));
 }
 
-TEST(ExtractCriterion, NamesItsFits) {
-  EXPECT_EQ(fitName(ExtractFit::none), "none");
-  EXPECT_EQ(fitName(ExtractFit::triangles), "triangles");
-  EXPECT_EQ(fitName(ExtractFit::error), "error");
+TEST(CutRequest, NamesItsFits) {
+  EXPECT_EQ(fitName(CutFit::none), "none");
+  EXPECT_EQ(fitName(CutFit::triangles), "triangles");
+  EXPECT_EQ(fitName(CutFit::error), "error");
 }
 
 }  // namespace

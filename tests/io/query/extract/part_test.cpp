@@ -21,6 +21,7 @@
 #include "io/amt_fixture.h"
 #include "io/io_fixture.h"
 #include "io/mesh_fixture.h"
+#include "io/query/request/criterion.h"
 #include "terrain/model/plan_box.h"
 
 namespace arete {
@@ -210,7 +211,7 @@ TEST(ReadForExtract, HasTheTinOfTheWholeForACameraWithABudget) {
   forAllFiles(10, [&](const Filed& filed, Random& random) {
     for (int i = 0; i < 12; ++i) {
       ExtractRequest request = seenBy(anyCamera(filed.whole, random), std::pow(2.0, 6 * random.unit() - 1));
-      ExtractCriterion& c = request.criterion;
+      CutRequest& c = request.criterion;
       c.maxTriangles =
           static_cast<std::uint32_t>(std::pow(random.unit(), 3) * filed.whole.mt.finestTriangleCount());
       if (i % 2 == 0) c.pixelError.reset();
@@ -328,7 +329,7 @@ TEST(ReadForExtract, ReadsEverythingWhereATinIsMeasuredOrFitted) {
          std::initializer_list<Change>{[](ExtractRequest& r) { r.output = "tin.tif"; },
                                        [](ExtractRequest& r) { r.certificate = "tin.json"; },
                                        [](ExtractRequest& r) { r.errorRaster = "error.tif"; },
-                                       [](ExtractRequest& r) { r.criterion.fit = ExtractFit::error; }}) {
+                                       [](ExtractRequest& r) { r.criterion.fit = CutFit::error; }}) {
       ExtractRequest other = request;
       change(other);
       EXPECT_TRUE(readsAll(other));

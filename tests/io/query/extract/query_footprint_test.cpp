@@ -23,7 +23,7 @@
 #include "io/geo/crs/ellipsoid_earth.h"
 #include "io/geo/crs/reader.h"
 #include "io/io_fixture.h"
-#include "io/query/extract/criterion.h"
+#include "io/query/request/criterion.h"
 #include "io/store/amt/file.h"
 #include "terrain/locate/surface_height.h"
 #include "terrain/sight/earth.h"
@@ -378,7 +378,7 @@ TEST(WantedBy, ReadsWhatTheCutsOfARegionOrAFocusAreMadeOf) {
     const double largest = filed.whole.mt.largestError();
     for (int i = 0; i < 12; ++i) {
       const Vec2 p = filed.placeIn(random), q = filed.placeIn(random);
-      ExtractCriterion fine;
+      CutRequest fine;
       fine.maxError = largest * std::pow(random.between(0, 1), 6);
       if (i % 4 != 0) fine.outsideError = *fine.maxError + largest * random.between(0, 1);
       std::optional<Region> region;
@@ -387,19 +387,19 @@ TEST(WantedBy, ReadsWhatTheCutsOfARegionOrAFocusAreMadeOf) {
         region = i % 3 == 0 ? Region({{p, q, {p.x + step.x, q.y}}})
                             : Region::box({p.x, p.y, p.x + step.x, p.y + step.y});
       } else {
-        fine.focus = ExtractCriterion::Focus{.xy = filed.whole.toSource(p),
+        fine.focus = CutRequest::Focus{.xy = filed.whole.toSource(p),
                                              .growth = largest * random.between(0, 1e-3)};
       }
       if (random.below(2) == 0) fine.method = CutMethod::saturated;
-      ExtractCriterion coarse = fine;
+      CutRequest coarse = fine;
       coarse.maxError = std::min(2 * *fine.maxError, coarse.outsideError);
-      const std::vector<ExtractCriterion> criteria = {coarse, fine};
+      const std::vector<CutRequest> criteria = {coarse, fine};
       const auto wanted = requiredBy(criteria, region, filed.outline);
       ASSERT_TRUE(wanted && *wanted);
       const TerrainModel part = filed.part(*wanted);
       nodes += filed.whole.mt.nodeCount();
       nodesOfParts += part.mt.nodeCount();
-      for (const ExtractCriterion& criterion : criteria) {
+      for (const CutRequest& criterion : criteria) {
         const auto ofWhole = engineCriterion(criterion, region, 0, filed.whole),
                    ofPart = engineCriterion(criterion, region, 0, part);
         const CutOptions options{.method = criterion.method};
@@ -424,11 +424,11 @@ TEST(WantedBy, ReadsWhatTheCutsOfARegionOrAFocusAreMadeOf) {
 TEST(WantedBy, IsEverythingWherePixelsFitsOrBudgetsDecide) {
   const TemporaryFolder folder;
   const FiledTerrain filed(built(build(fieldNamed("ramp").make(30, 20, 1))), folder.file("model.amt"));
-  const auto isEverything = [&](const ExtractCriterion& criterion, const std::optional<Region>& region = {}) {
+  const auto isEverything = [&](const CutRequest& criterion, const std::optional<Region>& region = {}) {
     const auto wanted = requiredBy(std::vector{criterion}, region, filed.outline);
     return wanted && !*wanted;
   };
-  ExtractCriterion c;
+  CutRequest c;
   c.maxError = 2;
   EXPECT_FALSE(isEverything(c));
   const Region corner = Region::box({0, 0, 3, 3});
@@ -436,15 +436,15 @@ TEST(WantedBy, IsEverythingWherePixelsFitsOrBudgetsDecide) {
   c.method = CutMethod::saturated;
   EXPECT_FALSE(isEverything(c));
   EXPECT_FALSE(isEverything(c, corner));
-  c.focus = ExtractCriterion::Focus{};
+  c.focus = CutRequest::Focus{};
   EXPECT_FALSE(isEverything(c));
   c.focus.reset();
   c.camera = Camera{};
   EXPECT_TRUE(isEverything(c));
   c.camera.reset();
-  c.fit = ExtractFit::error;
+  c.fit = CutFit::error;
   EXPECT_TRUE(isEverything(c));
-  c.fit = ExtractFit::none;
+  c.fit = CutFit::none;
   c.maxError.reset();
   c.maxTriangles = 100;
   EXPECT_TRUE(isEverything(c));
@@ -453,7 +453,7 @@ TEST(WantedBy, IsEverythingWherePixelsFitsOrBudgetsDecide) {
 TEST(WantedBy, AsksForTheFinestOfSeveralTolerances) {
   const TemporaryFolder folder;
   const FiledTerrain filed(built(build(fieldNamed("ramp").make(30, 20, 1))), folder.file("model.amt"));
-  std::vector<ExtractCriterion> criteria(3);
+  std::vector<CutRequest> criteria(3);
   for (std::size_t i = 0; i < criteria.size(); ++i) {
     criteria[i].maxError = 4.0 - static_cast<double>(i);
     criteria[i].outsideError = 10.0 + static_cast<double>(i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/query/extract/report_json.h"
+#include "io/query/certificate/report_json.h"
 
 #include <gtest/gtest.h>
 

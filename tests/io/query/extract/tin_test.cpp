@@ -48,7 +48,7 @@ TEST(ExportTin, IsCounterClockwiseOnTheMapWhicheverWayTheGridTurns) {
 
 /// Extracts with a certificate; what `arete measure` would find in the file must agree with it.
 void expectKept(const TerrainModel& model, const std::string& extension, double maxError,
-                ExtractFit fit = ExtractFit::none) {
+                CutFit fit = CutFit::none) {
   const TemporaryFolder folder;
   TinExtractor extractor(model, "m.amt");
   ExtractRequest request;
@@ -79,8 +79,8 @@ void expectKept(const TerrainModel& model, const std::string& extension, double 
   const bool hasCrs = !model.georeference.crsWkt.empty();
   EXPECT_EQ(format["doesNotSay"].contains("crs"), hasCrs && file->crsWkt.empty());
   EXPECT_EQ(json["promise"]["kept"], tin->isKept);
-  EXPECT_EQ(json.contains("fit"), fit != ExtractFit::none);
-  EXPECT_EQ(tin->fit.has_value(), fit != ExtractFit::none);
+  EXPECT_EQ(json.contains("fit"), fit != CutFit::none);
+  EXPECT_EQ(tin->fit.has_value(), fit != CutFit::none);
   if (!tin->fit) return;
   EXPECT_EQ(json["criterion"]["fit"], fitName(fit));
   EXPECT_EQ(json["fit"]["trianglesBefore"], tin->fit->trianglesBefore);
@@ -127,7 +127,7 @@ TEST(ExtractTin, KeepsThePromiseInEveryFormatWithFittedHeights) {
     const auto model = build(family.make(40, 33, 2));
     ASSERT_TRUE(model) << family.name;
     for (const MeshFormat& format : meshFormats())
-      for (const ExtractFit fit : {ExtractFit::triangles, ExtractFit::error}) {
+      for (const CutFit fit : {CutFit::triangles, CutFit::error}) {
         SCOPED_TRACE(fmt::format("{} {} {}", family.name, format.name, fitName(fit)));
         expectKept(*model, std::string(format.extension), 3, fit);
       }
@@ -135,7 +135,7 @@ TEST(ExtractTin, KeepsThePromiseInEveryFormatWithFittedHeights) {
   for (const PointFamily& family : pointFamilies()) {
     const auto model = build(family.make(400, 2));
     ASSERT_TRUE(model) << family.name;
-    for (const ExtractFit fit : {ExtractFit::triangles, ExtractFit::error}) {
+    for (const CutFit fit : {CutFit::triangles, CutFit::error}) {
       SCOPED_TRACE(fmt::format("{} {}", family.name, fitName(fit)));
       expectKept(*model, ".ply", 7, fit);
     }

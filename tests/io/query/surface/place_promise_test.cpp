@@ -25,7 +25,7 @@
 
 #include "engine/follow/incremental_cut.h"
 #include "full_run.h"
-#include "io/query/surface/criterion.h"
+#include "io/query/request/criterion.h"
 #include "io/query/surface/region.h"
 #include "io/query/surface/write_model.h"
 #include "io/store/amt/surface_file.h"
@@ -372,8 +372,8 @@ TEST_F(SurfacePlaces, InARegionAreWithinItsErrorAndElsewhereWithinTheOther) {
     ASSERT_NO_FATAL_FAILURE(make(seed, random));
     for (int i = 0; i < 2; ++i) {
       const NamedRegion region = randomRegion(samples_, model_.diagonal, random);
-      SurfaceCriterion asked;
-      asked.region = region.region;
+      CutRequest asked;
+      asked.spaceRegion = region.region;
       asked.maxError = model_.diagonal * random.octaves(1e-6, 0.2);
       if (random.below(2) == 0) asked.outsideError = *asked.maxError * random.octaves(1, 100);
       const auto criterion = engineCriterion(asked, model_);
@@ -397,8 +397,8 @@ TEST_F(SurfacePlaces, InSightAreWithinThePixelsOfTheirPlace) {
       camera.verticalFieldOfViewDegrees = random.in(10, 100);
       camera.widthPixels = random.in(100, 1000);
       camera.heightPixels = random.in(100, 1000);
-      SurfaceCriterion asked;
-      asked.camera = camera;
+      CutRequest asked;
+      asked.spaceCamera = camera;
       asked.pixelError = random.octaves(0.3, 30);
       if (random.below(3) == 0) asked.outsideError = model_.diagonal * random.octaves(0.01, 1);
       const auto criterion = engineCriterion(asked, model_);
@@ -445,6 +445,25 @@ TEST_F(SurfacePlaces, AroundAFocusAreWithinTheErrorThatGrowsWithTheirDistance) {
       });
     }
   }
+}
+
+TEST_F(SurfacePlaces, AroundAFocusThatIsAskedForAreWithinItsErrorWithoutAnAllowanceForRounding) {
+  for (std::uint64_t seed = 1; seed <= count(40); ++seed) {
+    Random random(seed + 30'000);
+    ASSERT_NO_FATAL_FAILURE(make(seed + 30'000, random));
+    const Vec3 place = samples_[random.below(samples_.size())] +
+                       model_.diagonal * random.octaves(1e-3, 0.3) * random.inCube();
+    CutRequest asked;
+    asked.maxError = model_.diagonal * random.octaves(1e-6, 1e-2);
+    asked.focus = {.xy = {place.x, place.y}, .growth = random.octaves(1e-3, 0.5), .z = place.z};
+    if (random.below(2) == 0) asked.outsideError = model_.diagonal * 0.1;
+    const auto criterion = engineCriterion(asked, model_);
+    ASSERT_TRUE(criterion) << criterion.error().describe();
+    expectKept(**criterion, "asked focus", [&](const Vec3& p) {
+      return std::min(*asked.maxError + asked.focus->growth * norm(p - place), asked.outsideError);
+    });
+  }
+  EXPECT_GT(held_, 50 * meshes_);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "io/query/surface/criterion.h"
+#include "io/query/request/criterion.h"
 #include "io/query/surface/distance_by_chart.h"
 #include "io/query/surface/fit_front.h"
 #include "io/query/surface/write_model.h"

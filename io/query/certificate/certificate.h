@@ -6,10 +6,9 @@
 #include <string>
 
 #include "engine/base/result.h"
-#include "engine/cut/cut.h"
 #include "engine/parallel/run_context.h"
 #include "io/formats/exchange/mesh_formats.h"
-#include "io/query/extract/criterion.h"
+#include "io/query/request/cut_request.h"
 #include "terrain/measure/measure.h"
 #include "terrain/model/terrain_model.h"
 
@@ -35,7 +34,7 @@ struct Certificate {
   std::string file;
   std::string model;  ///< the .amt it was taken from
   ExportFormat format;
-  ExtractCriterion criterion;
+  CutRequest criterion;
   bool isComplete = true;  ///< false: a budget or a deadline ended the cut before the criterion was met
   double storedError = 0;  ///< of the cut: the largest error of its triangles, as stored or as fitted
   std::optional<FitFigures> fit;  ///< where heights were fitted
@@ -49,7 +48,7 @@ struct Certificate {
 /// The certificate as JSON, as docs/topics/certificate.md states it. O(1).
 std::string certificateJson(const Certificate& certificate, const TerrainModel& model);
 
-/// Writes the certificate as JSON. The file appears whole or not at all. Errors: those of FileWriter.
+/// Writes the certificate as JSON. The file appears whole or not at all. Errors: as FileWriter.
 Status writeCertificate(const std::string& path, const Certificate& certificate, const TerrainModel& model);
 
 }  // namespace arete

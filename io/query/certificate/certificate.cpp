@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/query/certificate/certificate.h"
+
+#include <nlohmann/json.hpp>
+
+#include "engine/base/caught_failure.h"
+#include "io/files/file_writer.h"
+#include "io/geo/crs/names.h"
+#include "io/query/certificate/parts.h"
+#include "io/query/certificate/report_json.h"
+
+namespace arete {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A model numbers scattered points in its own way: the number would mislead.
+Json measuredJson(const MeasureReport& report, bool isRaster) {
+  Json json = toJson(report, isRaster);
+  if (!isRaster && report.worst) json["error"]["worst"].erase("point");
+  return json;
+}
+
+Json sourceJson(const TerrainModel& model) {
+  const Georeference& g = model.georeference;
+  Json json = {{"path", model.source},
+               {"checksum", model.sourceChecksum},
+               {"kind", model.isRaster ? "raster" : "points"},
+               {"crs", crsName(g.crsWkt)},
+               {"crsWkt", g.crsWkt},
+               {"verticalUnit", g.verticalUnit},
+               {"verticalDatum", g.verticalDatum}};
+  if (model.isRaster) {
+    json["columns"] = model.columns;
+    json["rows"] = model.rows;
+  }
+  return json;
+}
+
+Json terrainFormatJson(const ExportFormat& format, const Georeference& georeference) {
+  return formatJson({.name = format.name,
+                     .frame = format.frame,
+                     .heightRounding = format.heightRounding,
+                     .planTolerancePixels = format.planTolerancePixels,
+                     .says = {format.saysCrs, format.saysVerticalUnit, format.saysErrors},
+                     .crsWkt = georeference.crsWkt,
+                     .verticalUnit = georeference.verticalUnit});
+}
+
+}  // namespace
+
+std::string certificateJson(const Certificate& certificate, const TerrainModel& model) {
+  Json json = {{"areteCertificate", kCertificateVersion},
+               {"program", programName()},
+               {"file", certificate.file},
+               {"format", terrainFormatJson(certificate.format, model.georeference)},
+               {"model",
+                {{"path", certificate.model},
+                 {"shape", toString(model.options.shape)},
+                 {"rimTolerance", model.options.rimTolerance}}},
+               {"source", sourceJson(model)},
+               {"criterion", toJson(certificate.criterion)},
+               {"complete", certificate.isComplete},
+               {"promise",
+                {{"maxError", limitJson(certificate.promisedError)},
+                 {"storedError", certificate.storedError},
+                 {"kept", certificate.isKept}}},
+               {"measured", measuredJson(certificate.measured, model.isRaster)}};
+  if (certificate.fit)
+    json["fit"] = {{"trianglesBefore", certificate.fit->trianglesBefore},
+                   {"errorBefore", certificate.fit->errorBefore}};
+  if (certificate.measuredInside)
+    json["measuredInside"] = measuredJson(*certificate.measuredInside, model.isRaster);
+  json["check"] = certificate.checkCommand;
+  // A path need not be UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Status writeCertificate(const std::string& path, const Certificate& certificate,
+                        const TerrainModel& model) try {
+  ARETE_TRY(FileWriter writer, FileWriter::create(path));
+  writer.write(certificateJson(certificate, model));
+  return writer.finish();
+} catch (...) {
+  return caughtFailure(path);
+}
+
+}  // namespace arete

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/criteria/region.h"
+#include "io/files/existing_file.h"
+#include "io/query/request/cut_request.h"
+
+namespace arete {
+
+/// One mesh to take from a model, and the files to write.
+struct ExtractRequest {
+  CutRequest criterion;
+  std::optional<Region> region;  ///< of terrain: criterion.region in plan coordinates
+  std::string output;  ///< a mesh by its extension; of terrain also .tif: sampled back on the source grid
+  std::string format;  ///< MeshWriteOptions::format; empty: by the extension
+  std::string certificate;  ///< JSON; empty = none
+  std::string errorRaster;  ///< of terrain: GeoTIFF of z_TIN - z_DEM; empty = none
+  /// What happens to the other layers of a GeoPackage that exists.
+  ExistingFile existing = ExistingFile::keepsOtherLayers;
+  std::string map =
+      {};  ///< of a surface: CSV of vertices and faces (io/query/surface/map_file.h); empty = none
+  std::vector<std::string> dropAttributes = {};  ///< of a surface: names that dropAttributes() leaves out
+  bool keepsMesh = false;   ///< of terrain: the result holds the mesh, and the error of each sample
+  bool isBothWays = false;  ///< of a surface: also measure how far the result is from the source
+};
+
+}  // namespace arete

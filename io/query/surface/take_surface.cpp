@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What is left out still has its triangles in every cut: a budget is raised by them, and a minimal cut asks
+// nothing of them. A saturated cut has no such criterion; it spends on them what it must.
+#include "io/query/surface/take_surface.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "engine/base/caught_failure.h"
+#include "engine/base/counted.h"
+#include "engine/base/float_bounds.h"
+#include "io/query/request/criterion.h"
+#include "surface/diagnosis/diagnosis.h"
+#include "surface/displacement/displaced_places.h"
+
+namespace arete {
+namespace {
+
+Result<Cut> cutOf(const CutRequest& request, const SurfaceModel& model, const Criterion& criterion,
+                  const DroppedComponents* dropped, const RunContext& context) {
+  ARETE_TRY(CutOptions options, engineOptions(request, model));
+  const std::uint32_t droppedTriangles = dropped ? dropped->rootTriangles : 0;
+  if (options.maxTriangles) *options.maxTriangles += droppedTriangles;
+  std::optional<OfTheRest> ofTheRest;
+  if (dropped && request.method == CutMethod::minimal) ofTheRest.emplace(criterion, *dropped);
+  Result<Cut> cut =
+      takeCut(model.mt, ofTheRest ? static_cast<const Criterion&>(*ofTheRest) : criterion, options, context);
+  const std::uint32_t least = model.mt.rootTriangleCount() - droppedTriangles;
+  if (!cut && request.maxTriangles && *request.maxTriangles < least)
+    return failure(ErrorCode::usage,
+                   fmt::format("the coarsest surface has {}", counted(least, "triangle", "triangles")),
+                   "maxTriangles");
+  return cut;
+}
+
+Cut finestCutWithout(const SurfaceModel& model, const DroppedComponents* dropped) {
+  Cut whole = frontOfPrefix(model.mt, model.mt.nodeCount());
+  return dropped ? withoutDropped(model.mt, whole, *dropped).cut : whole;
+}
+
+}  // namespace
+
+Result<std::optional<DroppedComponents>> componentsToDrop(const SurfaceModel& model,
+                                                          const CutRequest& request) try {
+  if (!(request.dropParts > 0)) return std::optional<DroppedComponents>();
+  std::optional<DroppedComponents> dropped = componentsBelow(model, request.dropParts);
+  if (dropped->rootTriangles >= model.mt.rootTriangleCount())
+    return failure(ErrorCode::usage, "leaves nothing: every component is smaller", "dropParts");
+  return dropped;
+} catch (...) {
+  return caughtFailure();
+}
+
+SurfaceFront finestWithout(const SurfaceModel& model, const DroppedComponents* dropped) {
+  return dropped ? surfaceOf(model, finestCutWithout(model, dropped)) : finestSurfaceOf(model);
+}
+
+Result<TakenSurface> takeSurface(const SurfaceModel& model, const CutRequest& request,
+                                 const DroppedComponents* dropped, const RunContext& context) try {
+  ARETE_TRY(const auto criterion, engineCriterion(request, model));
+  TakenSurface taken;
+  ARETE_TRY(Cut whole, cutOf(request, model, *criterion, dropped, context));
+  taken.whole = std::move(whole);
+  if (dropped) {
+    CutOfTheRest rest = withoutDropped(model.mt, taken.whole, *dropped);
+    taken.cut = std::move(rest.cut);
+    taken.numberOf = std::move(rest.numberOf);
+  } else {
+    taken.cut = taken.whole;
+  }
+  taken.front = surfaceOf(model, taken.cut);
+  taken.error = taken.cut.achievedError;
+  if (request.spaceCamera) taken.pixels = worstSeverity(model.mt, *criterion, taken.cut);
+  if (request.fit == CutFit::rms) {
+    // A cut that a budget ended does not keep the tolerance before the fit.
+    ARETE_TRY(const auto fitted, fitFront(taken.front, finestWithout(model, dropped).mesh.shape(),
+                                          chartsOfCut(model, finestCutWithout(model, dropped), taken.cut),
+                                          model.options.keepsBorders, taken.cut.achievedError,
+                                          taken.whole.isComplete ? request.maxError : std::nullopt, context,
+                                          model.positionError));
+    taken.fit = fitted;
+    taken.error = fitted.distance;
+  } else if (!model.displacement.isEmpty() && request.isDisplaced) {
+    const std::vector<double> promised = promisedErrors(model.mt, taken.cut, criterion.get());
+    taken.front.mesh.positions = displacedPlaces(model.mt, model.displacement, taken.cut, promised);
+    for (std::size_t t = 0; t < promised.size(); ++t) taken.front.errors[t] = floatAtLeast(promised[t]);
+    taken.isDisplaced = true;
+  }
+  // A fit is measured by itself, and may keep what the stored errors cannot promise.
+  const bool isKeptByFit = taken.fit && request.maxError && taken.fit->distance <= *request.maxError;
+  if (request.statesError() && !isKeptByFit)
+    taken.leftByRounding = errorLeftByRounding(model, *criterion, taken.cut);
+  return taken;
+} catch (...) {
+  return caughtFailure();
+}
+
+Result<std::uint64_t> crossingsOf(const TriangleMesh& mesh, const RunContext& context) {
+  ARETE_TRY(const MeshDiagnosis d, diagnose(mesh, {.mostPlaces = 1}, context));
+  return d.selfIntersections ? d.selfIntersections->count : 0;
+}
+
+}  // namespace arete
