@@ -5,7 +5,7 @@
 #include <arete/engine/criteria/view_error.h>
 #include <arete/engine/follow/incremental_cut.h>
 #include <arete/io/store/amt/file.h>
-#include <arete/terrain/locate/surface_height.h>
+#include <arete/terrain/locate/ground_height.h>
 #include <arete/terrain/model/camera.h>
 
 #include <chrono>
@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
   if (!model->isRaster) return fail({arete::ErrorCode::usage, "this example flies over rasters", argv[1]});
   const int frames = std::atoi(argv[2]);
 
-  const arete::SurfaceHeights heights(*model);
+  const arete::GroundHeights heights(*model);
   arete::IncrementalCut cut(model->mt);
   double ground = 0;
   for (int frame = 0; frame < frames; ++frame) {

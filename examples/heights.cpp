@@ -3,7 +3,7 @@
 // heights FILE.amt E: reads places "x y" from stdin, in the DEM's CRS, and writes "x y height" for each:
 // within E of the finest surface, 0 for that surface itself.
 #include <arete/io/store/amt/file.h>
-#include <arete/terrain/locate/surface_height.h>
+#include <arete/terrain/locate/ground_height.h>
 
 #include <cstdlib>
 #include <iostream>
@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
     std::cerr << model.error().describe() << "\n";
     return 1;
   }
-  const arete::SurfaceHeights heights(*model);
+  const arete::GroundHeights heights(*model);
   std::cout.precision(12);
   for (arete::Vec2 place; std::cin >> place.x >> place.y;) {
     std::cout << place.x << " " << place.y << " ";

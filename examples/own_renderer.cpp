@@ -5,7 +5,7 @@
 // OUT.pgm.
 #include <arete/engine/morph/view_mesh.h>
 #include <arete/io/store/amt/file.h>
-#include <arete/terrain/locate/surface_height.h>
+#include <arete/terrain/locate/ground_height.h>
 #include <arete/terrain/model/camera.h>
 
 #include <algorithm>
@@ -122,7 +122,7 @@ int main(int argc, char** argv) {
   Renderer renderer;
   renderer.upload(*mesh);
 
-  const arete::SurfaceHeights heights(*model);
+  const arete::GroundHeights heights(*model);
   arete::View view;
   double ground = 0;
   for (int frame = 0; frame < frames; ++frame) {

@@ -18,7 +18,7 @@
 #include "io/formats/exchange/export_tin.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/store/amt/file.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "terrain/measure/measure.h"
 #include "terrain/model/camera.h"
 
@@ -107,7 +107,7 @@ class CutStage {
   Status view() {
     const Vec2 middleOf{0.5 * (model_.columns - 1), 0.5 * (model_.rows - 1)};
     Camera camera{.xy = model_.toSource(middleOf), .azimuthDegrees = 30, .pitchDegrees = -8};
-    const auto ground = SurfaceHeights(model_).at(camera.xy);
+    const auto ground = GroundHeights(model_).at(camera.xy);
     camera.height = (ground ? ground->height : 0) + 300 / model_.georeference.verticalUnitMetres;
     ARETE_TRY(const View seen, viewOf(camera, model_));
     const auto withPixels = [&](double pixels) {

@@ -20,7 +20,7 @@
 #include "engine/cut/cut.h"
 #include "io/query/extract/query_footprint.h"
 #include "io/store/amt/file.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 
 namespace arete::bench {
 namespace {
@@ -96,7 +96,7 @@ double openAndCutMilliseconds(const std::string& path, const AmtLoadOptions& opt
 
 /// How long it takes to open a file for the height at one place, and to tell it.
 double openAndTellHeightMilliseconds(const std::string& model, const Repetition& repetition) {
-  return 1000 * medianSeconds(repetition, [&]() -> std::optional<SurfaceHeight> {
+  return 1000 * medianSeconds(repetition, [&]() -> std::optional<GroundHeight> {
            const auto file = openAmt(model);
            if (!file) return std::nullopt;
            const auto outline = file->read({.wanted = requiredNowhere()});
@@ -106,7 +106,7 @@ double openAndTellHeightMilliseconds(const std::string& model, const Repetition&
            wanted.add(middle);
            const auto part = file->read({.wanted = wanted.within(0)});
            if (!part) return std::nullopt;
-           return SurfaceHeights(*part).at(part->toSource(middle));
+           return GroundHeights(*part).at(part->toSource(middle));
          });
 }
 

@@ -16,7 +16,7 @@
 #include "bench/threads.h"
 #include "engine/criteria/view_error.h"
 #include "engine/follow/incremental_cut.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "terrain/model/camera.h"
 
 namespace arete::bench {
@@ -28,7 +28,7 @@ constexpr double kFramesPerSecond = 60, kMetresPerSecond = 150, kDegreesPerSecon
 
 /// From the middle of the DEM. Near its borders the camera goes on turning the same way.
 Result<std::vector<View>> viewsOfFlight(const TerrainModel& model) {
-  const SurfaceHeights heights(model);
+  const GroundHeights heights(model);
   const MetricFrame& metric = model.mt.metric();
   Vec2 plan = model.toPlan(model.toSource({0.5 * (model.columns - 1), 0.5 * (model.rows - 1)}));
   double azimuth = 30, turned = 0, turn = kDegreesPerSecond / kFramesPerSecond, ground = 0;

@@ -11,7 +11,7 @@
 #include "bench/stages/stages.h"
 #include "bench/threads.h"
 #include "datasets/random.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 
 namespace arete::bench {
 namespace {
@@ -31,7 +31,7 @@ std::vector<Vec2> placesOn(const TerrainModel& model) {
 
 Result<Figures> heightStage(const DemSource& source, const std::string& path, const Plan& plan) {
   ARETE_TRY(const TerrainModel model, loadModel(path));
-  const SurfaceHeights heights(model);
+  const GroundHeights heights(model);
   const std::vector<Vec2> places = placesOn(model);
   Figures figures;
   std::vector<double> tolerances = {0};

@@ -9,7 +9,7 @@
 
 #include "bench/sources.h"
 #include "bench/stages/stages.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "viewer/camera/home_view.h"
 #include "viewer/camera/round_flight.h"
 #include "viewer/headless/headless.h"
@@ -28,7 +28,7 @@ std::string shortName(const std::string& renderer) {
 
 Result<Figures> viewStage(const DemSource& source, const std::string& path, const Plan&) {
   ARETE_TRY(const TerrainModel model, loadModel(path));
-  const SurfaceHeights heights(model);
+  const GroundHeights heights(model);
   const CameraSpace space(model);
   ARETE_TRY(const auto plan, roundFlight(heights, space, metricBox(model)));
   ARETE_TRY(const auto flight, Flight::create(plan, space));

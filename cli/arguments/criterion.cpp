@@ -16,7 +16,7 @@
 #include "io/files/text/stated_size.h"
 #include "io/geo/crs/position_argument.h"
 #include "io/query/extract/camera_argument.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "terrain/model/relief.h"
 
 namespace arete {
@@ -246,7 +246,7 @@ Result<std::optional<Vec2>> CriterionArguments::placeAboveGround(const TerrainMo
 
 Status CriterionArguments::placeCamera(const TerrainModel& model, CutRequest& c) const {
   ARETE_TRY(const auto transform, transformOfPlaces(isLonLat_, model));
-  ARETE_TRY(const auto argument, readCameraArgument("--camera", camera_, transform, SurfaceHeights(model)));
+  ARETE_TRY(const auto argument, readCameraArgument("--camera", camera_, transform, GroundHeights(model)));
   Camera camera = argument.camera;
   if (!look_.empty()) {
     if (argument.statesLook)

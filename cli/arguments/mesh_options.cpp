@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
-#include "io/geo/crs/names.h"
 
 namespace arete {
 
@@ -34,54 +33,6 @@ void addPlacingTo(CLI::App& command, MeshPlacing& placing) {
                       fmt::join(meshUnitNames(), ", ")))
       ->check(oneOf(meshUnitNames()))
       ->type_name("UNIT");
-}
-
-void warnOf(const ConvertedMesh& converted, const std::string& input, std::string_view format,
-            const Session& session) {
-  session.warn(converted.warnings, input);
-  if (!converted.lost.empty())
-    session.warn(fmt::format("{} cannot hold {}", format, fmt::join(converted.lost, ", or ")));
-}
-
-std::string doublesText(double movedByFloats) {
-  return fmt::format(
-      "  doubles    coordinates take twice the bytes of the source's floats, which would move them by up to "
-      "{:.2g}\n",
-      movedByFloats);
-}
-
-std::string writtenText(const std::string& output, const ConvertedMesh& converted) {
-  std::string text =
-      fmt::format("{}: {}, {}\n", output, grouped(converted.triangles, "triangle", "triangles"),
-                  grouped(converted.vertices, "vertex", "vertices"));
-  if (converted.joinedVertices > 0)
-    text += fmt::format("  {} joined at reading\n",
-                        grouped(converted.joinedVertices, "vertex at the position of another was",
-                                "vertices at the positions of others were"));
-  if (converted.movedByFloats > 0) text += doublesText(converted.movedByFloats);
-  for (const std::filesystem::path& file : converted.filesBeside)
-    text += fmt::format("  beside it: {}\n", file.string());
-  return text;
-}
-
-Json writtenJson(const std::string& input, const std::string& output, std::string_view format,
-                 const ConvertedMesh& converted) {
-  Json beside = Json::array();
-  for (const std::filesystem::path& file : converted.filesBeside) beside.push_back(file.string());
-  const Vec3& r = converted.frame.rounding;
-  return {{"input", input},
-          {"output", output},
-          {"format", format},
-          {"triangles", converted.triangles},
-          {"vertices", converted.vertices},
-          {"joinedVertices", converted.joinedVertices},
-          {"crs", crsName(converted.crsWkt)},
-          {"verticalUnit", converted.verticalUnit},
-
-          {"movedByFloats", converted.movedByFloats},
-          {"rounding", {r.x, r.y, r.z}},
-          {"lost", converted.lost},
-          {"filesBeside", std::move(beside)}};
 }
 
 }  // namespace arete

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/conversion_report.h"
 #include "cli/arguments/drop_attributes.h"
 #include "cli/arguments/mesh_options.h"
 #include "cli/arguments/option_kinds.h"
@@ -102,7 +103,7 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
       error.culprit = fmt::format("--crs {}", arguments.crs);
     return tl::unexpected(std::move(error));
   }
-  warnOf(*converted, arguments.input, target.format.name, session);
+  warnOfConversion(*converted, arguments.input, target.format.name, session);
   session.say(writtenText(target.path, *converted));
   session.answer(writtenJson(arguments.input, target.path, target.format.name, *converted));
   return {};

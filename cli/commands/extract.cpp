@@ -58,7 +58,7 @@ struct ExtractArguments {
   std::string certificate, errorRaster, map;
   std::string dropParts;
   std::vector<std::string> dropAttributes;
-  bool isBothWays = false, isUndisplaced = false;
+  bool measuresBothWays = false, staysUndisplaced = false;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   CLI::Option* certificateOption = nullptr;
   OptionKinds kinds;
@@ -176,8 +176,8 @@ Status runSurfaceExtract(const ExtractArguments& arguments, const AmtContainer& 
                          .asked = arguments.criterion.ofSurface(),
                          .dropParts = arguments.dropParts,
                          .dropAttributes = arguments.dropAttributes,
-                         .isBothWays = arguments.isBothWays,
-                         .isUndisplaced = arguments.isUndisplaced},
+                         .measuresBothWays = arguments.measuresBothWays,
+                         .staysUndisplaced = arguments.staysUndisplaced},
                         file, session);
 }
 
@@ -286,10 +286,10 @@ void addExtractCommand(CLI::App& app, Session& session) {
                        "or in % of the whole diagonal")
           ->type_name("D"));
   kinds.ofSurfaces(addDropAttributesTo(*command, arguments->dropAttributes));
-  kinds.ofSurfaces(command->add_flag("--both-ways", arguments->isBothWays,
+  kinds.ofSurfaces(command->add_flag("--both-ways", arguments->measuresBothWays,
                                      "Also measure how far the result is from the source"));
   kinds.ofSurfaces(command->add_flag(
-      "--no-displacement", arguments->isUndisplaced,
+      "--no-displacement", arguments->staysUndisplaced,
       "Vertices stay where they are in the source, though it was built with --displacement"));
 }
 

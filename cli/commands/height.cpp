@@ -20,7 +20,7 @@
 #include "io/geo/table/height_table.h"
 #include "io/geo/table/point_table.h"
 #include "io/query/extract/model_file.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 
 namespace arete {
 namespace {
@@ -34,7 +34,7 @@ struct HeightArguments {
   ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 
-using Heights = std::vector<std::optional<SurfaceHeight>>;
+using Heights = std::vector<std::optional<GroundHeight>>;
 
 /// The places of --at, as typed and in the DEM's CRS.
 Result<PointTable> statedPlaces(const HeightArguments& arguments, const TerrainModel& model) {
@@ -114,7 +114,7 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
   QueryFootprint wanted(outline);
   for (const Vec2 place : table.positions) wanted.add(outline.toPlan(place));
   ARETE_TRY(const TerrainModel model, readWanted(file, outline, wanted.within(0), session));
-  ARETE_TRY(const auto heights, SurfaceHeights(model).at(table.positions, maxError.value, session.context()));
+  ARETE_TRY(const auto heights, GroundHeights(model).at(table.positions, maxError.value, session.context()));
 
   const auto found = static_cast<std::size_t>(
       std::count_if(heights.begin(), heights.end(), [](const auto& h) { return h.has_value(); }));

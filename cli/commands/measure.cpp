@@ -24,9 +24,9 @@
 #include "io/geo/crs/names.h"
 #include "io/geo/dem/dem_reader.h"
 #include "io/geo/dem/raster_writer.h"
+#include "io/query/certificate/report_json.h"
 #include "io/query/extract/model_file.h"
 #include "io/query/extract/region_argument.h"
-#include "io/query/certificate/report_json.h"
 #include "terrain/measure/measure.h"
 #include "terrain/model/plan_region.h"
 #include "terrain/model/relief.h"
@@ -41,7 +41,7 @@ struct MeasureArguments {
   std::optional<StatedSize> expect;
   std::string region, regionCrs, errorRaster;
   double distance = 0;
-  bool allowCoveredNodata = false, isBothWays = false;
+  bool allowCoveredNodata = false, measuresBothWays = false;
   std::int64_t samples = 0, seed = -1;  // not stated
   std::string errorMesh;
   OptionKinds kinds{"Against a DEM", "Against a mesh"};
@@ -165,7 +165,7 @@ Status runMeasure(MeasureArguments arguments, Session& session) {
     meshes.first = arguments.tin;
     meshes.second = arguments.dem.path;
     meshes.expect = arguments.expect;
-    meshes.isBothWays = arguments.isBothWays;
+    meshes.measuresBothWays = arguments.measuresBothWays;
     meshes.samples = arguments.samples;
     if (arguments.seed >= 0) meshes.seed = arguments.seed;
     meshes.errorMesh = arguments.errorMesh;
@@ -243,7 +243,7 @@ void addMeasureCommand(CLI::App& app, Session& session) {
                                    "GeoTIFF to write on the DEM's grid: TIN height minus DEM height")
                       ->type_name("FILE"));
   kinds.ofSurfaces(
-      command->add_flag("--both-ways", arguments->isBothWays,
+      command->add_flag("--both-ways", arguments->measuresBothWays,
                         "--expect of the points of the first mesh too, not of the second's alone"));
   kinds.ofSurfaces(
       command

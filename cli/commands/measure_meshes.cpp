@@ -18,8 +18,8 @@
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/formats/exchange/metric_mesh.h"
 #include "io/geo/crs/names.h"
-#include "io/query/extract/model_file.h"
 #include "io/query/certificate/report_json.h"
+#include "io/query/extract/model_file.h"
 #include "io/store/amt/surface_file.h"
 #include "measure/mesh_distance.h"
 #include "surface/front/front.h"
@@ -165,7 +165,7 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
   const bool expects = arguments.expect.has_value();
   const double diagonal = report->second.diagonal;
   const double expected = expects ? arguments.expect->of(diagonal) : 0;
-  const PromisedWay way = arguments.isBothWays ? PromisedWay::both : PromisedWay::fromSecond;
+  const PromisedWay way = arguments.measuresBothWays ? PromisedWay::both : PromisedWay::fromSecond;
   // A promise is broken by what is found, and proven by what is certain of the source itself.
   const Status promise = expects ? checkDistance(*report, expected, way) : Status();
   report->raise(moved);
@@ -181,7 +181,7 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
   if (expects && promise) {
     const std::string limit = fmt::format(
         "{} ({:.4g} % of the diagonal), {}", withUnit(expected, unit), 100 * expected / diagonal,
-        arguments.isBothWays ? "both ways" : "from the second; --both-ways asks the other way too");
+        arguments.measuresBothWays ? "both ways" : "from the second; --both-ways asks the other way too");
     session.say(isProven(*report, expected, way)
                     ? fmt::format("kept: nowhere farther than {}\n", limit)
                     : fmt::format("kept as far as found: nothing is known to be farther than {}\n", limit));
@@ -197,7 +197,7 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
   if (expects) {
     json["expect"] = std::isfinite(expected) ? Json(expected) : Json();
     json["expectPercent"] = std::isfinite(expected) ? Json(100 * expected / diagonal) : Json();
-    json["expectOf"] = arguments.isBothWays ? "bothWays" : "fromSecond";
+    json["expectOf"] = arguments.measuresBothWays ? "bothWays" : "fromSecond";
     json["kept"] = promise.has_value();
     json["proven"] = !promise || isProven(*report, expected, way);
     if (!promise) json["broken"] = promise.error().message;

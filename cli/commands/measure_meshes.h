@@ -14,7 +14,7 @@ namespace arete {
 struct MeasureMeshesArguments {
   std::string first, second;
   std::optional<StatedSize> expect;  ///< a share is of the second's diagonal; missing: not stated
-  bool isBothWays = false;           ///< expects it of the points of both meshes, not of the second's alone
+  bool measuresBothWays = false;     ///< expects it of the points of both meshes, not of the second's alone
   std::int64_t samples = 0;          ///< 0: the library's default
   std::int64_t seed = 1;
   std::string errorMesh;  ///< empty: none

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/conversion_report.h"
 #include "cli/arguments/mesh_options.h"
 #include "io/formats/exchange/convert.h"
 #include "io/formats/exchange/mesh_formats.h"
@@ -68,7 +69,7 @@ Status runCrop(const CropArguments& arguments, Session& session) {
                                                         .placing = arguments.placing,
                                                         .isOfFloats = isOfFloats},
                                                        session.context()));
-  warnOf(converted, arguments.input, target.format.name, session);
+  warnOfConversion(converted, arguments.input, target.format.name, session);
   session.say(writtenText(target.path, converted) +
               (cropped.cutTriangles > 0 ? fmt::format("  {} cut at the box, {} made there\n",
                                                       grouped(cropped.cutTriangles, "triangle", "triangles"),

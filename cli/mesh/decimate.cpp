@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/conversion_report.h"
 #include "cli/arguments/drop_attributes.h"
 #include "cli/arguments/mesh_options.h"
 #include "cli/mesh/tolerance.h"
@@ -261,7 +262,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
   renumberForFile(outcome->triangleFor, converted.triangleOf);
   if (!arguments.map.empty())
     ARETE_CHECK(writeNumbers(arguments.map, *outcome, input, dropped.vertexOf, dropped.triangleOf));
-  warnOf(converted, arguments.input, target.format.name, session);
+  warnOfConversion(converted, arguments.input, target.format.name, session);
   std::string text = writtenText(target.path, converted);
   const double percent = 100 * static_cast<double>(triangles) / static_cast<double>(facesBefore);
   text += fmt::format("  of         {}, {:.4g} % of them, by {} in {:.2f} s\n",

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/conversion_report.h"
 #include "cli/arguments/mesh_options.h"
 #include "cli/mesh/diagnosis_json.h"
 #include "cli/mesh/diagnosis_text.h"
@@ -228,7 +229,7 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
                                                         .placing = arguments.placing,
                                                         .isOfFloats = isOfFloats},
                                                        session.context()));
-  warnOf(converted, arguments.input, target.format.name, session);
+  warnOfConversion(converted, arguments.input, target.format.name, session);
   const MeshNumbers numbers{.first = target.format.holds.firstIndex, .vertexOf = {}, .faceOf = {}};
   session.say(writtenText(target.path, converted) + mendedText(input, welded, repaired) +
               fmt::format("now: {}\n", verdictOf(*diagnosis)) + diagnosisText(*diagnosis, numbers));

@@ -16,7 +16,7 @@
 namespace arete {
 namespace {
 
-Result<SightPath> pathOf(const std::array<SightSite, 2>& row, const SurfaceHeights& heights) {
+Result<SightPath> pathOf(const std::array<SightSite, 2>& row, const GroundHeights& heights) {
   constexpr const char* kEnds[2] = {"the first end", "the second end"};
   constexpr const char* kOptions[2] = {"--observer-height", "--target-height"};
   SightPath path;
@@ -46,7 +46,7 @@ Json numberOrNull(double value) {
 
 }  // namespace
 
-SightRows SightRows::of(const SightPairs& pairs, const SurfaceHeights& heights) {
+SightRows SightRows::of(const SightPairs& pairs, const GroundHeights& heights) {
   SightRows all;
   all.rows.reserve(pairs.rows.size());
   for (const auto& row : pairs.rows) {

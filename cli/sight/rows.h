@@ -24,7 +24,7 @@ struct SightRows {
   };
   std::vector<Row> rows;
 
-  static SightRows of(const SightPairs& pairs, const SurfaceHeights& heights);
+  static SightRows of(const SightPairs& pairs, const GroundHeights& heights);
   std::size_t count() const { return rows.size(); }
 };
 

@@ -123,7 +123,7 @@ Result<RequiredError> wantedFor(std::span<const PlacedObserver> observers, const
 /// Resolves the observers' heights on the model.
 Result<std::vector<ViewshedSite>> sitesOf(std::span<const PlacedObserver> observers,
                                           const TerrainModel& model) {
-  const SurfaceHeights heights(model);
+  const GroundHeights heights(model);
   std::vector<ViewshedSite> sites;
   for (const PlacedObserver& observer : observers) {
     const auto height = demHeight(observer.position, heights);

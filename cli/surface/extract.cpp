@@ -56,7 +56,7 @@ Result<Requests> requestsOf(const SurfaceExtractArguments& arguments, const Surf
   const bool several = tolerances.size() * budgets.size() > 1;
   ARETE_CHECK(arguments.outputs.check(several));
   ARETE_TRY(CutRequest common, readSurfaceRequest(asked, model, context));
-  common.isDisplaced = !arguments.isUndisplaced;
+  common.isDisplaced = !arguments.staysUndisplaced;
   if (!arguments.dropParts.empty()) {
     ARETE_TRY(const auto least, parseSurfaceTolerances("--drop-parts", arguments.dropParts, model.diagonal));
     if (least.size() != 1) return failure(ErrorCode::usage, "takes one length", "--drop-parts");
@@ -73,7 +73,7 @@ Result<Requests> requestsOf(const SurfaceExtractArguments& arguments, const Surf
       const std::string tag = tagOf(asked, tolerance ? tolerance->text : "", budget ? budget->text : "");
       requests.all.push_back(arguments.outputs.requestOf(criterion, tag, several));
       requests.all.back().dropAttributes = arguments.dropAttributes;
-      requests.all.back().isBothWays = arguments.isBothWays;
+      requests.all.back().measuresBothWays = arguments.measuresBothWays;
     }
   return requests;
 }

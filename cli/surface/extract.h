@@ -18,8 +18,8 @@ struct SurfaceExtractArguments {
   CriterionArguments::OfSurface asked;
   std::string dropParts;  ///< --drop-parts; empty: none
   std::vector<std::string> dropAttributes = {};
-  bool isBothWays = false;     ///< the distance from the result to the source, too
-  bool isUndisplaced = false;  ///< vertices of a displaced model stay where they are in the source
+  bool measuresBothWays = false;  ///< the distance from the result to the source, too
+  bool staysUndisplaced = false;  ///< vertices of a displaced model stay where they are in the source
 };
 
 /// `arete extract` of a surface: one mesh for each tolerance and each budget. Errors: as

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/conversion_report.h"
 #include "cli/arguments/mesh_options.h"
 #include "cli/mesh/tolerance.h"
 #include "cli/surface/why_not_fewer.h"

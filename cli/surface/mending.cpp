@@ -10,7 +10,7 @@
 
 namespace arete {
 
-std::string mendedText(const SurfaceMending& m, const std::string& begin) {
+std::string mendedText(const SurfaceRepairs& m, const std::string& begin) {
   std::string text;
   for (const auto& [count, what] :
        {std::pair{m.duplicateFaces, "duplicate faces left out"},
@@ -24,7 +24,7 @@ std::string mendedText(const SurfaceMending& m, const std::string& begin) {
   return text;
 }
 
-Json mendedJson(const SurfaceMending& m) {
+Json mendedJson(const SurfaceRepairs& m) {
   return {{"duplicateFaces", m.duplicateFaces}, {"degenerateFaces", m.degenerateFaces},
           {"splitFaces", m.splitFaces},         {"joinedVertices", m.joinedVertices},
           {"turnedFaces", m.turnedFaces},       {"addedVertices", m.addedVertices},

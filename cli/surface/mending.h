@@ -9,7 +9,7 @@
 namespace arete {
 
 /// What the build mended, in lines that begin with `begin`; empty if nothing.
-std::string mendedText(const SurfaceMending& mending, const std::string& begin);
-Json mendedJson(const SurfaceMending& mending);
+std::string mendedText(const SurfaceRepairs& mending, const std::string& begin);
+Json mendedJson(const SurfaceRepairs& mending);
 
 }  // namespace arete

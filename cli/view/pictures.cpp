@@ -106,7 +106,7 @@ Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView
   return {};
 }
 
-Status makeFilm(const ViewArguments& a, const Flight& flight, const SurfaceHeights& heights,
+Status makeFilm(const ViewArguments& a, const Flight& flight, const GroundHeights& heights,
                 HeadlessView& view, Session& session, Json& json) {
   ARETE_TRY(
       const auto frames,

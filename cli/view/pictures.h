@@ -4,7 +4,7 @@
 #include "cli/session/session.h"
 #include "cli/view/arguments.h"
 #include "engine/base/result.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "terrain/model/camera.h"
 #include "viewer/camera/flight.h"
 #include "viewer/headless/headless.h"
@@ -30,7 +30,7 @@ Status takeScreenshot(const ViewArguments& arguments, const Camera& camera, Head
 ///
 /// @param heights of the terrain, for a warning where the camera is under the ground.
 /// Errors: those of drawFilm() and encodeFilm().
-Status makeFilm(const ViewArguments& arguments, const Flight& flight, const SurfaceHeights& heights,
+Status makeFilm(const ViewArguments& arguments, const Flight& flight, const GroundHeights& heights,
                 HeadlessView& view, Session& session, Json& json);
 
 }  // namespace arete

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr double kSecondsOfATurn = 8, kFramesPerSecond = 30;
 
 /// The camera of upright space.
-Result<Camera> cameraOf(const ViewArguments& a, const Upright& upright, const UprightShape& shape, int width,
+Result<Camera> cameraOf(const ViewArguments& a, const ZUpFrame& upright, const ZUpShape& shape, int width,
                         int height) {
   Camera camera;
   camera.widthPixels = width;
@@ -47,7 +47,7 @@ Result<Camera> cameraOf(const ViewArguments& a, const Upright& upright, const Up
 }
 
 /// As --camera takes it.
-Json jsonOf(const Camera& camera, const Upright& upright, double distance) {
+Json jsonOf(const Camera& camera, const ZUpFrame& upright, double distance) {
   const CameraSpace space;
   const Vec3 eye = space.position(camera);
   const Vec3 target = eye + distance * space.forward(lookOf(camera));
@@ -178,7 +178,7 @@ Status viewSurface(ViewArguments a, const AmtContainer& file, Session& session) 
   ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(file, AmtVerify::all, session.context()));
   ARETE_CHECK(a.detail.findBudget(model.mt.finestTriangleCount()));
   settings.maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);
-  const Upright upright(model, a.viewpoint.up);
+  const ZUpFrame upright(model, a.viewpoint.up);
   ARETE_TRY(const Camera camera, cameraOf(a, upright, uprightShape(model, upright), size.first, size.second));
 
   if (!a.pictures.isHeadless) {

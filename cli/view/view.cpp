@@ -22,18 +22,18 @@
 #include "io/query/extract/camera_argument.h"
 #include "io/query/extract/model_file.h"
 #include "io/store/amt/file.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "viewer/camera/flight_json.h"
 #include "viewer/camera/home_view.h"
 #include "viewer/camera/round_flight.h"
 #include "viewer/headless/headless.h"
 #include "viewer/scene/curved_home_view.h"
-#include "viewer/window/window.h"
+#include "viewer/window/terrain_window.h"
 
 namespace arete {
 namespace {
 
-Result<Camera> cameraOf(const ViewArguments& a, const TerrainModel& model, const SurfaceHeights& heights,
+Result<Camera> cameraOf(const ViewArguments& a, const TerrainModel& model, const GroundHeights& heights,
                         int width, int height) {
   Camera picture;
   picture.widthPixels = width;
@@ -54,7 +54,7 @@ Result<Camera> cameraOf(const ViewArguments& a, const TerrainModel& model, const
 }
 
 Result<std::optional<Flight>> flightOf(const ViewArguments& a, const TerrainModel& model,
-                                       const SurfaceHeights& heights, Session& session) {
+                                       const GroundHeights& heights, Session& session) {
   const CameraSpace space(model);
   FlightPlan plan;
   if (!a.viewpoint.path.empty()) {
@@ -88,7 +88,7 @@ Status runView(ViewArguments a, Session& session) {
   ARETE_TRY(const TerrainModel model, file.read({}, session.context()));
   ARETE_CHECK(a.detail.findBudget(model.mt.finestTriangleCount()));
   settings.maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);
-  const SurfaceHeights heights(model);
+  const GroundHeights heights(model);
   ARETE_TRY(const Camera camera, cameraOf(a, model, heights, size.first, size.second));
   if (const auto ground = heights.at(camera.xy); ground && camera.height < ground->height)
     session.warn(fmt::format("the camera stands {} under the ground",

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete::python {
@@ -18,13 +18,13 @@ class Terrain {
       : model_(std::make_shared<const TerrainModel>(std::move(model))), heights_(*model_) {}
 
   const TerrainModel& model() const { return *model_; }
-  const SurfaceHeights& heights() const { return heights_; }
+  const GroundHeights& heights() const { return heights_; }
   /// The highest minus the lowest sample: what a percentage of an error is of. O(samples).
   double relief() const;
 
  private:
   std::shared_ptr<const TerrainModel> model_;  // heights_ refers to it
-  SurfaceHeights heights_;
+  GroundHeights heights_;
 };
 
 /// Builds, reads, writes and asks models of terrain.

@@ -23,7 +23,7 @@
 #include "surface/builder/prepare.h"
 #include "surface/error/original.h"
 #include "surface/error/samples.h"
-#include "surface/model/face_heirs.h"
+#include "surface/model/face_successors.h"
 #include "surface/simplify/simplify.h"
 
 namespace arete {

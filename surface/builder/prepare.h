@@ -24,10 +24,10 @@ struct PreparedSurface {
   std::vector<std::uint32_t> vertexOf;  ///< by vertex: that of the source
   std::vector<std::uint32_t> faceOf;    ///< by triangle: that of the source
   std::vector<SurfaceModel::LeftOutFace> leftOutFaces;
-  SurfaceMending mending;
+  SurfaceRepairs mending;
 };
 
-/// Mends what leaves the surface as it is (SurfaceMending), as repair() does, and refuses what does not:
+/// Mends what leaves the surface as it is (SurfaceRepairs), as repair() does, and refuses what does not:
 /// edges of more than two faces and parts that no turns orient. Errors: those of repair(); invalidData: names
 /// the first such edge by the vertices of the source, how many there are, and what mends them; degenerate: no
 /// face has an area. O(n log n).

@@ -27,10 +27,10 @@
 #include "surface/decimate/contraction_mesh.h"
 #include "surface/decimate/corner_attributes.h"
 #include "surface/decimate/crossing_guard.h"
-#include "surface/decimate/few.h"
 #include "surface/decimate/mesh_quadrics.h"
 #include "surface/decimate/near_pairs.h"
 #include "surface/decimate/quadric.h"
+#include "surface/decimate/small_vector.h"
 #include "surface/model/charts.h"
 #include "surface/topology/edges.h"
 
@@ -53,7 +53,7 @@ struct Candidate {
 };
 
 struct Step {
-  Few<std::uint32_t> vertices;  // the first one stays
+  SmallVector<std::uint32_t> vertices;  // the first one stays
   Vec3 place{0, 0, 0};
   double cost = kNever;
 };
@@ -161,9 +161,9 @@ class Contractions {
     for (const std::uint32_t v : ends) candidatesOf_[v].push_back(id);
   }
 
-  Few<std::uint32_t> verticesOf(const Candidate& candidate) const {
-    return candidate.isTriangle ? Few<std::uint32_t>(mesh_.corners(candidate.ends[0]))
-                                : Few<std::uint32_t>(candidate.ends);
+  SmallVector<std::uint32_t> verticesOf(const Candidate& candidate) const {
+    return candidate.isTriangle ? SmallVector<std::uint32_t>(mesh_.corners(candidate.ends[0]))
+                                : SmallVector<std::uint32_t>(candidate.ends);
   }
   bool isWide(std::uint32_t v) const { return mesh_.trianglesOf(v).size() > mostAround_; }
   bool hasWide() const {
@@ -172,7 +172,7 @@ class Contractions {
     return false;
   }
   /// Whether the operator has candidates of this kind here: triangles, but edges at borders.
-  bool isOfOperator(const Candidate& candidate, const Few<std::uint32_t>& vertices) const {
+  bool isOfOperator(const Candidate& candidate, const SmallVector<std::uint32_t>& vertices) const {
     if (!takesFaces_) return true;
     const bool isAtBorder =
         std::any_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return isOnBorder_[v] != 0; });
@@ -182,7 +182,7 @@ class Contractions {
   void price(std::uint32_t id) {
     Candidate& candidate = candidates_[id];
     candidate.isDirty = false;
-    const Few<std::uint32_t> vertices = verticesOf(candidate);
+    const SmallVector<std::uint32_t> vertices = verticesOf(candidate);
     const bool isAtWide =
         std::any_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return isWide(v); });
     candidate.cost = isAtWide || !isOfOperator(candidate, vertices) ? kNever : stepOf(id, false).cost;
@@ -201,7 +201,7 @@ class Contractions {
   /// wide ones, until they are no longer wide.
   void wait(std::uint32_t id) {
     candidates_[id].waits = true;
-    const Few<std::uint32_t> vertices = verticesOf(candidates_[id]);
+    const SmallVector<std::uint32_t> vertices = verticesOf(candidates_[id]);
     // That changes with the vertices themselves alone, and then change() prices it.
     if (!isOfOperator(candidates_[id], vertices)) return;
     const bool isAtWide =
@@ -218,7 +218,7 @@ class Contractions {
 
   /// @param isTaken  the place is wanted, not the cost alone
   Step stepOf(std::uint32_t id, bool isTaken) {
-    const Few<std::uint32_t> vertices = verticesOf(candidates_[id]);
+    const SmallVector<std::uint32_t> vertices = verticesOf(candidates_[id]);
     if (vertices.size() < 3 || (options_.queue == DecimateQueue::estimate && !isTaken))
       return stepOf(vertices, isTaken);
     const Step whole = stepOf(vertices, isTaken), ofSide = stepOf(shortSideOf(vertices), isTaken);
@@ -227,19 +227,19 @@ class Contractions {
     return isLast || whole.cost > kMostDearer * ofSide.cost ? ofSide : whole;
   }
   /// The ends of the short side of a triangle.
-  Few<std::uint32_t> shortSideOf(const Few<std::uint32_t>& corners) const {
+  SmallVector<std::uint32_t> shortSideOf(const SmallVector<std::uint32_t>& corners) const {
     std::array<double, 3> squared;  // of the sides opposite to the corners
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 side = mesh_.position(corners[(i + 1) % 3]) - mesh_.position(corners[(i + 2) % 3]);
       squared[i] = dot(side, side);
     }
     const auto opposite = static_cast<std::size_t>(std::ranges::min_element(squared) - squared.begin());
-    return Few<std::uint32_t>(std::array{corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]});
+    return SmallVector<std::uint32_t>(std::array{corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]});
   }
-  Step stepOf(const Few<std::uint32_t>& vertices, bool isTaken) {
+  Step stepOf(const SmallVector<std::uint32_t>& vertices, bool isTaken) {
     Step step;
     step.vertices = vertices;
-    Few<Vec3> places;
+    SmallVector<Vec3> places;
     for (const std::uint32_t v : step.vertices) places.push_back(mesh_.position(v));
     if (options_.queue == DecimateQueue::estimate && !isTaken) {
       Vec3 middle{0, 0, 0};
@@ -254,7 +254,7 @@ class Contractions {
     const auto isHeld = [&](std::uint32_t v) {
       return isOnLine(v) || (options_.keepsBorders && isOnBorder_[v] != 0);
     };
-    Few<std::size_t> held;
+    SmallVector<std::size_t> held;
     for (std::size_t i = 0; i < step.vertices.size(); ++i)
       if (isHeld(step.vertices[i])) held.push_back(i);
     const bool isAtEnds = options_.method == DecimateOperator::halfEdge || !held.empty();
@@ -268,7 +268,7 @@ class Contractions {
       if (!held.empty() && std::ranges::find(held, i) == held.end()) continue;
       const double cost = std::max(0.0, quadric.at(places[i]));
       if (!(cost < step.cost)) continue;
-      Few<std::uint32_t> order = step.vertices;
+      SmallVector<std::uint32_t> order = step.vertices;
       std::swap(order[0], order[i]);
       if (!mayGo(order)) continue;
       step.cost = cost;
@@ -334,7 +334,7 @@ class Contractions {
   }
 
   /// Whether an edge is opposite to a wide vertex.
-  bool isBesideWide(const Few<std::uint32_t>& ends) const {
+  bool isBesideWide(const SmallVector<std::uint32_t>& ends) const {
     return std::ranges::any_of(mesh_.trianglesOf(ends[0]), [&](std::uint32_t t) {
       const auto& corners = mesh_.corners(t);
       return std::ranges::find(corners, ends[1]) != corners.end() &&
@@ -417,8 +417,8 @@ class Contractions {
   }
 
   /// By vertex, its share in the attributes of the new one.
-  Few<double> weightsOf(const Step& step) const {
-    Few<double> weights, distances;
+  SmallVector<double> weightsOf(const Step& step) const {
+    SmallVector<double> weights, distances;
     for (const std::uint32_t v : step.vertices) {
       weights.push_back(0);
       distances.push_back(norm(step.place - mesh_.position(v)));

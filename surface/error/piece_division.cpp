@@ -20,7 +20,7 @@ namespace arete {
 namespace {
 
 /// Pieces below this part of the floor's error are not cut.
-constexpr double kWholeEnough = 0.7;
+constexpr double kLeastCoveredShare = 0.7;
 /// And what further cuts leave at this part of it is not cut again.
 constexpr double kNearEnough = 1.15;
 /// Of more pieces of a face the convex hull is taken, which is farther than they are where they do not touch.
@@ -310,7 +310,7 @@ void PieceDivision::divide(std::span<const Vec3> corners, const HoleTriangulatio
   bool isPlanned = false;
   for (const Part& part : parts_) {
     const SpaceTriangle face = original_.face(part.face);
-    if (part.whole.squared <= kWholeEnough * kWholeEnough * anyway || floor_.size() == 1) {
+    if (part.whole.squared <= kLeastCoveredShare * kLeastCoveredShare * anyway || floor_.size() == 1) {
       assign(part.face, part.cuts, polygonOf(part), face, part.whole);
       continue;
     }

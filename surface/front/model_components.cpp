@@ -54,9 +54,8 @@ DroppedComponents componentsBelow(const SurfaceModel& model, double leastDiagona
   return dropped;
 }
 
-CutOfTheRest withoutDropped(const MultiTriangulation& mt, const Cut& whole,
-                            const DroppedComponents& dropped) {
-  CutOfTheRest rest;
+KeptCut withoutDropped(const MultiTriangulation& mt, const Cut& whole, const DroppedComponents& dropped) {
+  KeptCut rest;
   rest.cut.nodes = whole.nodes;
   rest.cut.isComplete = whole.isComplete;
   std::vector<std::uint32_t> vertexNumber(whole.vertices.size(), MeshAttributes::kNone);

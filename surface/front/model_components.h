@@ -31,10 +31,10 @@ struct DroppedComponents {
 DroppedComponents componentsBelow(const SurfaceModel& model, double leastDiagonal);
 
 /// A criterion that asks nothing of what is dropped: a budget is spent on the rest.
-class OfTheRest final : public Criterion {
+class KeptComponentsCriterion final : public Criterion {
  public:
   /// Preconditions: both outlive this.
-  OfTheRest(const Criterion& criterion, const DroppedComponents& dropped)
+  KeptComponentsCriterion(const Criterion& criterion, const DroppedComponents& dropped)
       : criterion_(criterion), dropped_(dropped) {}
 
   bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override {
@@ -50,12 +50,12 @@ class OfTheRest final : public Criterion {
 };
 
 /// A cut without the dropped components.
-struct CutOfTheRest {
+struct KeptCut {
   Cut cut;  ///< its error is that of its triangles
   /// By triangle of the whole cut: its number here, or MeshAttributes::kNone.
   std::vector<std::uint32_t> numberOf;
 };
-CutOfTheRest withoutDropped(const MultiTriangulation& mt, const Cut& whole, const DroppedComponents& dropped);
+KeptCut withoutDropped(const MultiTriangulation& mt, const Cut& whole, const DroppedComponents& dropped);
 
 /// The finest front of the dropped components alone, without attributes.
 TriangleMesh droppedSurface(const SurfaceModel& model, const DroppedComponents& dropped);

@@ -57,7 +57,7 @@ Result<ExaminedFront> examine(const MultiTriangulation& mt, const Cut& cut, cons
 /// Law 8: every face that is not left out is there, as many times as it was split.
 Status checkFaces(const SurfaceModel& model) {
   const MultiTriangulation& mt = model.mt;
-  const SurfaceMending& m = model.mending;
+  const SurfaceRepairs& m = model.mending;
   const std::uint64_t leftOut = m.duplicateFaces + m.degenerateFaces,
                       expected = model.sourceFaces + m.splitFaces - leftOut;
   if (mt.finestTriangleCount() != expected)

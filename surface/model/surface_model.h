@@ -25,7 +25,7 @@ struct SurfaceBuildOptions {
 };
 
 /// What a build leaves as it is or changes before it begins; nothing of it moves the surface.
-struct SurfaceMending {
+struct SurfaceRepairs {
   std::uint64_t duplicateFaces = 0, degenerateFaces = 0;  ///< left out
   /// How often a face was split at a vertex inside its side, where one without area was beyond it: each time
   /// there is one more. Those that were left out again count as degenerate.
@@ -37,7 +37,7 @@ struct SurfaceMending {
   /// Normals of corners that differ at most edges are those of flat faces: they are left out.
   bool dropsFlatNormals = false;
 
-  bool operator==(const SurfaceMending&) const = default;
+  bool operator==(const SurfaceRepairs&) const = default;
 };
 
 /// The result of the build of a surface and the content of its .amt file.
@@ -82,7 +82,7 @@ struct SurfaceModel {
   /// The largest distance by which rounding has moved a vertex of the source; every error includes it twice.
   double positionError = 0;
   double diagonal = 0;  ///< of the box of the vertices that faces use
-  SurfaceMending mending;
+  SurfaceRepairs mending;
   SurfaceBuildOptions options;
   std::uint32_t levels = 0;
 

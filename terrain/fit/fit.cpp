@@ -142,7 +142,7 @@ Result<FittedCut> fitLeastError(const TerrainModel& model, const Cut& cut, const
                                 const RunContext& context) try {
   ARETE_TRY(auto mesh, meshOf(model, cut, {.everywhere = 1, .rounding = kRounding * cut.achievedError},
                               options, context));
-  ARETE_CHECK(lessenWorst(mesh, std::max(1u, options.rings), context));
+  ARETE_CHECK(minimizeLargestError(mesh, std::max(1u, options.rings), context));
   return fittedCut(mesh, cut, 0);
 } catch (...) {
   return caughtFailure();

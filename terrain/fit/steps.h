@@ -17,6 +17,6 @@ Status removeWhatFits(FitMesh& mesh, std::uint32_t rings, const RunContext& cont
 
 /// Changes heights until patches of up to `rings` rings cannot reduce the largest |residual| by more than 0.5
 /// %, or it is within FitBounds::rounding. Replaces the mesh's bounds by uniform ones. Errors: interrupted.
-Status lessenWorst(FitMesh& mesh, std::uint32_t rings, const RunContext& context);
+Status minimizeLargestError(FitMesh& mesh, std::uint32_t rings, const RunContext& context);
 
 }  // namespace arete

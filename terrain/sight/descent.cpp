@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "terrain/locate/triangle_locator.h"
 #include "terrain/sight/engine.h"
 #include "terrain/sight/mt_crossing.h"
@@ -197,7 +197,7 @@ class SightDescent final : public SightEngine {
   }
 
  private:
-  SurfaceHeights heights_;
+  GroundHeights heights_;
   bool mayFill_;
 };
 

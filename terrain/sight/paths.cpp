@@ -69,7 +69,7 @@ Profile withClutter(const Profile& profile, const SightClutter& clutter) {
 
 /// The judge's answer for a whole profile. Ends that stand on a single point of the terrain are not in a
 /// profile.
-SightAnswer judged(const SightLine& line, const Profile& profile, const SurfaceHeights& heights,
+SightAnswer judged(const SightLine& line, const Profile& profile, const GroundHeights& heights,
                    const SightOptions& options) {
   SightJudge judge(line, options);
   const auto addEnd = [&](const SightPoint& end) {
@@ -109,7 +109,7 @@ Vec2 sightPlan(const TerrainModel& model, Vec2 xy) {
   const double last = model.columns - 1.0;
   if (model.isRaster && g.repeatsFirstColumn && plan.x > -kSliver && plan.x < last + kSliver)
     plan.x = std::clamp(plan.x, 0.0, last);
-  return model.isRaster ? sightEnd(model, plan, SurfaceHeights::margin(model)) : plan;
+  return model.isRaster ? sightEnd(model, plan, GroundHeights::margin(model)) : plan;
 }
 
 Result<SightLine> sightLine(const SightPath& path, const SightEarth& earth, const TerrainModel& model) try {

@@ -25,7 +25,7 @@ struct SightPath {
 
 /// @param xy source coordinates.
 /// @return the plan coordinates that paths use: longitudes are brought to the turn that the DEM lies in, and
-///     places within SurfaceHeights::margin() of a lattice line are put on it.
+///     places within GroundHeights::margin() of a lattice line are put on it.
 Vec2 sightPlan(const TerrainModel& model, Vec2 xy);
 
 /// Vegetation and buildings, added to the height of the terrain.

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "terrain/sight/grid.h"
 #include "terrain/sight/line.h"
 
@@ -44,10 +44,10 @@ class Profiles {
   /// @return the profile; of a track without length, one vertex, or none where there is no terrain.
   Profile along(const SightTrack& track, double maxError = 0) const;
 
-  const SurfaceHeights& heights() const { return heights_; }
+  const GroundHeights& heights() const { return heights_; }
 
  private:
-  SurfaceHeights heights_;
+  GroundHeights heights_;
   std::shared_ptr<const SightGrid> grid_;
 };
 

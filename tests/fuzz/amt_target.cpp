@@ -14,7 +14,7 @@
 #include "io/formats/exchange/export_tin.h"
 #include "io/store/amt/file.h"
 #include "terrain/laws/validate_model.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "terrain/model/error_curve.h"
 
 namespace {
@@ -74,7 +74,7 @@ void followCuts(const TerrainModel& model, const RunContext& context) {
 }
 
 void askHeights(const TerrainModel& model, const RunContext& context) {
-  const SurfaceHeights heights(model);
+  const GroundHeights heights(model);
   std::vector<Vec2> places = {{NAN, 0}, {HUGE_VAL, 0}, {1e300, -1e300}};
   for (std::uint32_t v = 0; v < model.mt.vertexCount(); v += 3) {
     const Vec3 p = model.mt.position(VertexId(v));

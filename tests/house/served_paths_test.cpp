@@ -41,7 +41,7 @@ TEST(ServedPaths, AreWhatGdalGets) {
   // They open what they have written themselves, pictures in memory, and folders.
   constexpr std::array<std::string_view, 4> kOfOwnFiles = {
       "io/geo/dem/raster_writer.cpp", "io/geo/dem/dem_files.cpp", "io/geo/geopackage/geopackage.cpp",
-      "io/formats/mesh/picture_pixels.cpp"};
+      "io/formats/common/picture_pixels.cpp"};
   const fs::path root = ARETE_SOURCE_FOLDER;
   int seen = 0;
   for (const char* layer : {"io", "gis", "python", "viewer", "cli", "datasets"})

@@ -22,7 +22,7 @@ inline Georeference utm() {
 }
 
 /// The lines of a table of heights, as the program writes them.
-inline std::string csvOf(const PointTable& table, const std::vector<std::optional<SurfaceHeight>>& heights) {
+inline std::string csvOf(const PointTable& table, const std::vector<std::optional<GroundHeight>>& heights) {
   std::string text;
   forCsvLines(table, heights, [&](std::string_view line) { text += line; });
   return text;

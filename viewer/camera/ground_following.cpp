@@ -17,7 +17,7 @@ constexpr int kLooks = 8;
 
 }  // namespace
 
-GroundFollowing::GroundFollowing(const SurfaceHeights& heights, const CameraSpace& space,
+GroundFollowing::GroundFollowing(const GroundHeights& heights, const CameraSpace& space,
                                  const Options& options)
     : heights_(heights), space_(space), options_(options) {}
 

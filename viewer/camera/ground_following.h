@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "viewer/camera/camera_space.h"
 
 namespace arete {
@@ -26,7 +26,7 @@ class GroundFollowing {
   using Options = GroundFollowingOptions;
 
   /// Precondition: the heights outlive this.
-  GroundFollowing(const SurfaceHeights& heights, const CameraSpace& space, const Options& options = {});
+  GroundFollowing(const GroundHeights& heights, const CameraSpace& space, const Options& options = {});
 
   /// The camera, raised to the floor where it is lower.
   Camera aboveFloor(Camera camera);
@@ -44,7 +44,7 @@ class GroundFollowing {
  private:
   std::optional<double> groundMetres(Vec2 xy) const;
 
-  const SurfaceHeights& heights_;
+  const GroundHeights& heights_;
   CameraSpace space_;
   Options options_;
   std::optional<double> lastGround_;  // metric z

@@ -20,7 +20,7 @@ constexpr int kMostRounds = 20;
 
 }  // namespace
 
-Result<FlightPlan> roundFlight(const SurfaceHeights& heights, const CameraSpace& space, const MetricBox& box,
+Result<FlightPlan> roundFlight(const GroundHeights& heights, const CameraSpace& space, const MetricBox& box,
                                const RoundFlightOptions& options) {
   const std::size_t count = options.keys;
   const Vec3 centre = box.centre();
@@ -85,7 +85,7 @@ Result<FlightPlan> roundFlight(const SurfaceHeights& heights, const CameraSpace&
   return plan;
 }
 
-double leastHeightAboveGround(const Flight& flight, const SurfaceHeights& heights, const CameraSpace& space,
+double leastHeightAboveGround(const Flight& flight, const GroundHeights& heights, const CameraSpace& space,
                               std::size_t looks) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i <= looks; ++i) {

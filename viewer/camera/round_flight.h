@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "engine/base/result.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "viewer/camera/flight.h"
 #include "viewer/camera/home_view.h"
 
@@ -22,12 +22,12 @@ struct RoundFlightOptions {
 /// ellipse half as wide and as long as the box, so high that nothing of the terrain below the path comes
 /// nearer than stated (checked every sixty-fourth of a leg). Over NODATA the last ground counts. Errors:
 /// usage, numbers that make no sense. O(keys * height query).
-Result<FlightPlan> roundFlight(const SurfaceHeights& heights, const CameraSpace& space, const MetricBox& box,
+Result<FlightPlan> roundFlight(const GroundHeights& heights, const CameraSpace& space, const MetricBox& box,
                                const RoundFlightOptions& options = {});
 
 /// The least height of a flight above the ground in metres, over so many looks at even times; infinite where
 /// there is no terrain under any of them.
-double leastHeightAboveGround(const Flight& flight, const SurfaceHeights& heights, const CameraSpace& space,
+double leastHeightAboveGround(const Flight& flight, const GroundHeights& heights, const CameraSpace& space,
                               std::size_t looks = 10000);
 
 }  // namespace arete

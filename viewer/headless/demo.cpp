@@ -26,7 +26,7 @@
 #include "io/store/amt/file.h"
 #include "terrain/builder/build.h"
 #include "terrain/features/fixed_vertices.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "terrain/measure/measure.h"
 #include "terrain/model/relief.h"
 #include "terrain/sight/earth.h"
@@ -319,7 +319,7 @@ class Demo {
 
   /// A machine without OpenGL has all of the demo but this.
   Status drawView() {
-    const SurfaceHeights heights(model_);
+    const GroundHeights heights(model_);
     const CameraSpace space(model_);
     const MetricBox box = metricBox(model_);
     Camera camera = homeCamera(HomeView::overview, space, box);

@@ -15,7 +15,7 @@ struct HeadlessSurface::State {
   SurfaceView view;
 };
 
-Result<HeadlessSurface> HeadlessSurface::create(const SurfaceModel& model, const Upright& upright,
+Result<HeadlessSurface> HeadlessSurface::create(const SurfaceModel& model, const ZUpFrame& upright,
                                                 const Options& options) {
   ARETE_TRY(OffscreenContext gl, OffscreenContext::create());
   ARETE_TRY(FrameTarget target,

@@ -21,7 +21,7 @@ class HeadlessSurface {
   };
   /// The model stays alive as long as this. Errors: unsupported (no OpenGL 4.5), usage (a size of picture
   /// that the device cannot draw).
-  static Result<HeadlessSurface> create(const SurfaceModel& model, const Upright& upright,
+  static Result<HeadlessSurface> create(const SurfaceModel& model, const ZUpFrame& upright,
                                         const Options& options);
   HeadlessSurface(HeadlessSurface&&) noexcept;
   HeadlessSurface& operator=(HeadlessSurface&&) noexcept;

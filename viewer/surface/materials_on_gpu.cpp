@@ -7,8 +7,8 @@
 #include <bit>
 #include <map>
 
-#include "io/formats/mesh/picture_pixels.h"
-#include "io/formats/mesh/pictures.h"
+#include "io/formats/common/picture_pixels.h"
+#include "io/formats/common/pictures.h"
 
 namespace arete {
 namespace {

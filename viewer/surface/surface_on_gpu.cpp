@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/formats/mesh/colors.h"
+#include "io/formats/common/colors.h"
 #include "viewer/surface/shading_normals.h"
 
 namespace arete {
@@ -61,7 +61,7 @@ double scaleOf(const Attribute& a) {
   return 1 / (std::exp2(8 * double(sizeOf(a.type)) - (isSigned ? 1 : 0)) - 1);
 }
 
-std::vector<float> normalsOf(const SurfaceModel& model, const Upright& upright,
+std::vector<float> normalsOf(const SurfaceModel& model, const ZUpFrame& upright,
                              const std::vector<std::uint32_t>& vertexOf) {
   const std::vector<Vec3> own = shadingNormals(model);
   const DrawnAttribute stated(model, vertexOf, kNormalName, AttributeMeaning::normal);
@@ -120,7 +120,7 @@ std::vector<std::uint8_t> colorsOf(const SurfaceModel& model, const std::vector<
 
 }  // namespace
 
-std::vector<float> drawnPositions(const SurfaceModel& model, const Upright& upright) {
+std::vector<float> drawnPositions(const SurfaceModel& model, const ZUpFrame& upright) {
   std::vector<float> positions;
   for (const std::uint32_t v : drawnVertices(model)) {
     const Vec3 p = upright.fromFile(model.mt.position(VertexId(v)));
@@ -129,7 +129,7 @@ std::vector<float> drawnPositions(const SurfaceModel& model, const Upright& upri
   return positions;
 }
 
-SurfaceOnGpu uploadSurface(const SurfaceModel& model, const Upright& upright) {
+SurfaceOnGpu uploadSurface(const SurfaceModel& model, const ZUpFrame& upright) {
   const std::vector<std::uint32_t> vertexOf = drawnVertices(model);
   SurfaceOnGpu gpu;
   const auto upload = []<class T>(const std::vector<T>& data) {

@@ -6,7 +6,7 @@
 
 #include "surface/model/surface_model.h"
 #include "viewer/gl/gl_objects.h"
-#include "viewer/surface/upright.h"
+#include "viewer/surface/z_up_frame.h"
 
 namespace arete {
 
@@ -20,9 +20,9 @@ struct SurfaceOnGpu {
 };
 
 /// Three floats for each drawn vertex, upright, as in the source.
-std::vector<float> drawnPositions(const SurfaceModel& model, const Upright& upright);
+std::vector<float> drawnPositions(const SurfaceModel& model, const ZUpFrame& upright);
 
 /// O(vertices + triangles of the MT).
-SurfaceOnGpu uploadSurface(const SurfaceModel& model, const Upright& upright);
+SurfaceOnGpu uploadSurface(const SurfaceModel& model, const ZUpFrame& upright);
 
 }  // namespace arete

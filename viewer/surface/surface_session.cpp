@@ -16,8 +16,7 @@ constexpr double kNearest = 1e-4, kFarthest = 100;
 
 }  // namespace
 
-SurfaceSession::SurfaceSession(UprightShape shape, const Camera& camera,
-                               const SurfaceViewSettings& startSettings)
+SurfaceSession::SurfaceSession(ZUpShape shape, const Camera& camera, const SurfaceViewSettings& startSettings)
     : settings(startSettings), shape_(std::move(shape)), orbit_(CameraSpace(), {}, camera), camera_(camera) {
   enter(camera);
 }

@@ -16,7 +16,7 @@ namespace arete {
 class SurfaceSession {
  public:
   /// @param camera of upright space; its picture is the window's.
-  SurfaceSession(UprightShape shape, const Camera& camera, const SurfaceViewSettings& settings);
+  SurfaceSession(ZUpShape shape, const Camera& camera, const SurfaceViewSettings& settings);
 
   const Camera& camera() const { return camera_; }
   void setPicture(double widthPixels, double heightPixels);
@@ -36,7 +36,7 @@ class SurfaceSession {
  private:
   void enter(const Camera& camera);
 
-  UprightShape shape_;
+  ZUpShape shape_;
   OrbitCamera orbit_;
   Camera camera_;
 };

@@ -23,8 +23,8 @@ constexpr double kNearestPlane = 1e-4;
 
 struct SurfaceView::State {
   const SurfaceModel* model = nullptr;
-  Upright upright;
-  UprightShape shape;
+  ZUpFrame upright;
+  ZUpShape shape;
   IncrementalCut cut;
   SurfaceOnGpu surface;
   MaterialsOnGpu materials;
@@ -85,7 +85,7 @@ struct SurfaceView::State {
   }
 };
 
-Result<SurfaceView> SurfaceView::create(const SurfaceModel& model, const Upright& upright) {
+Result<SurfaceView> SurfaceView::create(const SurfaceModel& model, const ZUpFrame& upright) {
   ARETE_TRY(SurfacePainter painter, SurfacePainter::create());
   return SurfaceView(std::make_unique<State>(State{.model = &model,
                                                    .upright = upright,
@@ -147,10 +147,10 @@ bool SurfaceView::showsSurface() const {
 const Warnings& SurfaceView::warnings() const {
   return state_->materials.warnings();
 }
-const Upright& SurfaceView::upright() const {
+const ZUpFrame& SurfaceView::upright() const {
   return state_->upright;
 }
-const UprightShape& SurfaceView::shape() const {
+const ZUpShape& SurfaceView::shape() const {
   return state_->shape;
 }
 

@@ -12,7 +12,7 @@
 #include "surface/model/surface_model.h"
 #include "terrain/model/camera.h"
 #include "viewer/surface/surface_painter.h"
-#include "viewer/surface/upright.h"
+#include "viewer/surface/z_up_frame.h"
 
 namespace arete {
 
@@ -35,7 +35,7 @@ struct SurfaceFigures {
 class SurfaceView {
  public:
   /// The model stays alive as long as the view. Errors: unsupported. O(size of the model).
-  static Result<SurfaceView> create(const SurfaceModel& model, const Upright& upright);
+  static Result<SurfaceView> create(const SurfaceModel& model, const ZUpFrame& upright);
   SurfaceView(SurfaceView&&) noexcept;
   SurfaceView& operator=(SurfaceView&&) noexcept;
   ~SurfaceView();
@@ -51,8 +51,8 @@ class SurfaceView {
 
   /// Pictures that are not shown, as sentences.
   const Warnings& warnings() const;
-  const Upright& upright() const;
-  const UprightShape& shape() const;
+  const ZUpFrame& upright() const;
+  const ZUpShape& shape() const;
 
  private:
   struct State;

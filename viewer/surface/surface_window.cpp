@@ -193,7 +193,7 @@ class SurfaceWindow {
 
 }  // namespace
 
-Status runSurfaceWindow(const SurfaceModel& model, const Upright& upright,
+Status runSurfaceWindow(const SurfaceModel& model, const ZUpFrame& upright,
                         const SurfaceWindowOptions& options, const RunContext& context) {
   ARETE_TRY(GlfwWindow window, GlfwWindow::open(options.title, options.width, options.height, true));
   ARETE_TRY(SurfaceView view, SurfaceView::create(model, upright));

@@ -26,7 +26,7 @@ struct SurfaceWindowOptions {
 /// Opens a window on a surface, which the mouse turns, moves and comes nearer to, and shows it until the user
 /// closes it (docs/topics/surfaces.md, "In the window"). On the thread of main(); one window at a time.
 /// Errors: unsupported (no display; OpenGL below 4.5), interrupted, those of saving.
-Status runSurfaceWindow(const SurfaceModel& model, const Upright& upright,
+Status runSurfaceWindow(const SurfaceModel& model, const ZUpFrame& upright,
                         const SurfaceWindowOptions& options, const RunContext& context = {});
 
 }  // namespace arete

@@ -19,7 +19,7 @@ double distance(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-CameraRig::CameraRig(const TerrainPicker& picker, const SurfaceHeights& heights, const Camera& start)
+CameraRig::CameraRig(const TerrainPicker& picker, const GroundHeights& heights, const Camera& start)
     : picker_(picker),
       heights_(heights),
       space_(picker.space()),

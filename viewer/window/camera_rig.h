@@ -20,7 +20,7 @@ namespace arete {
 class CameraRig {
  public:
   /// Preconditions: picker and heights outlive this. The camera begins as an orbit of what it looks at.
-  CameraRig(const TerrainPicker& picker, const SurfaceHeights& heights, const Camera& start);
+  CameraRig(const TerrainPicker& picker, const GroundHeights& heights, const Camera& start);
 
   const Camera& camera() const { return camera_; }
   CameraMode mode() const { return mode_; }
@@ -64,7 +64,7 @@ class CameraRig {
   void enter(const Camera& camera);
 
   const TerrainPicker& picker_;
-  const SurfaceHeights& heights_;
+  const GroundHeights& heights_;
   CameraSpace space_;
   CameraMode mode_ = CameraMode::orbit;
   Camera camera_;

@@ -14,7 +14,7 @@
 
 namespace arete {
 
-PlaceText::PlaceText(const SurfaceHeights& heights) : heights_(heights) {
+PlaceText::PlaceText(const GroundHeights& heights) : heights_(heights) {
   const Georeference& dem = heights.model().georeference;
   if (dem.crsWkt.empty()) return;
   if (auto made = CrsLonLat::of(dem)) lonLat_ = std::move(*made);

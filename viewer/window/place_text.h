@@ -5,7 +5,7 @@
 #include <string>
 
 #include "io/geo/crs/lonlat.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 
 namespace arete {
 
@@ -13,7 +13,7 @@ namespace arete {
 class PlaceText {
  public:
   /// Precondition: the heights outlive this.
-  explicit PlaceText(const SurfaceHeights& heights);
+  explicit PlaceText(const GroundHeights& heights);
 
   /// Source coordinates: decimetres of a projected CRS, a millionth of a degree.
   std::string xy(Vec2 xy) const;
@@ -34,7 +34,7 @@ class PlaceText {
   Result<Goal> read(const std::string& text, bool isLonLat) const;
 
  private:
-  const SurfaceHeights& heights_;
+  const GroundHeights& heights_;
   std::optional<CrsLonLat> lonLat_;
 };
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "io/formats/mesh/file.h"
+#include "io/formats/common/file.h"
 
 namespace arete {
 

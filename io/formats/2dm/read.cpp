@@ -23,7 +23,7 @@
 #include "io/files/file_bytes.h"
 #include "io/files/text_scan.h"
 #include "io/formats/2dm/2dm.h"
-#include "io/formats/mesh/text_reader.h"
+#include "io/formats/common/text_reader.h"
 
 namespace arete {
 
@@ -138,7 +138,7 @@ class TwoDmReader final : public MeshTextReader {
     if (!isNumber || !nextWord().empty()) ++elementsWithMore_;
   }
 
-  /// Listed by face (io/formats/mesh/faces.h) from the first one on whose material is not the usual one.
+  /// Listed by face (io/formats/common/faces.h) from the first one on whose material is not the usual one.
   void addMaterial(std::int32_t material) {
     if (materials_.empty() && material == kUsualMaterial) return;
     materials_.resize(faces().size(), kUsualMaterial);

@@ -11,9 +11,9 @@
 #include "io/files/file_writer.h"
 #include "io/files/write_progress.h"
 #include "io/formats/2dm/2dm.h"
-#include "io/formats/mesh/comments.h"
-#include "io/formats/mesh/losses.h"
-#include "io/formats/mesh/text_reader.h"
+#include "io/formats/common/comments.h"
+#include "io/formats/common/losses.h"
+#include "io/formats/common/text_reader.h"
 
 namespace arete {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/formats/mesh/file.h"
+#include "io/formats/common/file.h"
 
 namespace arete {
 

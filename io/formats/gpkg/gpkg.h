@@ -3,13 +3,13 @@
 
 #include <filesystem>
 
-#include "io/formats/mesh/file.h"
+#include "io/formats/common/file.h"
 
 namespace arete {
 
 /// Reads the triangles of a GeoPackage: the polygons, multipolygons, triangles, TINs and polyhedral surfaces
 /// of its layer "triangles" if writeGpkg() made that, else of its only layer that may hold surfaces, with
-/// heights. Polygons, with holes or without, are triangulated (io/formats/mesh/polygon.h). Corners at equal
+/// heights. Polygons, with holes or without, are triangulated (io/formats/common/polygon.h). Corners at equal
 /// positions become one vertex, in the order of first occurrence. A numeric field "error" that is set in
 /// every feature gives the errors of the triangles.
 ///

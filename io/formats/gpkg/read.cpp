@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "engine/base/counted.h"
+#include "io/formats/common/polygon.h"
+#include "io/formats/common/vertex_welder.h"
 #include "io/formats/gpkg/gpkg.h"
-#include "io/formats/mesh/polygon.h"
-#include "io/formats/mesh/vertex_welder.h"
 #include "io/geo/crs/reader.h"
 #include "io/geo/gdal/support.h"
 #include "io/geo/gdal/vector_layer.h"

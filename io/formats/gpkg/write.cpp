@@ -9,8 +9,8 @@
 #include <memory>
 #include <string>
 
+#include "io/formats/common/losses.h"
 #include "io/formats/gpkg/gpkg.h"
-#include "io/formats/mesh/losses.h"
 #include "io/geo/geopackage/geopackage.h"
 
 namespace arete {

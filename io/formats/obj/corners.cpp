@@ -14,7 +14,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "io/formats/mesh/text_numbers.h"
+#include "io/formats/common/text_numbers.h"
 
 namespace arete {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "io/formats/mesh/file.h"
+#include "io/formats/common/file.h"
 
 namespace arete {
 

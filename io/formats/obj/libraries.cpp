@@ -12,7 +12,7 @@
 #include "io/files/file_bytes.h"
 #include "io/files/text/utf8.h"
 #include "io/files/text_scan.h"
-#include "io/formats/mesh/files_beside.h"
+#include "io/formats/common/files_beside.h"
 #include "io/formats/obj/mtl.h"
 
 namespace arete {

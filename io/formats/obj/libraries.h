@@ -10,7 +10,7 @@
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
-#include "io/formats/mesh/file.h"
+#include "io/formats/common/file.h"
 
 namespace arete {
 
@@ -24,7 +24,7 @@ class ObjMaterials {
 
   /// Reads the libraries and fills mesh.materials: those of the libraries in their order, then those that no
   /// library has, by their names alone. mesh.materialOf is renumbered. Libraries are looked for as pictures
-  /// are (io/formats/mesh/files_beside.h); one that is missing is a warning. Pictures are named relative to
+  /// are (io/formats/common/files_beside.h); one that is missing is a warning. Pictures are named relative to
   /// the OBJ.
   ///
   /// @param folder of the OBJ; empty: nothing is read.

@@ -10,8 +10,8 @@
 #include "io/files/file_writer.h"
 #include "io/files/output_file.h"
 #include "io/files/text_scan.h"
-#include "io/formats/mesh/pictures.h"
-#include "io/formats/mesh/text_reader.h"
+#include "io/formats/common/pictures.h"
+#include "io/formats/common/text_reader.h"
 #include "io/formats/obj/mtl.h"
 
 namespace arete {

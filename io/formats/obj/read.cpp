@@ -19,7 +19,7 @@
 #include "engine/base/counted.h"
 #include "io/files/file_bytes.h"
 #include "io/files/text_scan.h"
-#include "io/formats/mesh/text_reader.h"
+#include "io/formats/common/text_reader.h"
 #include "io/formats/obj/corners.h"
 #include "io/formats/obj/libraries.h"
 #include "io/formats/obj/obj.h"

@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "engine/base/counted.h"
-#include "io/formats/mesh/colors.h"
-#include "io/formats/mesh/text_numbers.h"
+#include "io/formats/common/colors.h"
+#include "io/formats/common/text_numbers.h"
 
 namespace arete {
 namespace {

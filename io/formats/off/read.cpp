@@ -22,7 +22,7 @@
 #include "engine/base/counted.h"
 #include "io/files/file_bytes.h"
 #include "io/files/text_scan.h"
-#include "io/formats/mesh/text_reader.h"
+#include "io/formats/common/text_reader.h"
 #include "io/formats/off/keyword.h"
 #include "io/formats/off/off.h"
 #include "io/formats/off/read_binary.h"
@@ -271,7 +271,7 @@ class OffReader final : public MeshTextReader {
     return {};
   }
 
-  /// Listed by face (io/formats/mesh/faces.h).
+  /// Listed by face (io/formats/common/faces.h).
   void takeColors() {
     if (indexedFaces_ > 0)
       mesh().warnings.push_back(

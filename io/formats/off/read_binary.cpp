@@ -14,7 +14,7 @@
 
 #include "engine/base/counted.h"
 #include "io/files/text_scan.h"
-#include "io/formats/mesh/faces.h"
+#include "io/formats/common/faces.h"
 #include "io/formats/off/values.h"
 #include "io/geo/crs/local_origin.h"
 

@@ -7,7 +7,7 @@
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
-#include "io/formats/mesh/file.h"
+#include "io/formats/common/file.h"
 #include "io/formats/off/keyword.h"
 
 namespace arete {

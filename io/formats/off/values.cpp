@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "engine/base/counted.h"
-#include "io/formats/mesh/text_numbers.h"
+#include "io/formats/common/text_numbers.h"
 
 namespace arete {
 

@@ -14,11 +14,11 @@
 
 #include "io/files/file_writer.h"
 #include "io/files/write_progress.h"
-#include "io/formats/mesh/colors.h"
-#include "io/formats/mesh/comments.h"
-#include "io/formats/mesh/losses.h"
-#include "io/formats/mesh/text_numbers.h"
-#include "io/formats/mesh/text_reader.h"
+#include "io/formats/common/colors.h"
+#include "io/formats/common/comments.h"
+#include "io/formats/common/losses.h"
+#include "io/formats/common/text_numbers.h"
+#include "io/formats/common/text_reader.h"
 #include "io/formats/off/keyword.h"
 #include "io/formats/off/off.h"
 

@@ -13,8 +13,8 @@
 #include <set>
 #include <utility>
 
-#include "io/formats/mesh/colors.h"
-#include "io/formats/mesh/text_numbers.h"
+#include "io/formats/common/colors.h"
+#include "io/formats/common/text_numbers.h"
 
 namespace arete {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/formats/mesh/file.h"
+#include "io/formats/common/file.h"
 #include "io/formats/ply/header.h"
 #include "io/formats/ply/notes.h"
 #include "surface/model/surface_mesh.h"

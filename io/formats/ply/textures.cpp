@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "io/files/text_scan.h"
-#include "io/formats/mesh/losses.h"
-#include "io/formats/mesh/pictures.h"
+#include "io/formats/common/losses.h"
+#include "io/formats/common/pictures.h"
 #include "io/formats/ply/notes.h"
 
 namespace arete {

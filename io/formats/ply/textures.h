@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "io/formats/mesh/file.h"
+#include "io/formats/common/file.h"
 
 namespace arete {
 
@@ -20,8 +20,8 @@ struct PlyTextures {
   std::vector<std::string> lost = {};
 };
 
-/// Places the pictures beside the file (io/formats/mesh/pictures.h). What a material has beside a picture of
-/// its base color is lost.
+/// Places the pictures beside the file (io/formats/common/pictures.h). What a material has beside a picture
+/// of its base color is lost.
 ///
 /// Errors: those of PicturePlacer.
 Result<PlyTextures> plyTextures(MeshRef mesh, const std::filesystem::path& path,

@@ -14,7 +14,7 @@
 #include "io/files/file_writer.h"
 #include "io/files/text_scan.h"
 #include "io/files/write_progress.h"
-#include "io/formats/mesh/losses.h"
+#include "io/formats/common/losses.h"
 #include "io/formats/ply/columns.h"
 #include "io/formats/ply/ply.h"
 #include "io/formats/ply/textures.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/formats/mesh/file.h"
+#include "io/formats/common/file.h"
 #include "io/geo/crs/local_origin.h"
 
 namespace arete {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "io/formats/mesh/file.h"
+#include "io/formats/common/file.h"
 
 namespace arete {
 

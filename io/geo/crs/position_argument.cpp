@@ -133,7 +133,7 @@ Result<PositionArgument> readPositionArgument(const std::string& option, const s
   return caughtFailure();
 }
 
-Result<double> demHeight(const PositionArgument& position, const SurfaceHeights& heights) try {
+Result<double> demHeight(const PositionArgument& position, const GroundHeights& heights) try {
   const std::string culprit =
       fmt::format("{},{},{}{}", position.xy.x, position.xy.y, position.height, toString(position.kind));
   if (position.kind == HeightKind::aboveGround) {

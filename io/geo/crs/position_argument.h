@@ -7,7 +7,7 @@
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
 #include "io/geo/crs/transform.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 
 namespace arete {
 
@@ -56,6 +56,6 @@ Result<PositionArgument> readPositionArgument(const std::string& option, const s
 ///
 /// Errors: invalidData: no terrain below a height above ground. usage: msl for ellipsoidal DEM heights or ell
 /// for others, since no geoid is known.
-Result<double> demHeight(const PositionArgument& position, const SurfaceHeights& heights);
+Result<double> demHeight(const PositionArgument& position, const GroundHeights& heights);
 
 }  // namespace arete

@@ -27,7 +27,7 @@ constexpr const char* kLayer = "heights";
 constexpr std::size_t kRowsPerReport = 4096;
 
 Status writeCsv(const std::string& path, const PointTable& table,
-                std::span<const std::optional<SurfaceHeight>> heights, const RunContext& context) {
+                std::span<const std::optional<GroundHeight>> heights, const RunContext& context) {
   ARETE_TRY(auto file, FileWriter::create(path));
   context.report("writing", 0);
   forCsvLines(table, heights, [&](std::string_view line) { file.write(line); });
@@ -39,7 +39,7 @@ Status writeCsv(const std::string& path, const PointTable& table,
 /// Writes all rows in one transaction.
 class GeoPackageRows {
  public:
-  GeoPackageRows(const PointTable& table, std::span<const std::optional<SurfaceHeight>> heights)
+  GeoPackageRows(const PointTable& table, std::span<const std::optional<GroundHeight>> heights)
       : table_(table), heights_(heights) {}
 
   Status fill(GDALDataset& dataset, const GdalErrors& errors, const RunContext& context) {
@@ -89,7 +89,7 @@ class GeoPackageRows {
   }
 
   const PointTable& table_;
-  std::span<const std::optional<SurfaceHeight>> heights_;
+  std::span<const std::optional<GroundHeight>> heights_;
 };
 
 }  // namespace
@@ -98,7 +98,7 @@ std::string heightText(double height) {
   return fmt::format("{:.12g}", height);
 }
 
-void forCsvLines(const PointTable& table, std::span<const std::optional<SurfaceHeight>> heights,
+void forCsvLines(const PointTable& table, std::span<const std::optional<GroundHeight>> heights,
                  const std::function<void(std::string_view)>& write) {
   std::string line;
   const bool hasZ = !table.z.empty();
@@ -136,7 +136,7 @@ bool isHeightTable(const std::string& path) {
 }
 
 Status writeHeightTable(const std::string& path, const PointTable& table,
-                        std::span<const std::optional<SurfaceHeight>> heights, const RunContext& context,
+                        std::span<const std::optional<GroundHeight>> heights, const RunContext& context,
                         ExistingFile existing) try {
   if (!isHeightTable(path))
     return failure(ErrorCode::usage, "a table of heights ends in .csv or .gpkg", path);

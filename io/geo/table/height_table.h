@@ -11,7 +11,7 @@
 #include "engine/parallel/run_context.h"
 #include "io/files/existing_file.h"
 #include "io/geo/table/point_table.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 
 namespace arete {
 
@@ -24,7 +24,7 @@ namespace arete {
 std::string heightText(double height);
 
 /// Formats the table as CSV (RFC 4180, with line feeds). Calls `write` for the header line and for each row.
-void forCsvLines(const PointTable& table, std::span<const std::optional<SurfaceHeight>> heights,
+void forCsvLines(const PointTable& table, std::span<const std::optional<GroundHeight>> heights,
                  const std::function<void(std::string_view)>& write);
 
 /// @return True for a name that writeHeightTable() accepts: .csv, .gpkg.
@@ -39,7 +39,7 @@ bool isHeightTable(const std::string& path);
 /// Errors: usage: another extension. notFound, unreadable, interrupted. invalidData: a file of that name is
 /// no GeoPackage, or has a layer "heights" with other columns. O(points).
 Status writeHeightTable(const std::string& path, const PointTable& table,
-                        std::span<const std::optional<SurfaceHeight>> heights, const RunContext& context = {},
+                        std::span<const std::optional<GroundHeight>> heights, const RunContext& context = {},
                         ExistingFile existing = ExistingFile::keepsOtherLayers);
 
 }  // namespace arete

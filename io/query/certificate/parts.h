@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "io/formats/mesh/file.h"
+#include "io/formats/common/file.h"
 #include "io/query/request/cut_request.h"
 
 namespace arete {

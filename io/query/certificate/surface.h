@@ -8,7 +8,7 @@
 #include "engine/base/result.h"
 #include "engine/base/triangle_mesh.h"
 #include "engine/parallel/run_context.h"
-#include "io/formats/mesh/file.h"
+#include "io/formats/common/file.h"
 #include "io/query/request/cut_request.h"
 #include "measure/mesh_distance.h"
 #include "surface/model/surface_model.h"

@@ -47,7 +47,7 @@ Result<Vec2> readCameraPlace(const std::string& option, const std::string& text,
 }
 
 Result<CameraArgument> readCameraArgument(const std::string& option, const std::string& text,
-                                          const CrsTransform& toDem, const SurfaceHeights& heights) try {
+                                          const CrsTransform& toDem, const GroundHeights& heights) try {
   const std::string culprit = fmt::format("{} {}", option, text);
   ARETE_TRY(const auto parts, stated(option, text, toDem));
   const auto height = demHeight(parts.position, heights);

@@ -6,7 +6,7 @@
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
 #include "io/geo/crs/transform.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "terrain/model/camera.h"
 
 namespace arete {
@@ -26,7 +26,7 @@ struct CameraArgument {
 /// @param heights  the terrain, for heights above ground
 /// Errors: usage; invalidData: a height above ground where there is no terrain.
 Result<CameraArgument> readCameraArgument(const std::string& option, const std::string& text,
-                                          const CrsTransform& toDem, const SurfaceHeights& heights);
+                                          const CrsTransform& toDem, const GroundHeights& heights);
 
 /// The position of such a camera in the DEM's CRS, so that the terrain below it can be read before
 /// readCameraArgument(). Errors: usage.

@@ -24,7 +24,7 @@
 #include "io/store/amt/file.h"
 #include "terrain/builder/build.h"
 #include "terrain/features/fixed_vertices.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "terrain/model/plan_region.h"
 
 namespace arete {
@@ -114,7 +114,7 @@ Result<Tin> cutSurface(const SurfaceModel& model, const CutRequest& request, con
 }
 
 /// An end of a line of sight, in plan coordinates and from the DEM's zero.
-Result<std::pair<Vec2, double>> endOfSight(const TerrainModel& model, const SurfaceHeights& heights,
+Result<std::pair<Vec2, double>> endOfSight(const TerrainModel& model, const GroundHeights& heights,
                                            const Vec3& place, const char* culprit) {
   const Vec2 xy = LongitudeTurns(model)({place.x, place.y});
   const auto height = demHeight({xy, place.z, HeightKind::aboveGround}, heights);
@@ -170,7 +170,7 @@ Wholes wholesOf(const Model& model) {
 Result<std::optional<double>> heightAt(const Model& model, double x, double y) try {
   const auto* const terrain = std::get_if<TerrainModel>(&model);
   if (!terrain) return tl::unexpected(isOfSurface());
-  const auto found = SurfaceHeights(*terrain).at(LongitudeTurns(*terrain)({x, y}));
+  const auto found = GroundHeights(*terrain).at(LongitudeTurns(*terrain)({x, y}));
   return found ? std::optional(found->height) : std::nullopt;
 } catch (...) {
   return caughtFailure();
@@ -180,7 +180,7 @@ Result<SightPathAnswer> lineOfSight(const Model& model, const Vec3& observer, co
                                     const RunContext& context) try {
   const auto* const terrain = std::get_if<TerrainModel>(&model);
   if (!terrain) return tl::unexpected(isOfSurface());
-  const SurfaceHeights heights(*terrain);
+  const GroundHeights heights(*terrain);
   ARETE_TRY(const auto from, endOfSight(*terrain, heights, observer, "observer"));
   ARETE_TRY(const auto to, endOfSight(*terrain, heights, target, "target"));
   std::unique_ptr<SightEarth> earth = makePlaneEarth(*terrain);

@@ -13,7 +13,7 @@
 #include "engine/base/vec.h"
 #include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
-#include "io/formats/mesh/file.h"
+#include "io/formats/common/file.h"
 #include "io/query/extract/model.h"
 #include "io/query/request/cut_request.h"
 #include "io/query/request/wholes.h"
@@ -71,7 +71,7 @@ Result<Tin> cut(const SurfaceModel& model, const CutRequest& request, const RunC
 Wholes wholesOf(const Model& model);
 
 /// The height of terrain at a place in the coordinates of the source, at full resolution; nothing outside
-/// the terrain. Many places at once: SurfaceHeights. Errors: unsupported: the model is of a surface.
+/// the terrain. Many places at once: GroundHeights. Errors: unsupported: the model is of a surface.
 Result<std::optional<double>> heightAt(const Model& model, double x, double y);
 
 /// Whether a target is seen from an observer; both are x, y and a height above the ground in the unit of

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/base/stopwatch.h"
-#include "io/formats/mesh/pictures.h"
+#include "io/formats/common/pictures.h"
 #include "surface/builder/build.h"
 #include "surface/displacement/find_displacement.h"
 #include "surface/edit/drop_attributes.h"

@@ -177,7 +177,7 @@ Result<ExtractedSurface> SurfaceExtractor::extract(const ExtractRequest& request
               distanceFrom(droppedSurface(model_, *dropped_), taken.front.mesh, context));
     result.droppedDistance = distance;
   }
-  if (request.isBothWays) {
+  if (request.measuresBothWays) {
     ARETE_TRY(const double distance, distanceFrom(taken.front.mesh, finest(), context));
     result.otherWay = distance;
   }

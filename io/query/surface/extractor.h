@@ -8,7 +8,7 @@
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
-#include "io/formats/mesh/file.h"
+#include "io/formats/common/file.h"
 #include "io/query/certificate/surface.h"
 #include "io/query/request/extract_request.h"
 #include "io/query/surface/take_surface.h"

@@ -8,7 +8,7 @@
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
-#include "io/formats/mesh/file.h"
+#include "io/formats/common/file.h"
 
 namespace arete {
 

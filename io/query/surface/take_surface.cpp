@@ -23,10 +23,10 @@ Result<Cut> cutOf(const CutRequest& request, const SurfaceModel& model, const Cr
   ARETE_TRY(CutOptions options, engineOptions(request, model));
   const std::uint32_t droppedTriangles = dropped ? dropped->rootTriangles : 0;
   if (options.maxTriangles) *options.maxTriangles += droppedTriangles;
-  std::optional<OfTheRest> ofTheRest;
-  if (dropped && request.method == CutMethod::minimal) ofTheRest.emplace(criterion, *dropped);
-  Result<Cut> cut =
-      takeCut(model.mt, ofTheRest ? static_cast<const Criterion&>(*ofTheRest) : criterion, options, context);
+  std::optional<KeptComponentsCriterion> keptCriterion;
+  if (dropped && request.method == CutMethod::minimal) keptCriterion.emplace(criterion, *dropped);
+  Result<Cut> cut = takeCut(
+      model.mt, keptCriterion ? static_cast<const Criterion&>(*keptCriterion) : criterion, options, context);
   const std::uint32_t least = model.mt.rootTriangleCount() - droppedTriangles;
   if (!cut && request.maxTriangles && *request.maxTriangles < least)
     return failure(ErrorCode::usage,
@@ -64,7 +64,7 @@ Result<TakenSurface> takeSurface(const SurfaceModel& model, const CutRequest& re
   ARETE_TRY(Cut whole, cutOf(request, model, *criterion, dropped, context));
   taken.whole = std::move(whole);
   if (dropped) {
-    CutOfTheRest rest = withoutDropped(model.mt, taken.whole, *dropped);
+    KeptCut rest = withoutDropped(model.mt, taken.whole, *dropped);
     taken.cut = std::move(rest.cut);
     taken.numberOf = std::move(rest.numberOf);
   } else {

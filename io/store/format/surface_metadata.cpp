@@ -28,7 +28,7 @@ std::optional<T> unlessZero(T x) {
 
 /// What a file without the number of splits must have: what its finest front has more than the faces left.
 std::uint64_t splitFacesOf(const SurfaceMetadata& m) {
-  const SurfaceMending& mending = m.model.mending;
+  const SurfaceRepairs& mending = m.model.mending;
   const std::uint64_t leftOut = mending.duplicateFaces + mending.degenerateFaces,
                       kept = m.model.sourceFaces > leftOut ? m.model.sourceFaces - leftOut : 0;
   return m.finestTriangles > kept ? m.finestTriangles - kept : 0;
@@ -108,7 +108,7 @@ std::optional<std::string> findAmtProblem(const SurfaceMetadata& m) {
   if (m.wedges > kMost || m.model.sourceVertices > kMost || m.model.sourceFaces > kMost)
     return "wedges, vertices or faces are more than 32-bit numbers can name";
   // Sums and differences of these do not wrap around, so that no law holds by overflow.
-  const SurfaceMending& mending = m.model.mending;
+  const SurfaceRepairs& mending = m.model.mending;
   for (const auto& [what, count] :
        {std::pair{"fileFaces", m.model.fileFaces}, std::pair{"duplicateFaces", mending.duplicateFaces},
         std::pair{"degenerateFaces", mending.degenerateFaces}, std::pair{"splitFaces", mending.splitFaces},

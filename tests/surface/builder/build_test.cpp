@@ -299,7 +299,7 @@ TEST(BuildSurface, MendsWhatLeavesTheSurfaceAsItIsAndCountsIt) {
     mesh.triangles.push_back(t);
   }
   const SurfaceModel model = built(mesh);
-  EXPECT_EQ(model.mending, (SurfaceMending{.duplicateFaces = 1,
+  EXPECT_EQ(model.mending, (SurfaceRepairs{.duplicateFaces = 1,
                                            .degenerateFaces = 1,
                                            .turnedFaces = 1,
                                            .addedVertices = 1,

@@ -9,7 +9,7 @@
 namespace arete {
 namespace {
 
-double heightAboveGround(const Camera& camera, const SurfaceHeights& heights) {
+double heightAboveGround(const Camera& camera, const GroundHeights& heights) {
   const auto ground = heights.at(camera.xy);
   return ground ? (camera.height - ground->height) * CameraSpace(heights.model()).metresPerHeight()
                 : INFINITY;
@@ -22,7 +22,7 @@ TEST(GroundFollowing, IsNeverBelowTheFloorWhateverTheTerrainAndTheWay) {
       const TerrainModel model =
           test::modelOn(family, {500000, 30, 8, 4000000, 4, -30}, false, seed == 11 ? 1 : 0.3048, seed);
       const CameraSpace space(model);
-      const SurfaceHeights heights(model);
+      const GroundHeights heights(model);
       GroundFollowing following(heights, space, {.floorMetres = 5, .maxError = 20});
       Random random(seed);
       FreeCamera camera(space, {.xy = model.toSource({20, 15}), .height = -1e4});
@@ -51,7 +51,7 @@ TEST(GroundFollowing, FollowsAHillSmoothlyAndComesBackToItsHeight) {
   const auto model = build(field);
   ASSERT_TRUE(model);
   const CameraSpace space(*model);
-  const SurfaceHeights heights(*model);
+  const GroundHeights heights(*model);
   GroundFollowing following(heights, space, {.floorMetres = 10, .maxError = 0});
   Camera camera{.xy = {1000, -400}, .height = 80};
   following.begin(camera);
@@ -74,7 +74,7 @@ TEST(GroundFollowing, FollowsAHillSmoothlyAndComesBackToItsHeight) {
 TEST(GroundFollowing, KeepsTheLastGroundOffTheTerrain) {
   const TerrainModel model = test::modelOn(rasterFamilies()[2], {0, 30, 0, 0, 0, -30});
   const CameraSpace space(model);
-  const SurfaceHeights heights(model);
+  const GroundHeights heights(model);
   GroundFollowing following(heights, space, {.floorMetres = 5, .maxError = 0});
   const Camera outside{.xy = {-500, 100}, .height = -1e6};
   EXPECT_EQ(following.aboveFloor(outside).height, -1e6) << "there was no ground yet";

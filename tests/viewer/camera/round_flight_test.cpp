@@ -15,7 +15,7 @@ TEST(RoundFlight, StaysAboveTheGroundInsideTheBoxOnEveryTerrain) {
       SCOPED_TRACE(std::string(family.name) + ", seed 7");
       const TerrainModel model = test::modelOn(family, g);
       const CameraSpace space(model);
-      const SurfaceHeights heights(model);
+      const GroundHeights heights(model);
       const MetricBox box = metricBox(model);
       const auto plan = roundFlight(heights, space, box, {.heightAboveGround = 40, .durationSeconds = 30});
       ASSERT_TRUE(plan) << plan.error().describe();
@@ -39,7 +39,7 @@ TEST(RoundFlight, StaysAboveTheGroundInsideTheBoxOnEveryTerrain) {
 TEST(RoundFlight, LooksAlongItsWayAndInwards) {
   for (const auto& [name, model] : test::cameraModels()) {
     const CameraSpace space(model);
-    const SurfaceHeights heights(model);
+    const GroundHeights heights(model);
     const auto plan = roundFlight(heights, space, metricBox(model), {.inwardDegrees = 0});
     ASSERT_TRUE(plan) << name;
     const auto flight = Flight::create(*plan, space);
@@ -55,7 +55,7 @@ TEST(RoundFlight, LooksAlongItsWayAndInwards) {
 TEST(RoundFlight, RefusesNumbersThatMakeNoSense) {
   const TerrainModel& model = test::cameraModels()[0].model;
   const CameraSpace space(model);
-  const SurfaceHeights heights(model);
+  const GroundHeights heights(model);
   const MetricBox box = metricBox(model);
   EXPECT_FALSE(roundFlight(heights, space, box, {.keys = 3}));
   EXPECT_FALSE(roundFlight(heights, space, box, {.durationSeconds = 0}));

@@ -10,7 +10,7 @@
 
 #include "datasets/terrain_generator.h"
 #include "terrain/builder/build.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "viewer/camera/home_view.h"
 #include "viewer/camera/round_flight.h"
 #include "viewer/drawn_mesh.h"
@@ -84,7 +84,7 @@ TEST(Headless, APictureSaysWhetherItShowsTheTerrain) {
 TEST(Headless, AFilmHasAFrameForEveryMomentAndItsFigures) {
   ARETE_NEEDS_OPENGL(probe);
   const TerrainModel model = mountains();
-  const SurfaceHeights heights(model);
+  const GroundHeights heights(model);
   const CameraSpace space(model);
   const auto plan = roundFlight(heights, space, metricBox(model), {.durationSeconds = 2});
   ASSERT_TRUE(plan) << plan.error().describe();
@@ -108,7 +108,7 @@ TEST(Headless, AFilmHasAFrameForEveryMomentAndItsFigures) {
 TEST(Headless, AnInterruptedFilmLeavesWholeFramesOnly) {
   ARETE_NEEDS_OPENGL(probe);
   const TerrainModel model = mountains();
-  const SurfaceHeights heights(model);
+  const GroundHeights heights(model);
   const CameraSpace space(model);
   const auto plan = roundFlight(heights, space, metricBox(model), {.durationSeconds = 2});
   ASSERT_TRUE(plan);

@@ -7,7 +7,7 @@ namespace arete {
 namespace {
 
 SurfaceSession session() {
-  UprightShape shape{.box = {{-1, -2, -3}, {1, 2, 3}}, .points = {}};
+  ZUpShape shape{.box = {{-1, -2, -3}, {1, 2, 3}}, .points = {}};
   for (const Vec3& corner : shape.box.corners()) shape.points.push_back(corner);
   Camera picture;
   picture.widthPixels = 400;

@@ -43,7 +43,7 @@ SurfaceMesh twoColors() {
 }
 
 Result<HeadlessSurface> viewOf(const SurfaceModel& model) {
-  return HeadlessSurface::create(model, Upright(model),
+  return HeadlessSurface::create(model, ZUpFrame(model),
                                  {.widthPixels = 200, .heightPixels = 160, .samples = 1});
 }
 
@@ -51,7 +51,7 @@ Camera fromAbove(const SurfaceModel& model) {
   Camera picture;
   picture.widthPixels = 200;
   picture.heightPixels = 160;
-  return homeCamera(HomeView::fromAbove, CameraSpace(), uprightShape(model, Upright(model)).box, picture);
+  return homeCamera(HomeView::fromAbove, CameraSpace(), uprightShape(model, ZUpFrame(model)).box, picture);
 }
 
 // Between two texels there is some of the other color.

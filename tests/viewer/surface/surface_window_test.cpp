@@ -26,7 +26,7 @@ TEST(SurfaceWindow, OpensDrawsAndSavesItsLastPicture) {
   options.samples = 1;
   options.frames = 3;
   options.lastPicture = picture;
-  const Status shown = runSurfaceWindow(*model, Upright(*model), options);
+  const Status shown = runSurfaceWindow(*model, ZUpFrame(*model), options);
   ASSERT_TRUE(shown) << shown.error().describe();
   EXPECT_TRUE(std::filesystem::exists(picture));
   std::filesystem::remove(picture);

@@ -29,7 +29,7 @@ TerrainModel plane(double perColumn, double perRow) {
 }
 
 /// Where a ray meets the surface, found by walking: a ten-thousandth of the way at a time, then by halves.
-std::optional<Vec3> walked(const TerrainPicker& picker, const SurfaceHeights& heights, const Vec3& eye,
+std::optional<Vec3> walked(const TerrainPicker& picker, const GroundHeights& heights, const Vec3& eye,
                            const Vec3& d, double far) {
   const CameraSpace& space = picker.space();
   const auto above = [&](double t) -> std::optional<double> {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "viewer/camera_models.h"
 
 namespace arete {
@@ -23,7 +23,7 @@ std::string typed(Vec2 xy) {
 TEST(PlaceText, ReadsThePlaceThatItWrites) {
   for (const test::CameraModel& m : test::cameraModels()) {
     SCOPED_TRACE(m.name);
-    const SurfaceHeights heights(m.model);
+    const GroundHeights heights(m.model);
     const PlaceText places(heights);
     const Vec2 xy =
         m.model.isRaster
@@ -41,7 +41,7 @@ TEST(PlaceText, ReadsThePlaceThatItWrites) {
 }
 
 TEST(PlaceText, ResolvesHeightsAboveTheGroundAndAbsoluteOnes) {
-  const SurfaceHeights heights(projected());
+  const GroundHeights heights(projected());
   const PlaceText places(heights);
   const Vec2 xy = projected().toSource({20, 15});
   const double ground = heights.at(xy)->height;
@@ -54,7 +54,7 @@ TEST(PlaceText, ResolvesHeightsAboveTheGroundAndAbsoluteOnes) {
 }
 
 TEST(PlaceText, RefusesPlacesOffTheTerrainUnlessTheyHaveAHeight) {
-  const SurfaceHeights heights(projected());
+  const GroundHeights heights(projected());
   const PlaceText places(heights);
   const Vec2 off = projected().toSource({-500, 15});
   EXPECT_EQ(places.read(typed(off), false).error().code, ErrorCode::invalidData);
@@ -66,7 +66,7 @@ TEST(PlaceText, RefusesPlacesOffTheTerrainUnlessTheyHaveAHeight) {
 }
 
 TEST(PlaceText, NamesWhatCannotBeRead) {
-  const SurfaceHeights heights(projected());
+  const GroundHeights heights(projected());
   const PlaceText places(heights);
   for (const char* text : {"", "1", "a,b", "1,2,3,4", "1,2,3xyz"}) {
     const auto goal = places.read(text, false);
@@ -76,7 +76,7 @@ TEST(PlaceText, NamesWhatCannotBeRead) {
 }
 
 TEST(PlaceText, HasNoLongitudeWithoutACrsThatHasOne) {
-  const SurfaceHeights heights(projected());
+  const GroundHeights heights(projected());
   const PlaceText places(heights);
   EXPECT_FALSE(places.hasLonLat()) << "the CRS of this model is a name only";
   EXPECT_EQ(places.lonLat({1, 2}), "");
@@ -87,11 +87,11 @@ TEST(PlaceText, WritesTheUnitOfHeights) {
   TerrainModel model = projected();
   {
     model.georeference.verticalUnit = "ft";
-    const SurfaceHeights heights(model);
+    const GroundHeights heights(model);
     EXPECT_EQ(PlaceText(heights).height(12.345678), "12.35 ft");
   }
   model.georeference.verticalUnit = "";
-  const SurfaceHeights heights(model);
+  const GroundHeights heights(model);
   EXPECT_EQ(PlaceText(heights).height(12.3), "12.30");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/window/window.h"
+#include "viewer/window/terrain_window.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -7,9 +7,9 @@
 
 #include "engine/base/result.h"
 #include "engine/base/triangle_mesh.h"
+#include "io/formats/common/file.h"
 #include "io/formats/glb/frame.h"
 #include "io/formats/glb/writer/container.h"
-#include "io/formats/mesh/file.h"
 
 namespace arete {
 

@@ -16,14 +16,14 @@
 #include <utility>
 
 #include "engine/base/counted.h"
+#include "io/formats/common/flattened.h"
+#include "io/formats/common/losses.h"
 #include "io/formats/glb/writer/buffer_plan.h"
 #include "io/formats/glb/writer/framed.h"
 #include "io/formats/glb/writer/local_positions.h"
 #include "io/formats/glb/writer/materials.h"
 #include "io/formats/glb/writer/mesh_plan.h"
 #include "io/formats/glb/writer/vertex_values.h"
-#include "io/formats/mesh/flattened.h"
-#include "io/formats/mesh/losses.h"
 #include "surface/model/wedges.h"
 
 namespace arete {

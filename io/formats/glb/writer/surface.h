@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "io/formats/common/file.h"
 #include "io/formats/glb/writer/container.h"
-#include "io/formats/mesh/file.h"
 
 namespace arete {
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/formats/mesh/pictures.h"
+#include "io/formats/common/pictures.h"
 
 namespace arete {
 

@@ -17,8 +17,8 @@
 #include <utility>
 
 #include "io/files/text_scan.h"
+#include "io/formats/common/colors.h"
 #include "io/formats/glb/writer/numbers.h"
-#include "io/formats/mesh/colors.h"
 
 namespace arete {
 namespace {

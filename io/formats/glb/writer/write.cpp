@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "io/formats/common/flattened.h"
 #include "io/formats/glb/glb.h"
 #include "io/formats/glb/writer/container.h"
 #include "io/formats/glb/writer/framed.h"
 #include "io/formats/glb/writer/surface.h"
-#include "io/formats/mesh/flattened.h"
 
 namespace arete {
 

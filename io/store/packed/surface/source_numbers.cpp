@@ -8,7 +8,8 @@
 // numbers in the source, whichever takes fewer bits, as differences from the face before: files list faces by
 // their vertices, or vertices by their faces. The last difference selects the table, because such lists have
 // patterns. Where coarse triangles have faces of their own, these follow from the finest ones to the
-// coarsest: that of the triangle that follows (heirSlotOf()), that of another one of the same star, or any.
+// coarsest: that of the triangle that follows (successorSlotOf()), that of another one of the same star, or
+// any.
 //
 // A corner has the wedge that its vertex had last, or one of those that it had before, or the next new wedge,
 // or any.
@@ -26,7 +27,7 @@
 
 #include "io/store/entropy/numbers.h"
 #include "io/store/packed/surface/symbol_bytes.h"
-#include "surface/model/face_heirs.h"
+#include "surface/model/face_successors.h"
 
 namespace arete::packed {
 namespace {
@@ -140,7 +141,7 @@ void codeCoarseFaces(SurfaceModel& model, Io& io) {
     const NodeId node = mt.remover(TriangleId(t));
     if (!node.isValid()) return;
     std::uint32_t& face = model.faceOf[t];
-    const std::uint32_t size = mt.ceilingSize(node), heir = heirSlotOf(mt, TriangleId(t), creator, node);
+    const std::uint32_t size = mt.ceilingSize(node), heir = successorSlotOf(mt, TriangleId(t), creator, node);
     const auto faceOfSlot = [&](unsigned i) {
       return model.faceOf[mt.slotTriangle(node, (heir + i) % size).index()];
     };

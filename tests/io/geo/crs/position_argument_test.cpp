@@ -67,7 +67,7 @@ TEST(PositionArgument, RefusesWhatIsNoPositionAndNamesIt) {
 
 TEST(PositionArgument, HeightsAboveGroundStandOnTheTerrain) {
   const TerrainModel model = slope();
-  const SurfaceHeights heights(model);
+  const GroundHeights heights(model);
   EXPECT_NEAR(demHeight({{1.5, 2}, 10, HeightKind::aboveGround}, heights).value(), 111.5, 1e-9);
   EXPECT_EQ(demHeight({{1.5, 2}, 10, HeightKind::seaLevel}, heights).value(), 10);
   EXPECT_EQ(demHeight({{-7, 2}, 10, HeightKind::seaLevel}, heights).value(), 10);
@@ -79,10 +79,10 @@ TEST(PositionArgument, HeightsAboveGroundStandOnTheTerrain) {
 
 TEST(PositionArgument, SeaLevelAndEllipsoidAreNotMixedWithoutAGeoid) {
   TerrainModel model = slope();
-  EXPECT_FALSE(demHeight({{1, 1}, 10, HeightKind::ellipsoidal}, SurfaceHeights(model)));
+  EXPECT_FALSE(demHeight({{1, 1}, 10, HeightKind::ellipsoidal}, GroundHeights(model)));
   model.georeference.verticalDatum = "ellipsoid";
-  EXPECT_EQ(demHeight({{1, 1}, 10, HeightKind::ellipsoidal}, SurfaceHeights(model)).value(), 10);
-  EXPECT_FALSE(demHeight({{1, 1}, 10, HeightKind::seaLevel}, SurfaceHeights(model)));
+  EXPECT_EQ(demHeight({{1, 1}, 10, HeightKind::ellipsoidal}, GroundHeights(model)).value(), 10);
+  EXPECT_FALSE(demHeight({{1, 1}, 10, HeightKind::seaLevel}, GroundHeights(model)));
 }
 
 TEST(PositionArgument, OfAPlaceInLongitudeAndLatitudeIsInTheDemsCrs) {

@@ -16,7 +16,7 @@
 #include "io/geo/crs/reader.h"
 #include "io/geo/dem/seam_column.h"
 #include "terrain/builder/build.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "terrain/model/plan_box.h"
 #include "terrain/sight/paths.h"
 #include "terrain/viewshed/viewshed.h"
@@ -148,7 +148,7 @@ TEST(Seam, OfRoundedStepsHasNoSliver) {
         EXPECT_NE(answer.sight.verdict, SightVerdict::unknown)
             << world.name << " off by " << error << ", " << line.from.x << " to " << line.to.x;
       }
-      const SurfaceHeights heights(world.model);
+      const GroundHeights heights(world.model);
       const LongitudeTurns turns(world.model);
       for (double x = -200; x < 400; x += 0.037)
         ASSERT_TRUE(heights.at(turns({x, 33}))) << world.name << " off by " << error << " at " << x;
@@ -161,10 +161,10 @@ TEST(Seam, HasTheHeightsAndTheProfileOfARasterThatHasItElsewhere) {
   std::uniform_real_distribution<double> longitude(-200, 380), latitude(-80, 80);
   std::vector<Vec2> places = {{180, 5}, {-180, 5}, {0, 5}, {360, 5}, {185, 5}, {175, 5}, {5, 5}, {355, 5}};
   for (int i = 0; i < 200; ++i) places.push_back({longitude(random), latitude(random)});
-  const SurfaceHeights of(all.front()->model);
+  const GroundHeights of(all.front()->model);
   const LongitudeTurns onto(all.front()->model);
   for (const auto& world : all) {
-    const SurfaceHeights heights(world->model);
+    const GroundHeights heights(world->model);
     const LongitudeTurns turns(world->model);
     for (const Vec2 place : places) {
       const auto here = heights.at(turns(place)), there = of.at(onto(place));

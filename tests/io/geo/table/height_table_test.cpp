@@ -26,8 +26,8 @@ TEST(HeightTable, WritesAGeoPackageThatReadsBackWithEveryRowAndColumn) {
                                         "8,older,11,21,\n");
   const auto table = readPointTable(path, utm());
   ASSERT_TRUE(table);
-  const std::vector<std::optional<SurfaceHeight>> heights = {
-      SurfaceHeight{.height = 1.1, .below = 0.5, .above = 0.25}, std::nullopt};
+  const std::vector<std::optional<GroundHeight>> heights = {
+      GroundHeight{.height = 1.1, .below = 0.5, .above = 0.25}, std::nullopt};
   const std::string out = folder.file("out.gpkg"), again = folder.file("again.gpkg");
   ASSERT_TRUE(writeHeightTable(out, *table, heights));
   ASSERT_TRUE(writeHeightTable(again, *table, heights));
@@ -47,7 +47,7 @@ TEST(HeightTable, IsRefusedUnderAnotherExtensionAndLeavesNothingBehind) {
   const TemporaryFolder folder;
   PointTable table;
   table.stated = table.positions = {{1, 2}};
-  const std::vector<std::optional<SurfaceHeight>> heights(1);
+  const std::vector<std::optional<GroundHeight>> heights(1);
   EXPECT_EQ(writeHeightTable(folder.file("a.shp"), table, heights).error().code, ErrorCode::usage);
   EXPECT_EQ(writeHeightTable(folder.file("no/a.csv"), table, heights).error().code, ErrorCode::notFound);
   EXPECT_EQ(writeHeightTable(folder.file("no/a.gpkg"), table, heights).error().code, ErrorCode::notFound);

@@ -57,7 +57,7 @@ TEST(KeptRows, OfATextWithoutACoordinateStayEmptyAndAreCounted) {
     if (!table->attributes.columns.empty()) {
       EXPECT_EQ(table->attributes.rows(), hasPlace.size()) << c.text;
     }
-    const std::string csv = csvOf(*table, std::vector<std::optional<SurfaceHeight>>(hasPlace.size()));
+    const std::string csv = csvOf(*table, std::vector<std::optional<GroundHeight>>(hasPlace.size()));
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), std::ptrdiff_t(hasPlace.size()) + 1) << csv;
   }
 }
@@ -80,7 +80,7 @@ TEST(KeptRows, WithOneCoordinateKeepIt) {
     for (const bool isLonLat : {false, true}) {
       const auto table = readPointTable(folder.write("a.csv", c.text), utm(), {.lonLat = isLonLat});
       ASSERT_TRUE(table) << c.text << table.error().describe();
-      const std::vector<std::optional<SurfaceHeight>> none(table->stated.size());
+      const std::vector<std::optional<GroundHeight>> none(table->stated.size());
       const std::string csv = csvOf(*table, none);
       EXPECT_EQ(csv.substr(csv.find('\n') + 1), c.csv) << c.text;
       EXPECT_EQ(table->withoutPlace, 1u) << c.text;
@@ -229,8 +229,8 @@ TEST(KeptRows, OfALayerKeepTheirTypesAndZ) {
   const auto table = readPointTable(typedLayer(folder), utm());
   ASSERT_TRUE(table) << table.error().describe();
   EXPECT_EQ(table->withoutPlace, 1u);
-  const std::vector<std::optional<SurfaceHeight>> heights = {SurfaceHeight{.height = 1}, std::nullopt,
-                                                             std::nullopt};
+  const std::vector<std::optional<GroundHeight>> heights = {GroundHeight{.height = 1}, std::nullopt,
+                                                            std::nullopt};
   const std::string csv = csvOf(*table, heights), own = csv.substr(csv.find('\n') + 1);
   std::string first = "1,";
   for (const Field& field : kFields) first += std::string(field.csv) + ',';

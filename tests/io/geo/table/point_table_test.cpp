@@ -37,7 +37,7 @@ TEST(PointTable, KeepsTheOtherColumnsOfATextWithTheirNames) {
   EXPECT_EQ(attributes.at(0, 1), "a, \"b\"");
   EXPECT_EQ(attributes.at(1, 1), "");
   EXPECT_EQ(attributes.at(1, 2), "010");
-  EXPECT_EQ(csvOf(*table, {SurfaceHeight{.height = 1.5}, std::nullopt}),
+  EXPECT_EQ(csvOf(*table, {GroundHeight{.height = 1.5}, std::nullopt}),
             "id,Name,code,slope,x,y,height,below,above\n"
             "1,\"a, \"\"b\"\"\",007,0.25,10.5,20,1.5,0,0\n"
             "2,,010,,11,21,,,\n");
@@ -52,7 +52,7 @@ TEST(PointTable, TakesAHashInQuotesForTextAndReadsBackWhatIsWrittenOfIt) {
     ASSERT_TRUE(table) << round << ": " << table.error().describe();
     EXPECT_EQ(table->positions, (std::vector<Vec2>{{10.5, 20}, {11, 21}})) << round;
     EXPECT_EQ(table->attributes.at(0, 0), "Mast #4, \"old\"") << round;
-    text = csvOf(*table, {SurfaceHeight{.height = 1.5}, std::nullopt});
+    text = csvOf(*table, {GroundHeight{.height = 1.5}, std::nullopt});
   }
 }
 

@@ -23,7 +23,7 @@ const TerrainModel& slope() {
 }
 
 TEST(CameraArgument, TakesAPositionAndOnRequestALookAndAField) {
-  const SurfaceHeights heights(slope());
+  const GroundHeights heights(slope());
   const auto place = readCameraArgument("--camera", "1.5,2,10", {}, heights);
   ASSERT_TRUE(place) << place.error().describe();
   EXPECT_NEAR(place->camera.height, 111.5, 1e-9) << "above ground unless it says otherwise";
@@ -54,14 +54,14 @@ TEST(CameraArgument, TellsItsPlaceWithoutTheTerrain) {
   }
   for (const char* text : {"1,2", "1,2,3,4", "1,east,3"}) {
     const auto place = readCameraPlace("--camera", text, {});
-    const auto camera = readCameraArgument("--camera", text, {}, SurfaceHeights(slope()));
+    const auto camera = readCameraArgument("--camera", text, {}, GroundHeights(slope()));
     ASSERT_FALSE(place);
     EXPECT_EQ(place.error().describe(), camera.error().describe());
   }
 }
 
 TEST(CameraArgument, RefusesWhatIsNoCameraAndNamesIt) {
-  const SurfaceHeights heights(slope());
+  const GroundHeights heights(slope());
   const struct {
     const char *text, *words;
     ErrorCode code = ErrorCode::usage;
@@ -91,7 +91,7 @@ TEST(CameraArgument, ComesBackFromItsTextToTheBit) {
   TerrainModel model = slope();
   for (const char* datum : {"", "ellipsoid"}) {
     model.georeference.verticalDatum = datum;
-    const SurfaceHeights heights(model);
+    const GroundHeights heights(model);
     Random random(1);
     for (int i = 0; i < 200; ++i) {
       const Camera camera{.xy = {random.between(-1e7, 1e7), random.between(-1e7, 1e7)},

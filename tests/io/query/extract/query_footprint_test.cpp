@@ -25,7 +25,7 @@
 #include "io/io_fixture.h"
 #include "io/query/request/criterion.h"
 #include "io/store/amt/file.h"
-#include "terrain/locate/surface_height.h"
+#include "terrain/locate/ground_height.h"
 #include "terrain/sight/earth.h"
 #include "terrain/sight/engine.h"
 #include "terrain/viewshed/viewshed.h"
@@ -185,7 +185,7 @@ TEST(QueryFootprint, HaveTheHeightsOfTheWholeWhenOnlyTheyAreRead) {
       }
       const TerrainModel part = filed.part(wanted.within(0));
       EXPECT_LE(part.mt.nodeCount(), filed.whole.mt.nodeCount());
-      const SurfaceHeights ofWhole(filed.whole), ofPart(part);
+      const GroundHeights ofWhole(filed.whole), ofPart(part);
       for (const Vec2 place : places)
         for (const double maxError : {0.0, 0.3, 20.0}) {
           const auto x = ofWhole.at(place, maxError), y = ofPart.at(place, maxError);
@@ -387,8 +387,8 @@ TEST(WantedBy, ReadsWhatTheCutsOfARegionOrAFocusAreMadeOf) {
         region = i % 3 == 0 ? Region({{p, q, {p.x + step.x, q.y}}})
                             : Region::box({p.x, p.y, p.x + step.x, p.y + step.y});
       } else {
-        fine.focus = CutRequest::Focus{.xy = filed.whole.toSource(p),
-                                             .growth = largest * random.between(0, 1e-3)};
+        fine.focus =
+            CutRequest::Focus{.xy = filed.whole.toSource(p), .growth = largest * random.between(0, 1e-3)};
       }
       if (random.below(2) == 0) fine.method = CutMethod::saturated;
       CutRequest coarse = fine;

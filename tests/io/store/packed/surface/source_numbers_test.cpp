@@ -9,7 +9,7 @@
 
 #include "surface/builder/build.h"
 #include "surface/families.h"
-#include "surface/model/face_heirs.h"
+#include "surface/model/face_successors.h"
 #include "surface/model/renumbered.h"
 
 namespace arete::packed {
