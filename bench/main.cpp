@@ -85,6 +85,8 @@ int measureMeshes(const Arguments& arguments, const Plan& plan, Report& report) 
   return exitCode;
 }
 
+/// The stage "rival" needs a program that is not ours: without it the stage is an error where it is named,
+/// and is passed over where all stages are wanted.
 int measureAll(const Arguments& arguments) {
   Plan plan;
   plan.only = arguments.only;
@@ -99,6 +101,8 @@ int measureAll(const Arguments& arguments) {
   if (error)
     return fail({ErrorCode::unreadable, "the folder cannot be made: " + error.message(), plan.scratch});
 
+  // A stage that fails does not end the run: the figures of the others are reported, and the exit code tells
+  // of the failure.
   Report report = emptyReport();
   report.repeats = arguments.repeats;
   int exitCode = 0;
@@ -126,6 +130,7 @@ int measureAll(const Arguments& arguments) {
   return exitCode;
 }
 
+// Both reports are read before anything is printed, so that a missing file leaves no half table.
 int compare(const std::string& basePath, const std::string& headPath) {
   const Result<Report> base = readReport(basePath);
   if (!base) return fail(base.error());
@@ -142,6 +147,7 @@ int print(const std::string& path) {
   return 0;
 }
 
+// The defaults of the folders come first, since the help and the parser take them from these variables.
 int run(int argc, char** argv) {
   Arguments arguments;
   arguments.data = dataFolder();
@@ -186,6 +192,7 @@ int run(int argc, char** argv) {
   tablesCommand->add_option("REPORT", head, "Report (JSON)")->required();
   app.require_subcommand(0, 1);
 
+  // Without a subcommand everything is measured; "compare" and "tables" read reports only.
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -65,6 +65,7 @@ int exitCodeOf(const Error& error) {
   }
 }
 
+// The checksum of the heights is printed, so that two machines can compare what one seed has made.
 int generate(const TerrainOptions& options, const std::string& output, bool quiet) {
   const RunContext context = contextOf(quiet);
   const Result<RasterHeightfield> field = generateTerrain(options, context);
@@ -90,6 +91,7 @@ int generateSurface(const AsteroidOptions& options, const std::string& output, b
   return 0;
 }
 
+// A collection of tiles has no size of its own, so its entry states the size of one square degree.
 int list(bool asJson) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const PublicDem& dem : publicDems()) {
@@ -127,6 +129,8 @@ int fetch(const std::string& name, const std::vector<double>& box, const std::st
   return 0;
 }
 
+// The command line has four subcommands, of which exactly one is wanted. Values go directly into the options
+// that the functions above take.
 int run(int argc, char** argv) {
   CLI::App app{
       "Terrain and a surface to try Arete on: generated here, or fetched from those who publish it."};
@@ -161,6 +165,7 @@ int run(int argc, char** argv) {
   generateCommand->add_flag("--no-sea", noSea, "Without a coast");
   generateCommand->add_flag("-q,--quiet", quiet, "No progress");
 
+  // The mesh's format follows from the name of the file; writeMesh() refuses those that it does not know.
   AsteroidOptions asteroid;
   CLI::App* asteroidCommand = app.add_subcommand("asteroid", "Make a rock with craters, a closed surface");
   asteroidCommand->add_option("-o,--output", output, "Mesh to write (.ply, .obj, .stl, .glb)")->required();
@@ -182,6 +187,8 @@ int run(int argc, char** argv) {
   fetchCommand->add_option("--mirror", mirror, "A folder or URL that holds the publisher's paths");
   fetchCommand->add_flag("-q,--quiet", quiet, "No progress");
 
+  // Help ends here too, with exit code 0; whatever else the parser refuses is a wrong command line. The name
+  // of a GeoTIFF is checked before anything is computed or fetched.
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -71,6 +71,8 @@ CLI::Validator wholeNumber(std::int64_t least, std::int64_t most) {
   });
 }
 
+/// Numbers are checked as text and stay text, so that a message names what was typed. NaN fits no comparison,
+/// so each check excludes it explicitly.
 CLI::Validator realNumber() {
   return validator([](std::string& text) -> std::string {
     const std::optional<double> value = numberOf(text);
@@ -110,6 +112,7 @@ CLI::Validator finiteBetween(double least, double most) {
   });
 }
 
+// The words of a closed set are compared as they are; those that stand for numbers in any case of letters.
 CLI::Validator oneOf(std::vector<std::string> words) {
   return validator([words = std::move(words)](std::string& text) -> std::string {
     if (std::find(words.begin(), words.end(), text) != words.end()) return {};
@@ -131,6 +134,8 @@ CLI::Validator oneOfNumbered(std::vector<std::pair<std::string, int>> words) {
   });
 }
 
+/// This takes a tolerance, or a share of the relief in percent. A share must be finite: no part of a relief
+/// is infinite.
 CLI::Validator shareOrTolerance(bool mayBeInfinite) {
   return validator([mayBeInfinite](std::string& text) -> std::string {
     const bool isShare = text.ends_with('%');
@@ -172,6 +177,7 @@ Result<std::pair<double, double>> twoNumbers(const std::string& option, std::str
   return std::pair(numbers[0], numbers[1]);
 }
 
+// The first file is the DEM that messages name; the others are further parts of it.
 void DemArguments::addFilesTo(CLI::App& command, const std::string& help) {
   command
       .add_option_function<std::vector<std::string>>(
@@ -191,6 +197,7 @@ std::vector<std::string> DemArguments::files() const {
   return all;
 }
 
+// Each option replaces what the file says, or says what it leaves open; the defaults leave it to the file.
 void DemArguments::addTo(CLI::App& command) {
   const std::string group = kGroup;
   command.add_option("--band", reading.band, "Band of a raster (default: the first)")
@@ -240,6 +247,7 @@ std::string inputPath(const std::string& path) {
   return isStdin ? "/vsistdin?buffer_limit=-1" : path;
 }
 
+// The formats are listed from the table of the writers, so that help and check never lag behind it.
 void MeshOutput::addTo(CLI::App& command, const std::string& help, const std::string& more) {
   command
       .add_option("-o,--output", path,
@@ -282,6 +290,8 @@ Result<DemRead> DemArguments::read(const Session& session) const {
   return dem;
 }
 
+/// An output that is an input, or another output under a second name or link, is found before any work
+/// begins; so is a folder that cannot be written to.
 Status checkOutput(const std::string& option, const std::string& path, const std::vector<std::string>& inputs,
                    const std::vector<std::string>& outputs) {
   const std::string culprit = fmt::format("{} {}", option, path);
@@ -319,6 +329,7 @@ std::string outputName(const std::string& pattern, const std::string& tag, bool 
       .string();
 }
 
+/// Digits stand in groups of three, with a blank between them.
 std::string grouped(std::uint64_t count) {
   std::string text = std::to_string(count);
   for (std::size_t i = text.size(); i > 3;) text.insert(i -= 3, 1, ' ');

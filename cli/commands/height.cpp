@@ -50,6 +50,8 @@ Result<PointTable> statedPlaces(const HeightArguments& arguments, const TerrainM
   return table;
 }
 
+/// The places of a file can lie a turn of longitude away from the DEM; they are moved by whole turns, as
+/// typed ones are by their transform.
 Result<PointTable> readPlaces(const HeightArguments& arguments, const TerrainModel& model, Session& session) {
   if (arguments.points.empty()) return statedPlaces(arguments, model);
   auto table = readPointTable(inputPath(arguments.points), model.georeference,
@@ -76,6 +78,7 @@ Json numberOrNull(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
 
+/// JSON has no NaN and no infinity, so a number that is not finite becomes null, as a missing height does.
 Json jsonOf(const PointTable& table, const Heights& heights) {
   Json points = Json::array();
   for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -92,6 +95,8 @@ Json jsonOf(const PointTable& table, const Heights& heights) {
   return points;
 }
 
+// What contradicts itself is refused before the model is opened, and the output is checked before the places
+// are read.
 Status runHeight(const HeightArguments& arguments, Session& session) {
   if (arguments.at.empty() == arguments.points.empty())
     return failure(ErrorCode::usage, "either --at or --points is required");
@@ -111,6 +116,8 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
         !output)
       return output;
   ARETE_TRY(const auto table, readPlaces(arguments, outline, session));
+  // Only the parts of the model that hold the places are read. A place off the terrain has no height, which
+  // is an answer and not an error unless all places are like that.
   QueryFootprint wanted(outline);
   for (const Vec2 place : table.positions) wanted.add(outline.toPlan(place));
   ARETE_TRY(const TerrainModel model, readWanted(file, outline, wanted.within(0), session));

@@ -136,6 +136,8 @@ std::uint32_t TriangleBvh::build(std::span<std::uint32_t> range, std::span<const
     parts[count] = largest->subspan(some);
     *largest = largest->first(some);
   }
+  // The recursion may move the nodes in memory, so the parent is named by its index and never kept by
+  // reference.
   for (std::size_t i = 0; i < kWide; ++i)
     if (!parts[i].empty()) {
       const std::uint32_t child = build(parts[i], boxes);
@@ -149,6 +151,8 @@ void TriangleBvh::refit(std::span<const Vec3> positions, std::span<const Corners
   if (!isEmpty()) refit(root_, positions, triangles);
 }
 
+/// Oriented boxes are kept apart from the nodes, since few nodes need them. A lane without one is unbounded
+/// and so never raises a distance.
 void TriangleBvh::putAslant(Node& node, std::size_t lane, const OrientedBox& box) {
   if (node.aslant == kNone) {
     node.aslant = static_cast<std::uint32_t>(aslant_.size());
@@ -178,6 +182,8 @@ TriangleBvh::Below TriangleBvh::refit(std::uint32_t child, std::span<const Vec3>
     to[1][lane] = v.y;
     to[2][lane] = v.z;
   };
+  // The boxes of an inner node follow from its children; those of missing children stay empty, infinitely far
+  // from every point. The leaves below a child follow each other, so their triangles are one span.
   if (child < kLeaf) {
     Node& node = nodes_[child];
     node.aslant = kNone;
@@ -196,6 +202,8 @@ TriangleBvh::Below TriangleBvh::refit(std::uint32_t child, std::span<const Vec3>
     }
     return all;
   }
+  // A leaf keeps what the search would compute for each query: edge vectors, their products and their
+  // inverses. An inverse is 0 where a side or the area vanishes, so that no query divides by zero.
   all.first = child - kLeaf;
   all.end = all.first + 1;
   Leaf& leaf = leaves_[child - kLeaf];
@@ -221,6 +229,7 @@ TriangleBvh::Below TriangleBvh::refit(std::uint32_t child, std::span<const Vec3>
   return all;
 }
 
+// These loops have no branch, only selections, so that compilers turn the lanes into vector instructions.
 ARETE_VECTOR_CLONES
 void TriangleBvh::squaresOf(const Node& node, const Vec3& p, Lanes& to) {
   for (std::size_t i = 0; i < kWide; ++i) {
@@ -251,6 +260,8 @@ void TriangleBvh::raise(const Aslant& boxes, const Vec3& p, Lanes& squares) {
   }
 }
 
+// A lane gets the least distance to the three sides, or the distance to the plane where the foot lies inside.
+// A triangle without area has a foot with weights 0, which is not inside, and is left to its sides.
 ARETE_VECTOR_CLONES
 void TriangleBvh::squaresOf(const Leaf& leaf, const Vec3& p, Lanes& to) {
   for (std::size_t i = 0; i < kWide; ++i) {

@@ -71,6 +71,7 @@ MemberSet::MemberSet(std::uint32_t certain, std::uint32_t end, std::uint32_t gro
   std::fill_n(halves_.get(), kHalvesPerGroup, Half{});
   if (isDense_)
     std::fill_n(halves_.get() + std::size_t(1 + groups) * kHalvesPerGroup, kHalvesPerGroup, Half{});
+  // Whole groups of certain members need no Sink: all bits are set, and a rank is the number of the node.
   parallelFor(std::uint32_t(0), full, [&](std::uint32_t group) {
     begins_[group] = (1 + group) * kHalvesPerGroup;
     for (std::uint32_t h = group * kHalvesPerGroup; h < (group + 1) * kHalvesPerGroup; ++h)
@@ -78,6 +79,8 @@ MemberSet::MemberSet(std::uint32_t certain, std::uint32_t end, std::uint32_t gro
     std::iota(&used_[group * kWordsPerGroup], &used_[group * kWordsPerGroup] + kWordsPerGroup,
               group * kWordsPerGroup);
   });
+  // A group gets its words at its first word with members. In a dense set it has them already, and groups
+  // without members keep empty halves.
   parallelFor(std::size_t(0), runs.size(), [&](std::size_t run) {
     Place at = place[run];
     std::fill_n(halves_.get() + std::size_t(at.group) * kHalvesPerGroup,
@@ -95,6 +98,7 @@ MemberSet::MemberSet(std::uint32_t certain, std::uint32_t end, std::uint32_t gro
   });
 }
 
+/// The bytes of a set become bits, a word at a time.
 MemberSet::MemberSet(const NodeSet& set)
     : MemberSet(0, static_cast<std::uint32_t>(set.size()), kMemberGroupsPerRun,
                 [&](std::uint32_t first, std::uint32_t last, Sink& sink) {
@@ -105,6 +109,7 @@ MemberSet::MemberSet(const NodeSet& set)
                   }
                 }) {}
 
+/// A run finds its first node by halving, so that runs can be filled in any order.
 MemberSet::MemberSet(const std::vector<std::uint32_t>& nodes, std::uint32_t end)
     : MemberSet(0, end, kMemberGroupsPerRun, [&](std::uint32_t first, std::uint32_t last, Sink& sink) {
         auto at = std::ranges::lower_bound(nodes, first * kNodesPerWord);
@@ -117,6 +122,7 @@ MemberSet::MemberSet(const std::vector<std::uint32_t>& nodes, std::uint32_t end)
         }
       }) {}
 
+/// The first nodes are all members; the last word may be in part.
 MemberSet MemberSet::prefix(std::uint32_t nodes) {
   return MemberSet(nodes, nodes, 1, [&](std::uint32_t first, std::uint32_t last, Sink& sink) {
     for (std::uint32_t word = first; word < last; ++word) {
@@ -126,6 +132,8 @@ MemberSet MemberSet::prefix(std::uint32_t nodes) {
   });
 }
 
+// The group behind the last one has no members: a lookup of a node beyond the end, such as kNone, is clamped
+// to it.
 MemberSet::Lookup MemberSet::lookup() const {
   Lookup lookup;
   lookup.begins_ = begins_.data();
@@ -146,6 +154,7 @@ std::uint32_t MemberSet::spans() const {
   return static_cast<std::uint32_t>((used_.size() + kWordsPerSpan - 1) / kWordsPerSpan);
 }
 
+// The two halves of a word are joined, so that one loop visits the set bits from the lowest to the highest.
 std::uint32_t MemberSet::list(std::uint32_t span, std::uint32_t* members) const {
   const std::size_t begin = std::size_t(span) * kWordsPerSpan;
   std::uint32_t count = 0;

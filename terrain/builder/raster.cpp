@@ -86,11 +86,13 @@ std::vector<std::uint32_t> isolatedSamples(const RasterHeightfield& field, const
   return isolated;
 }
 
+// The model's vertices refer to these arrays, so both travel with it as its owner.
 struct OwnedVertices {
   UninitializedVector<std::uint32_t> samples;
   EncodedHeights heights;
 };
 
+/// What buildWith() needs of a source, for a raster.
 class RasterSource {
  public:
   explicit RasterSource(const RasterHeightfield& field) : field_(field) {}
@@ -105,6 +107,7 @@ class RasterSource {
     return mesh;
   }
 
+  // Samples in no triangle have no vertex; the model keeps them apart, so that no sample is lost.
   void describe(const LiveMesh& mesh, TerrainModel& model) const {
     model.columns = field_.columns;
     model.rows = field_.rows;
@@ -127,6 +130,7 @@ class RasterSource {
     return {};
   }
 
+  // The range leaves NODATA out: it bounds the errors and the rounding of all heights.
   ErrorRange wholeRange() const {
     const Range all = rangeOf(field_.heights);
     return {all.low, all.high};
@@ -143,6 +147,8 @@ class RasterSource {
     return {middle, {double(field_.columns), double(field_.rows)}, step};
   }
 
+  // Two slacks bound the rounding of heights: one between samples with known weights, and a larger one where
+  // an edge crosses the lines of the raster at computed places.
   Result<SimplifiedRoot> simplify(const LevelInput& input, const BuildOptions& options,
                                   const TileOptions& tiles, const RunContext& context) const {
     const auto [low, high] = input.range;
@@ -164,6 +170,7 @@ class RasterSource {
     return Simplifier(state, tiles, context).run(input.isFixed);
   }
 
+  // The heights follow the order of the MT, in the shortest type that restores each of them to the bit.
   void finish(const MultiTriangulation& bare, UninitializedVector<std::uint32_t> order,
               const std::vector<std::uint8_t>&, TerrainModel& model) const {
     auto owned = std::make_shared<OwnedVertices>();
@@ -182,6 +189,8 @@ class RasterSource {
   Ratio ratio_;
 };
 
+// A planar triangulation has nearly two triangles for each sample, so half as many samples as triangles can
+// be numbered.
 Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOptions& options,
                                const TileOptions& tiles, const RunContext& context) {
   ARETE_CHECK(field.validate());

@@ -82,6 +82,9 @@ namespace {
 thread_local ConflictLists conflictsOfHole;
 }  // namespace
 
+// The lists are merged at the first query of a hole, and a hole that no query reaches costs nothing. The
+// removed apex is the first point; the reach covers all points and corners, by which the margins are
+// computed.
 const ConflictLists& PointError::Hole::conflicts() const {
   if (conflicts_ != nullptr) return *conflicts_;
   ConflictLists& conflicts = conflictsOfHole;
@@ -114,6 +117,7 @@ bool PointError::Hole::isCovered(const ConflictLists::Found& found, int i, int j
          errors_.covers(star_.link[i], star_.link[j], star_.link[m], conflicts()[found.index]);
 }
 
+// Differences of plan coordinates are computed from the exact points, and not from rounded positions.
 Vec3 PointError::Hole::fromApex(int i) const {
   const VertexId corner = star_.link[i];
   const PointPlan::Point o = errors_.plan_.point(apex_), p = errors_.plan_.point(corner);
@@ -124,6 +128,8 @@ double PointError::Hole::apexError(int i, int j, int m) const {
   return std::abs(errors_.difference(star_.link[i], star_.link[j], star_.link[m], apex_).value);
 }
 
+// A point that may exceed the worst error so far is evaluated, so candidates become rare as the error grows.
+// The caller does not care how far beyond the limit the error is.
 double PointError::Hole::maximum(int i, int j, int m, double limit) const {
   const ConflictLists::Triangle over = triangle(i, j, m);
   double worst = 0;
@@ -156,6 +162,8 @@ double PointError::Hole::maximum(int i, int j, int m, double limit, SignedBound&
   return worst;
 }
 
+// A difference farther from the bound than its rounding decides; only one that is closer needs the exact
+// predicate.
 bool PointError::Hole::isAbove(int i, int j, int m, double, double, double bound) const {
   const ConflictLists::Triangle over = triangle(i, j, m);
   const VertexId a = star_.link[i], b = star_.link[j], c = star_.link[m];
@@ -173,6 +181,8 @@ bool PointError::Hole::isAbove(int i, int j, int m, double, double, double bound
   return false;
 }
 
+// Each point goes to the first triangle that covers it. A point on an edge is covered by two triangles, and
+// must be in one list only.
 void PointError::Hole::settle(const HoleTriangulation& floor) {
   const std::size_t count = conflicts().size();
   thread_local std::vector<std::uint8_t> isAssigned;

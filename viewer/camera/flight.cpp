@@ -85,6 +85,7 @@ double rampWay(double u) {
 
 }  // namespace
 
+// Both ramps have the same form; without room for full speed they meet in the middle of the run.
 double Flight::Run::progressAt(double time) const {
   const double t = std::clamp(time - start, 0.0, seconds), ramp = speed * ease / 2;
   if (t < ease) return ramp * rampWay(t / ease);
@@ -92,6 +93,7 @@ double Flight::Run::progressAt(double time) const {
   return std::clamp(ramp + speed * (t - ease), 0.0, length);
 }
 
+/// The progress rises with time, so halving finds the time: 60 halvings exhaust a double.
 double Flight::Run::timeOf(double progress) const {
   if (progress <= 0) return start;
   if (progress >= length) return start + seconds;
@@ -103,6 +105,7 @@ double Flight::Run::timeOf(double progress) const {
   return high;
 }
 
+// Places are compared in metric space, and what counts as one place depends on the extent of the whole path.
 Result<Flight> Flight::create(FlightPlan plan, const CameraSpace& space) {
   ARETE_CHECK(checkNumbers(plan));
   std::vector<Vec3> places;
@@ -120,6 +123,7 @@ Result<Flight> Flight::create(FlightPlan plan, const CameraSpace& space) {
     return distance(places[a], places[b]) <= nearby;
   };
 
+  // Keys in one place get the same position to the bit, so that later comparisons of places can be exact.
   bool turnsOnTheSpot = false;
   for (std::size_t i = 1; i < places.size(); ++i) {
     if (!isSamePlace(i - 1, i)) continue;
@@ -140,6 +144,8 @@ Result<Flight> Flight::create(FlightPlan plan, const CameraSpace& space) {
     plan.easeSeconds = 0;
   }
 
+  // A closed flight returns to its first key, which is appended once more. Runs end where the flight changes
+  // between flying and turning; neighbouring runs share a key.
   Flight flight(space);
   flight.plan_ = std::move(plan);
   std::vector<Camera> keys = flight.plan_.keys;
@@ -158,6 +164,8 @@ Result<Flight> Flight::create(FlightPlan plan, const CameraSpace& space) {
   return flight;
 }
 
+/// Azimuths are unwound, so that the camera turns the shorter way between two keys and passes north without a
+/// jump.
 void Flight::addRun(std::size_t first, std::size_t last, std::span<const Camera> keys,
                     std::span<const Vec3> places) {
   Run run;

@@ -41,6 +41,7 @@ struct ProcessorFront::State {
     pending.triangles = static_cast<std::uint32_t>(mesh.triangles().size());
     thread = std::thread([this] { run(); });
   }
+  // The thread holds references to this state, so it ends before anything of it is destroyed.
   ~State() {
     {
       const std::lock_guard lock(mutex);
@@ -60,6 +61,8 @@ struct ProcessorFront::State {
     }
   }
 
+  // The mesh has exaggerated heights over its own origin; the drawn vertices keep the heights of the model,
+  // and get differences to them in the model's unit.
   std::vector<Rise> risesOf(std::span<const ViewMesh::HeightChange> changes) const {
     std::vector<Rise> rises;
     rises.reserve(changes.size());
@@ -72,6 +75,8 @@ struct ProcessorFront::State {
     return rises;
   }
 
+  // The newest request counts: one that arrives while the mesh is updated replaces any before it. The update
+  // itself runs without the lock, so that drawing never waits for it.
   void run() {
     for (;;) {
       Asked now;
@@ -127,6 +132,7 @@ struct ProcessorFront::State {
   std::uint32_t room = 0, count = 0;
 };
 
+// The program is compiled on the drawing thread, since the other one has no context of OpenGL.
 Result<ProcessorFront> ProcessorFront::create(const MultiTriangulation& mt, double stretch) {
   ARETE_TRY(ViewMesh mesh, ViewMesh::create(mt, {.heightScale = stretch}));
   ARETE_TRY(GlProgram scatter, makeProgram({{GL_COMPUTE_SHADER, {"scatter.comp.glsl"}}}));
@@ -148,6 +154,8 @@ void ProcessorFront::ask(const Asked& asked) {
   state_->wake.notify_all();
 }
 
+/// Takes the changes since the last call. Without any, the number of triangles stays as it was, so that the
+/// new list of changes begins from the same front.
 Result<ProcessorFront::Done> ProcessorFront::receive(TerrainOnGpu& terrain, bool waits) {
   State& s = *state_;
   Changes changes;

@@ -44,6 +44,8 @@ constexpr std::array<std::pair<const char*, const char*>, 12> kKeys = {{
     {"F1", "this help"},
 }};
 
+// The window owns the context of OpenGL. It stands before the members that use the context, so that it is
+// destroyed after them.
 class SurfaceWindow {
  public:
   SurfaceWindow(const SurfaceWindowOptions& options, GlfwWindow window, SurfaceView view,
@@ -73,6 +75,8 @@ class SurfaceWindow {
   }
 
  private:
+  // The target follows the size of the window. The panel is drawn into the window and not into the target, so
+  // that a screenshot shows the surface alone.
   Status drawFrame(const RunContext& context) {
     const Stopwatch work;
     SurfaceSession& s = session_;
@@ -91,6 +95,7 @@ class SurfaceWindow {
     drawPanel();
     ImGui::Render();
 
+    // A frozen cut stays as it is, but there has to be one.
     if (!s.isFrozen || !hasCut_) {
       ARETE_TRY(const SurfaceFigures figures, view_.cut(s.camera(), s.settings, context));
       s.figures = figures;
@@ -106,6 +111,8 @@ class SurfaceWindow {
       const Status saved = savePng(target_->image(), name);
       s.message = saved ? "saved " + name : saved.error().describe();
     }
+    // The picture goes into the window only after a screenshot was taken of it. The time stops before the
+    // swap, which waits for the screen.
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, width, height);
     target_->copyTo(0);
@@ -119,6 +126,7 @@ class SurfaceWindow {
     return {};
   }
 
+  // The panel changes the settings directly; the next cut and the next picture follow them.
   void drawPanel() {
     SurfaceSession& s = session_;
     if (s.showsHelp) drawHelp();
@@ -161,6 +169,7 @@ class SurfaceWindow {
     widget::endColumn();
   }
 
+  // The help is a window in the middle, which its own cross or the key closes.
   void drawHelp() {
     const ImGuiIO& io = ImGui::GetIO();
     ImGui::SetNextWindowPos({io.DisplaySize.x / 2, io.DisplaySize.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});

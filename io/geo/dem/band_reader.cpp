@@ -62,6 +62,8 @@ int splitOf(int first, int count, int block) {
 
 }  // namespace
 
+// A value of a 32-bit band is compared as a float, since files declare it in decimal digits. Huge values,
+// such as -3.4e38, are written with varying digits, so they have a relative tolerance.
 BandReader::NodataTest::NodataTest(std::optional<double> value, GDALDataType type)
     : stated_(value && !std::isnan(*value)) {
   if (!stated_) return;
@@ -82,6 +84,8 @@ GDALRasterBand* alphaBandOf(GDALRasterBand& band) {
   return nullptr;
 }
 
+// The declared NODATA value of 64-bit integers is kept as such, since a double would round it. The mask that
+// GDAL derives from NODATA or opacity is passed over: both are tested here.
 BandReader::BandReader(GDALRasterBand& band, std::optional<double> nodata)
     : band_(&band), type_(band.GetRasterDataType()), stripRows_(stripRowsOf(band)) {
   const char* pixelType = band.GetMetadataItem("PIXELTYPE", "IMAGE_STRUCTURE");
@@ -120,6 +124,8 @@ Result<BandReader> BandReader::of(GDALRasterBand& band, std::optional<double> no
   return reader;
 }
 
+/// This fails with the message of GDAL. GDAL reports each message once, so one from the constructor stands in
+/// where it gives no reason now.
 Status BandReader::transfer(GDALRasterBand& band, int firstRow, int rowCount, void* buffer,
                             GDALDataType type) {
   GdalErrors errors;
@@ -145,6 +151,8 @@ Status BandReader::readPlain(int firstRow, int rowCount, std::span<double> raw) 
   return {};
 }
 
+/// Reads 64-bit integers: NODATA is compared before the conversion, and a height that a double cannot hold is
+/// an error and not rounded silently.
 template <class Integer>
 Status BandReader::readWide(int firstRow, int rowCount, std::span<double> raw) {
   std::vector<Integer> strip(raw.size());
@@ -182,6 +190,7 @@ Status BandReader::applyMask(GDALRasterBand& mask, int firstRow, int rowCount, s
   return {};
 }
 
+// A window that is partly absent is halved, at borders of blocks, until each part is present or absent.
 void BandReader::takeAbsentOut(int column, int row, int columns, int rows, int firstRow,
                                std::span<double> raw) {
   const int status = band_->GetDataCoverageStatus(column, row, columns, rows, 0, nullptr);
@@ -211,6 +220,8 @@ void BandReader::takeAbsentOut(int column, int row, int columns, int rows, int f
   absent_ += std::size_t(columns) * std::size_t(rows);
 }
 
+// Absent blocks are looked for only if the file has some. The constructor has kept what GDAL says about them,
+// so its messages are dropped here.
 Status BandReader::read(int firstRow, int rowCount, std::span<double> heights) {
   Status status = type_ == GDT_Int64    ? readWide<std::int64_t>(firstRow, rowCount, heights)
                   : type_ == GDT_UInt64 ? readWide<std::uint64_t>(firstRow, rowCount, heights)

@@ -64,6 +64,8 @@ class FeatureCollector {
  public:
   FeatureCollector(OGRLayer& layer, int zField) : layer_(layer), zField_(zField) {}
 
+  /// A feature may hold one point or several. One without a position or a height is counted and left out; any
+  /// other geometry is an error, since a part of the terrain would be missing.
   Status add(OGRFeature& feature) {
     const OGRGeometry* geometry = feature.GetGeometryRef();
     if (!geometry || geometry->IsEmpty() || (zField_ >= 0 && !feature.IsFieldSetAndNotNull(zField_))) {
@@ -85,6 +87,8 @@ class FeatureCollector {
   std::size_t skipped = 0;
 
  private:
+  // Where a field is the height, a geometry needs none. NaN as a height stands for a missing one; NaN as a
+  // coordinate is an error.
   Status addPoint(const OGRFeature& feature, const OGRPoint& point) {
     if (zField_ < 0 && !point.Is3D())
       return failure(ErrorCode::invalidData,
@@ -109,6 +113,7 @@ class FeatureCollector {
   int zField_;
 };
 
+/// A field is a height only if its type is a number: texts that look like numbers are refused, not parsed.
 Result<int> findZField(OGRLayer& layer, const std::string& name) {
   if (name.empty()) return -1;
   const OGRFeatureDefn& definition = *layer.GetLayerDefn();
@@ -183,6 +188,8 @@ class PlaceHeight {
 /// the rule. Without a rule equal positions with different heights are an error, which names the first such
 /// pair in the file.
 Status mergeEqual(PointRows& rows, SamePlace rule, std::string_view originName, Warnings& warnings) {
+  // Equal positions are next to each other after sorting, and within one position the order of the file
+  // holds, so the first of each group is the first in the file.
   const std::size_t count = rows.heights.size();
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
@@ -199,6 +206,8 @@ Status mergeEqual(PointRows& rows, SamePlace rule, std::string_view originName, 
     const double own = rows.heights[a];
     PlaceHeight place(rule, own);
     std::size_t different = 0;
+    // All points at one place are compared with the first one there. The conflict to report is the one whose
+    // second point comes first in the file.
     for (next = first + 1; next < count && p[a] == p[order[next]]; ++next) {
       const std::uint32_t b = order[next];
       repeated[b] = true;
@@ -215,6 +224,8 @@ Status mergeEqual(PointRows& rows, SamePlace rule, std::string_view originName, 
     joined += different;
     places += different > 0 ? 1 : 0;
   }
+  // Conflicts are errors only without a rule; under a rule the warnings count what was left out and how far
+  // it was off.
   if (const auto [a, b] = conflict; b < count && rule == SamePlace::refuse)
     return failure(ErrorCode::degenerate,
                    fmt::format("two points at x {}, y {} have different heights: {} ({} {}) and {} ({} {}); "
@@ -243,6 +254,7 @@ Status mergeEqual(PointRows& rows, SamePlace rule, std::string_view originName, 
   return {};
 }
 
+/// Everything that follows the rows: NODATA, equal places, and what the CRS says of the vertical axis.
 Result<PointRead> finish(PointRows rows, std::string_view originName, const OGRSpatialReference* crs,
                          const PointReadOptions& options, const std::string& path, PointRead read) {
   if (options.nodata) dropNodata(rows, *options.nodata, read.warnings);
@@ -252,6 +264,8 @@ Result<PointRead> finish(PointRows rows, std::string_view originName, const OGRS
                    fmt::format("holds {} points; {} can be numbered", rows.heights.size(), kPointLimit - 1));
   ARETE_CHECK(mergeEqual(rows, options.samePlace, originName, read.warnings));
 
+  // The geotransform maps the middle of the pixel (x, y) to x, y: positions are coordinates of the CRS
+  // already.
   PointHeightfield& points = read.heightfield;
   points.georeference.geoTransform = {-0.5, 1, 0, -0.5, 0, 1};
   points.georeference.hasGeoTransform = true;
@@ -270,6 +284,7 @@ Result<PointRead> finish(PointRows rows, std::string_view originName, const OGRS
   return read;
 }
 
+// A file that looks like text goes to our own reader, and GDAL opens only what does not.
 Result<PointRead> readFrom(const std::string& path, const PointReadOptions& options,
                            const RunContext& context) {
   registerGdal();

@@ -43,6 +43,8 @@ std::string_view AmtContainer::metadata() const {
   return {reinterpret_cast<const char*>(text.data()), text.size()};
 }
 
+/// A file that is read piece by piece can fail at any piece; the image keeps the first problem, and this
+/// returns it.
 Status AmtContainer::loaded() const {
   const std::optional<Error> problem = file_->problem();
   return problem ? Status(tl::unexpected(*problem)) : Status();
@@ -62,6 +64,8 @@ Result<std::shared_ptr<const FileImage>> AmtContainer::openImage(const std::stri
   return std::shared_ptr<const FileImage>(std::move(mapped));
 }
 
+/// Tells a foreign file, one of another byte order and one of another version apart: each needs other advice.
+/// A file shorter than the magic is judged by the bytes that it has.
 Status AmtContainer::readHeader(AmtHeader& header) const {
   const auto front = bytes().first(std::min(bytes().size(), sizeof header));
   ARETE_CHECK(load(front));
@@ -102,6 +106,8 @@ Status AmtContainer::readDirectory(const AmtHeader& header) {
   if (bytes().size() < directoryEnd) return truncated(std::max(directoryEnd, header.fileBytes));
   ARETE_CHECK(load(bytes().first(directoryEnd)));
 
+  // The checksum lies between the fields that it covers and the directory, so these are joined before it is
+  // computed.
   std::vector<std::byte> front(offsetof(AmtHeader, checksum) + header.directoryBytes);
   std::memcpy(front.data(), bytes().data(), offsetof(AmtHeader, checksum));
   std::memcpy(front.data() + offsetof(AmtHeader, checksum), bytes().data() + header.directoryOffset,
@@ -115,6 +121,8 @@ Status AmtContainer::readDirectory(const AmtHeader& header) {
                                header.fileBytes));
   if (header.reserved != 0) return corrupt("has a header whose reserved field is not zero");
 
+  // Only now are the chunks taken over: each begins at the first multiple of 64 behind the one before it, so
+  // that a file has one layout and nothing hides between chunks.
   chunks_.resize(header.chunkCount);
   if (header.chunkCount != 0)
     std::memcpy(chunks_.data(), bytes().data() + header.directoryOffset, header.directoryBytes);
@@ -157,6 +165,8 @@ Status AmtContainer::checkMetadata() const {
   return {};
 }
 
+/// The metadata determines the type and the length of each column; afterwards a column can be used as an
+/// array without further tests of its bounds.
 Status AmtContainer::checkShapes(std::span<const AmtShape> shapes) const {
   for (const AmtShape& shape : shapes) {
     const AmtChunk* const chunk = find(shape.tag);
@@ -176,6 +186,7 @@ tl::unexpected<Error> AmtContainer::altered(const AmtChunk& chunk) const {
   return corrupt(fmt::format("has been altered: the checksum of chunk {} does not match", chunk.name()));
 }
 
+/// Checks all chunks but one, whose packets have checksums of their own and are checked when they are read.
 Status AmtContainer::checkSums(const AmtTag& leftOut, const RunContext& context) const {
   for (const AmtChunk& chunk : chunks_)
     if (chunk.tag != leftOut) ARETE_CHECK(load(bytes(chunk)));
@@ -193,6 +204,7 @@ Status AmtContainer::checkSums(const AmtTag& leftOut, const RunContext& context)
   return {};
 }
 
+/// The bytes that no checksum covers are the paddings, so with checkSums() every byte of the file is known.
 Status AmtContainer::checkZeros() const {
   std::uint64_t end = sizeof(AmtHeader) + chunks_.size() * sizeof(AmtChunk);
   const auto isZeroUpTo = [&](std::uint64_t begin) {

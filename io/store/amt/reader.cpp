@@ -15,6 +15,7 @@
 
 namespace arete {
 
+// Fills an AmtFile from a container: the spans point into the file, and no array is copied.
 class AmtOpener {
  public:
   static Result<AmtFile> open(AmtContainer container);
@@ -44,6 +45,8 @@ Result<AmtMetadata> AmtOpener::readMetadata() const {
   return read;
 }
 
+// A packed model has no arrays yet, and readMt() makes them; of any other the columns are used in place. The
+// metadata is kept only where unpacking needs it.
 Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
   AmtFacts facts = amtFactsOf(metadata);
   ARETE_CHECK(checkColumns<TerrainModel>(all_, facts));
@@ -81,6 +84,7 @@ Result<AmtFile> AmtOpener::open(AmtContainer container) {
   return file;
 }
 
+// Packed nodes are left out here: each packet is loaded when it is decoded.
 Status AmtFile::loadAllButPacked() const {
   for (const AmtChunk& chunk : chunks())
     if (chunk.tag != amt_tag::kPackedNodes) ARETE_CHECK(container_.load(bytes(chunk)));
@@ -99,6 +103,8 @@ double AmtFile::errorBeyond(std::uint64_t nodes) const {
   return entry < a.blockError.size() ? a.scale.decode(a.blockError[entry]) : 0;
 }
 
+/// A part is read alone where the file's segments have checksums of their own; otherwise everything is loaded
+/// and checked. A failed read of the file is reported before the failure to unpack that it causes.
 Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const RunContext& context) const {
   const bool isPart = options.wanted && options.verify != AmtVerify::none && !isPacked() && hasSegments();
   if (isPart) return readAmtPart(*this, options.wanted, options.verify, context);
@@ -114,6 +120,8 @@ Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const 
   return mt;
 }
 
+// The isolated samples and the fixed vertices are copied into the model, while the arrays of the MT stay
+// where they lie in the file.
 Result<TerrainModel> AmtFile::read(const AmtReadOptions& options, const RunContext& context) const try {
   ARETE_TRY(MultiTriangulation mt, readMt(options, context));
   TerrainModel model = model_;
