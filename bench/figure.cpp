@@ -36,6 +36,8 @@ Better betterOf(const std::string& text) {
 
 }  // namespace
 
+// A report names what its figures depend on: the build, the compiler, the machine and how busy it was. Debug
+// builds are marked, since their times mean nothing.
 Report emptyReport() {
   Report report;
 #ifdef NDEBUG
@@ -63,6 +65,7 @@ Report emptyReport() {
   return report;
 }
 
+// The names of the fields are the format of reports that are kept, so they stay as they are.
 Json toJson(const Figures& figures) {
   Json all = Json::array();
   for (const Figure& f : figures)
@@ -88,6 +91,7 @@ Json toJson(const Report& report) {
           {"figures", toJson(report.figures)}};
 }
 
+/// A report with a missing field throws, and readReport() turns that into an error.
 Figures figuresFromJson(const Json& json) {
   Figures figures;
   for (const Json& f : json) {
@@ -104,6 +108,7 @@ Figures figuresFromJson(const Json& json) {
   return figures;
 }
 
+// A file that is damaged or of another program ends as an error that names the path.
 Result<Report> readReport(const std::string& path) {
   std::ifstream file(path);
   if (!file) return failure(ErrorCode::notFound, "the report cannot be opened", path);
@@ -125,6 +130,7 @@ Result<Report> readReport(const std::string& path) {
   }
 }
 
+/// The file is written under a temporary name and renamed, as all outputs are.
 Status writeReport(const Report& report, const std::string& path) {
   ARETE_TRY(FileWriter writer, FileWriter::create(path));
   writer.write(toJson(report).dump(1));

@@ -68,6 +68,8 @@ Status checkPictureOutputs(const ViewArguments& a, const TerrainModel& model) {
                                      {"--film", a.pictures.film},
                                      {"--figures", a.pictures.figures}}) {
     if (path.empty()) continue;
+    // A file that the frames will overwrite is named as an output already, so that the check below refuses
+    // it.
     const fs::path file(path), folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
     std::error_code ignored;
     const bool isFrame = !a.pictures.frames.empty() && file.filename().string().starts_with("frame_") &&
@@ -82,6 +84,8 @@ Status checkPictureOutputs(const ViewArguments& a, const TerrainModel& model) {
   return {};
 }
 
+// A refused camera is reported under the option that states it. A picture that falls short of what was wanted
+// is written all the same, with a warning that says why.
 Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView& view, Session& session,
                       Json& json) {
   const Result<FrameFigures> figures = view.draw(camera);
@@ -112,6 +116,7 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, const GroundHeight
       const auto frames,
       drawFilm(view, flight, {.folder = a.pictures.frames, .framesPerSecond = a.pictures.framesPerSecond},
                session.context()));
+  // What is wrong is counted over all frames, and each defect is one warning, however long the film is.
   Json list = Json::array();
   std::uint64_t triangles = 0;
   std::size_t unfinished = 0, empty = 0, large = 0, buried = 0;
@@ -137,6 +142,7 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, const GroundHeight
                              grouped(frames.size(), "frame has", "frames have")));
   if (hasFramesBehind(a.pictures.frames, frames.size()))
     session.warn(fmt::format("{} has frames of an earlier, longer flight behind these", a.pictures.frames));
+  // The figures list every frame; they go to a file of their own only if one is named.
   for (const FilmFrame& frame : frames) {
     Json entry = {{"file", frame.file}, {"seconds", frame.seconds}, {"camera", jsonOf(frame.camera)}};
     entry.update(jsonOf(frame.figures));
@@ -153,6 +159,7 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, const GroundHeight
   session.say(fmt::format("{}: {}, {} in the mean\n", a.pictures.frames,
                           grouped(frames.size(), "frame", "frames"),
                           grouped(triangles / frames.size(), "triangle", "triangles")));
+  // The film is encoded from the frames in their folder, at the rate at which they were drawn.
   if (!a.pictures.film.empty()) {
     const double rate =
         a.pictures.framesPerSecond > 0 ? a.pictures.framesPerSecond : flight.plan().framesPerSecond;

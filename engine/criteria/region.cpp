@@ -63,6 +63,8 @@ void appendEdges(const std::vector<Vec2>& chain, bool isClosed, std::vector<Segm
 
 }  // namespace
 
+// The bounds stay in plan coordinates and are widened by the distance, so that a query outside them ends
+// without a transformation. The chains are transformed once, here.
 Region::Region(RegionShape shape, const MetricFrame& metric) : shape_(std::move(shape)) {
   if (shape_.distance > 0) frame_ = metric;
   std::erase_if(shape_.rings, [](const auto& ring) { return ring.size() < 3; });
@@ -90,6 +92,8 @@ Region Region::box(const Box2& b) {
   return Region({{{b.xMin, b.yMin}, {b.xMax, b.yMin}, {b.xMax, b.yMax}, {b.xMin, b.yMax}}});
 }
 
+// The edges that a ray towards larger x crosses are counted. An end at the height of the ray counts as below
+// it, so a vertex there changes the parity as it should. A point on an edge is inside.
 bool Region::isInRings(Vec2 p) const {
   bool inside = false;
   const bool onEdge = ringTree_.anyIn({p.x, p.y, kInfinity, p.y}, [&](const Segment2& e) {
@@ -109,6 +113,8 @@ bool Region::contains(Vec2 plan) const {
   return isEdgeWithin(tree_, p, shape_.distance);
 }
 
+// A triangle can meet a region without a vertex of one in the other, so edges are compared with edges. If no
+// edge is near, the triangle is wholly inside or outside, and one corner decides.
 bool Region::meetsInner(Vec2 a, Vec2 b, Vec2 c) const {
   const double turn = cross(a, b, c) < 0 ? -1 : 1;
   const auto inTriangle = [&](Vec2 p) {
@@ -134,6 +140,8 @@ bool Region::meetsTriangle(Vec2 a, Vec2 b, Vec2 c) const {
   return meetsInner(toInner(a), toInner(b), toInner(c));
 }
 
+// Discs are widened and narrowed by a little, so that rounding never makes an answer wrong in the unsafe
+// direction.
 bool Region::meetsDisc(Vec2 centre, double radius) const {
   const Vec2 p = toInner(centre);
   return isEdgeWithin(tree_, p, (shape_.distance + radius) * (1 + 1e-9)) || isInRings(p);
@@ -145,6 +153,7 @@ bool Region::holdsDisc(Vec2 centre, double radius) const {
   return (left >= 0 && isEdgeWithin(tree_, p, left)) || (!isEdgeWithin(tree_, p, r) && isInRings(p));
 }
 
+/// With a distance the region is in metric space already; otherwise its chains are transformed.
 Region Region::scaled(const MetricFrame& metric) const {
   RegionShape shape = shape_;
   if (shape.distance == 0)

@@ -71,12 +71,14 @@ void KineticQueue::add(const Sphere& ball, float error, std::uint32_t node, floa
     spread_ = spread_ * 1664525u + 1013904223u;
     time = std::min(time, kMostUnits * (0.5 + 0.5 * double(spread_ >> 8) / double(1u << 24)));
   }
+  // A certificate of a bucket that has begun already is due with the next motion.
   const auto bucket = static_cast<std::uint64_t>((timeline.now + time) * kPerUnit);
   std::uint32_t& chain = bucket <= timeline.passed ? timeline.soon : timeline.buckets[bucket % kBuckets];
   chain = batchFor(chain);
   batches_[chain].put(ball, error, node);
 }
 
+/// A bucket is due as a whole: its batches are listed and it is empty afterwards.
 void KineticQueue::makeDue(std::uint32_t& chain) {
   for (std::uint32_t batch = chain; batch != kNone; batch = batches_[batch].next) due_.push_back(batch);
   chain = kNone;
@@ -89,6 +91,8 @@ void KineticQueue::makeDue(Timeline& timeline) {
   timeline.passed = 0;
 }
 
+// The ring holds one round: a bucket that is passed twice is due once. A time so large that digits are lost
+// makes everything due.
 void KineticQueue::advance(Timeline& timeline, double units) {
   const double now = timeline.now + units * (1 + 1e-9);
   if (!(now < 1e9)) return makeDue(timeline);
@@ -100,6 +104,8 @@ void KineticQueue::advance(Timeline& timeline, double units) {
   timeline.passed = bucket;
 }
 
+// Every timeline advances, since each may still hold certificates. The mean forgets earlier motions by a
+// share at each step, so it follows the present ones.
 void KineticQueue::advance(const Motion& moved) {
   if (moved.isZero()) return;
   for (Timeline& timeline : timelines_) advance(timeline, moved.in(timeline.rate));
@@ -113,6 +119,8 @@ void KineticQueue::advanceToEnd() {
   for (Timeline& timeline : timelines_) makeDue(timeline);
 }
 
+// The present timeline is kept while it fits, then any other that fits. A new one takes the place of the
+// oldest, whose certificates are due at once.
 void KineticQueue::chooseTimeline() {
   const Motion rate = widened(usual_);
   if (fitOf(rate, timelines_[current_].rate).isGood()) return;
@@ -133,6 +141,8 @@ void KineticQueue::chooseTimeline() {
   timelines_[current_].age = ++made_;
 }
 
+// Batches are reused, so that memory stays as large as the most that were in use. The list is cut only when
+// half of it is removed, which makes a removal O(1) in the mean.
 void KineticQueue::removeDue(std::size_t batches) {
   for (; batches > 0; --batches) {
     const std::uint32_t batch = due_[removed_++];

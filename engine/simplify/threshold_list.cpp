@@ -41,6 +41,7 @@ void ThresholdList::assign(std::span<const VertexId> vertices, std::span<const s
   removable_ = vertices.size() - fixed_;
 }
 
+// The output has room for every vertex, so that a write past the last due one is harmless.
 void ThresholdList::collect(double threshold, std::vector<VertexId>& due, Scratch& scratch) const {
   scratch(all().size(), kVerticesPerSpan, due, [&](std::size_t begin, std::size_t end, VertexId* to) {
     const std::size_t first = all().begin;
@@ -62,6 +63,7 @@ VertexId* ThresholdList::collectTo(std::size_t begin, std::size_t end, double th
   return to;
 }
 
+/// This looks at some vertices only; one that was removed has no index and is passed over.
 void ThresholdList::collect(std::span<const VertexId> some, double threshold, std::vector<VertexId>& due,
                             Scratch& scratch) const {
   scratch(some.size(), kVerticesPerSpan, due, [&](std::size_t begin, std::size_t end, VertexId* to) {
@@ -73,6 +75,8 @@ void ThresholdList::collect(std::span<const VertexId> some, double threshold, st
   });
 }
 
+/// A removed vertex leaves its place, with a threshold that is never due, until compact() closes the gaps.
+/// Vertices are distinct, so threads need no lock.
 void ThresholdList::remove(std::span<const VertexId> removed, LoopThreads threads) {
   forRanges(threads, removed.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (const VertexId v : removed.subspan(begin, end - begin)) {
@@ -90,6 +94,7 @@ void ThresholdList::sort(std::vector<VertexId>& vertices) const {
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
 
+// Fixed and removed vertices have the threshold kNever, above any other, so they need no test.
 float ThresholdList::least() const {
   float least = kNever;
   for (std::size_t index = kNoIndex + 1; index < thresholds_.size(); ++index)
@@ -97,6 +102,8 @@ float ThresholdList::least() const {
   return least;
 }
 
+// A sample at even steps is enough, since the quantile only guides the next level. With few vertices left
+// everything is due now.
 float ThresholdList::quantile(double fraction) const {
   constexpr std::size_t kMost = 1024, kFewest = 64;
   std::vector<float> sample;

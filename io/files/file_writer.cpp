@@ -18,6 +18,7 @@
 
 namespace arete {
 
+// The library allocates the state of the hash, which it needs at an aligned address.
 struct FileWriter::Hash {
   Hash() : state(XXH3_createState()) {
     if (!state) throw std::bad_alloc();
@@ -33,6 +34,8 @@ struct FileWriter::Hash {
   std::unique_ptr<XXH3_state_t, Free> state;
 };
 
+// Standard output is duplicated, so that finish() can close it, and see the errors of that, without taking it
+// from others.
 Result<FileWriter> FileWriter::create(const std::filesystem::path& path) {
   std::optional<OutputFile> file;
   int descriptor = -1;
@@ -50,6 +53,7 @@ Result<FileWriter> FileWriter::create(const std::filesystem::path& path) {
   return FileWriter(path, std::move(file), descriptor);
 }
 
+// A target that is written in place, such as a pipe, cannot be read again, so it has no hash.
 FileWriter::FileWriter(std::filesystem::path path, std::optional<OutputFile> file, int descriptor)
     : path_(std::move(path)),
       file_(std::move(file)),
@@ -70,6 +74,8 @@ FileWriter::~FileWriter() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
+/// A call may write less than it is given, or be interrupted by a signal; both go on. The first error is kept
+/// until finish(), and later bytes are dropped.
 void FileWriter::toDisk(const char* bytes, std::size_t count) {
   while (count > 0 && error_ == 0) {
     const ssize_t written = ::write(descriptor_, bytes, count);
@@ -94,6 +100,7 @@ void FileWriter::writeThrough(std::string_view bytes) {
   toDisk(bytes.data(), bytes.size());
 }
 
+// The file replaces an older one only after closing and reading it again have both succeeded.
 Status FileWriter::finish() {
   flush();
   if (::close(std::exchange(descriptor_, -1)) != 0 && error_ == 0) error_ = errno;
@@ -106,6 +113,7 @@ Status FileWriter::finish() {
   return file_->commit();
 }
 
+/// The buffer is free by now and serves for reading.
 Status FileWriter::readBack() const {
   const auto unreadable = [&](const std::string& why) {
     return failure(ErrorCode::unreadable, "cannot be read after it was written: " + why, path_.string());

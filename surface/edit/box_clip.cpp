@@ -79,6 +79,8 @@ void BoxClip::clipAt(unsigned face, const Triangle& triangle) {
       if (positionOf(other.vertex) == positionOf(vertex)) vertex = other.vertex;
     next_.push_back({vertex, edgeAfter});
   };
+  // A corner on the face itself serves as its own cut. The outline leaves the box along the face, so the next
+  // edge lies on it: its number is 3 plus the face.
   for (std::size_t i = 0; i < outline_.size(); ++i) {
     const Corner here = outline_[i], there = outline_[(i + 1) % outline_.size()];
     const bool isHereIn = isInside(here.vertex, face), isThereIn = isInside(there.vertex, face);
@@ -94,6 +96,7 @@ void BoxClip::clipAt(unsigned face, const Triangle& triangle) {
   std::swap(outline_, next_);
 }
 
+/// Edges 0 to 2 are edges of the triangle, which neighbours share; the others are sections with a face.
 std::uint32_t BoxClip::cutAt(unsigned edge, unsigned face, const Triangle& triangle) {
   return edge < 3 ? cutEdge(triangle[edge], triangle[(edge + 1) % 3], face)
                   : cutWithin(triangle, edge - 3, face);
@@ -110,6 +113,8 @@ std::uint32_t BoxClip::add(Cut cut) {
   return static_cast<std::uint32_t>(positions_.size() + cuts_.size() - 1);
 }
 
+// A cut of an edge is kept for both its triangles. Cuts that fall into one point, at a corner of the box,
+// become one vertex.
 std::uint32_t BoxClip::cutEdge(std::uint32_t a, std::uint32_t b, unsigned face) {
   const std::uint64_t key = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
   auto [found, isNew] = cutsOfEdge_.try_emplace(key);
@@ -128,6 +133,7 @@ std::uint32_t BoxClip::cutEdge(std::uint32_t a, std::uint32_t b, unsigned face) 
   return known[face] = add({position, {a, b, b}, {1 - share, share, 0}, true});
 }
 
+// The ends are put in order of their positions, so that both triangles at an edge compute the same numbers.
 BoxClip::Place BoxClip::placeOnEdge(const Triangle& triangle, unsigned edge, unsigned face) const {
   unsigned a = edge, b = (edge + 1) % 3;
   if (isBefore(positions_[triangle[b]], positions_[triangle[a]])) std::swap(a, b);
@@ -139,6 +145,8 @@ BoxClip::Place BoxClip::placeOnEdge(const Triangle& triangle, unsigned edge, uns
   return place;
 }
 
+// The section of the triangle with the first face is a segment; its ends lie on edges or corners of the
+// triangle. It is computed anew from the triangle and cut at the second face.
 std::uint32_t BoxClip::cutWithin(const Triangle& triangle, unsigned first, unsigned second) {
   const double bound = boundOf(box_, first);
   std::array<Place, 2> ends{};
@@ -157,6 +165,7 @@ std::uint32_t BoxClip::cutWithin(const Triangle& triangle, unsigned first, unsig
   if (isBefore(ends[1].position, ends[0].position)) std::swap(ends[0], ends[1]);
   const double share = shareAt(at(ends[0].position, axisOf(second)), at(ends[1].position, axisOf(second)),
                                boundOf(box_, second));
+  // A cut lies on both faces to the bit, and rounding is not left to say on which side.
   Cut cut{between(ends[0].position, ends[1].position, share), triangle, {}, false};
   at(cut.position, axisOf(first)) = bound;
   at(cut.position, axisOf(second)) = boundOf(box_, second);

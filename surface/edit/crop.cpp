@@ -49,6 +49,7 @@ class Crop {
   Crop(const SurfaceMesh& mesh, const Box3& box, const CropOptions& options)
       : mesh_(mesh), options_(options), clip_(mesh.positions, box), box_(box) {}
 
+  // Cancelling is looked for at intervals only, since most triangles take little time.
   Status run(const RunContext& context) {
     context.report("crop", 0);
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -64,6 +65,8 @@ class Crop {
 
   bool isEmpty() const { return triangles_.empty(); }
 
+  // The order matters: the numbers of vertices come first, then what refers to them, and the names that are
+  // left without a triangle go last.
   CroppedMesh finish() {
     CroppedMesh cropped;
     SurfaceMesh& to = cropped.mesh;
@@ -93,6 +96,7 @@ class Crop {
   }
 
  private:
+  // Most triangles are wholly outside or inside, which their boxes decide without cutting.
   void take(std::uint32_t t) {
     const Triangle& triangle = mesh_.triangles[t];
     Vec3 low = mesh_.positions[triangle[0]], high = low;
@@ -107,6 +111,7 @@ class Crop {
       return add(triangle, t);
     bool touches = false;
     const std::vector<std::uint32_t>& outline = clip_.clip(triangle, touches);
+    // Whole triangles are kept where any part of them, be it a corner, lies in the box; nothing is cut then.
     if (options_.keepsWhole) {
       if (touches) add(triangle, t);
       return;
@@ -123,6 +128,7 @@ class Crop {
     triangleOf_.push_back(from);
   }
 
+  // Vertices of cuts are numbered behind the mesh's own ones.
   bool isCut(std::uint32_t vertex) const { return vertex >= mesh_.positions.size(); }
   const BoxClip::Cut& cutOf(std::uint32_t vertex) const {
     return clip_.cuts()[vertex - mesh_.positions.size()];

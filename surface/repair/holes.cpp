@@ -53,6 +53,8 @@ std::vector<Hole> apart(const std::vector<HoleCorner>& loop, const std::vector<s
   std::vector<Hole> holes;
   std::vector<HoleCorner> open;
   std::vector<std::uint32_t> placesOpen;
+  // A place that is still open has been passed before: what lies between the two visits is a loop by itself.
+  // It is taken out, and the walk goes on with the outer loop from there.
   for (const HoleCorner& corner : loop) {
     const std::uint32_t place = placeOf[corner.in];
     const auto before = std::ranges::find(placesOpen, place);
@@ -77,6 +79,8 @@ class Filler {
   Filler(Draft& draft, std::uint32_t mostEdges)
       : draft_(draft), mostEdges_(mostEdges), placeOf_(placesOf(draft.mesh.positions)) {}
 
+  // Loops are taken first and holes filled afterwards, since filling changes the edges. The limit counts the
+  // edges of a hole; a sliver of two edges goes by the border that it is a part of.
   void run() {
     draft_.openHoles = 0;
     std::vector<Hole> holes;
@@ -101,6 +105,7 @@ class Filler {
   }
 
  private:
+  // Joining comes only after a filling was found: a hole that stays open leaves the mesh as it was.
   void fill(const Hole& hole, HoleFilling& filling) {
     if (!canJoin(hole)) {
       ++draft_.openHoles;
@@ -122,6 +127,8 @@ class Filler {
       ++draft_.openHoles;
       return;
     }
+    // The corners are joined now, so that the new triangles refer to the vertices that remain. Filling
+    // triangles come from no triangle of the source.
     join(hole);
     ++draft_.counts.filledHoles;
     for (const HoleFilling::Corners& t : triangles) {

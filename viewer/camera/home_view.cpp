@@ -59,6 +59,8 @@ double MetricBox::diagonal() const {
   return std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
 }
 
+// The box is taken in the units of the model and transformed by its two corners, since the metric scales and
+// shifts each axis alone.
 MetricBox metricBox(const TerrainModel& model) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   Vec3 low{kNone, kNone, kNone}, high{-kNone, -kNone, -kNone};
@@ -94,6 +96,8 @@ std::string_view toString(HomeView view) {
   return "unknown";
 }
 
+// The slopes are the tangents of half the angles of view, less what is kept free on either side. Pixels are
+// square, so the horizontal slope follows from the picture's shape.
 Vec3 eyeOnAll(std::span<const Vec3> points, const PictureAxes& axes, const Camera& picture) {
   const double slope =
       std::tan(picture.verticalFieldOfViewDegrees * std::numbers::pi / 360) * (1 - 2 * kFree);
@@ -113,6 +117,7 @@ Vec3 eyeOnAll(std::span<const Vec3> points, const PictureAxes& axes, const Camer
           x * axes.right.z + y * axes.up.z + z * axes.ahead.z};
 }
 
+// Coordinates are taken from the middle of the box, where they have most digits left.
 Camera cameraOnAll(const CameraSpace& space, const MetricBox& box, Look look, const Camera& picture) {
   const Vec3 centre = box.centre();
   std::array<Vec3, 8> corners = box.corners();
@@ -124,6 +129,8 @@ Camera cameraOnAll(const CameraSpace& space, const MetricBox& box, Look look, co
   return camera;
 }
 
+// Azimuths count clockwise from north: fromWest looks to the east. The overview looks from the south, 30
+// degrees downwards.
 Look homeLook(HomeView view) {
   switch (view) {
     case HomeView::overview:
@@ -142,6 +149,8 @@ Look homeLook(HomeView view) {
   return {};
 }
 
+// The view is found over the exaggerated box; the camera is stored in heights of the terrain, which the
+// viewer exaggerates again.
 Camera homeCamera(HomeView view, const CameraSpace& space, const MetricBox& box, const Camera& picture,
                   double stretch) {
   MetricBox drawn = box;

@@ -70,6 +70,8 @@ Result<ComputeFront> ComputeFront::create(const TerrainOnGpu& t, std::uint32_t m
         program(f.step_, {"front_state.glsl", "morph_step.comp.glsl"})})
     if (!ok) return tl::unexpected(ok.error());
 
+  // Two halves of the index buffer are kept, one drawn while the other is written: 12 bytes of corners and 4
+  // bytes of id for each triangle, twice.
   f.capacity_ = std::max(mostTriangles, t.rootTriangles);
   f.memberWords_ = std::max(1u, 2 * t.blocks);
   State state;
@@ -89,6 +91,8 @@ Result<ComputeFront> ComputeFront::create(const TerrainOnGpu& t, std::uint32_t m
   return f;
 }
 
+// Each stage reads what the one before has written, so every dispatch ends with a barrier. Later stages take
+// their size from the state, which the CPU never reads in between.
 void ComputeFront::cut(const TerrainOnGpu& t, bool isMorphing, int morphSteps) {
   glClearNamedBufferData(members_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
@@ -109,6 +113,7 @@ void ComputeFront::cut(const TerrainOnGpu& t, bool isMorphing, int morphSteps) {
   dispatchBy(roots_, offsetof(State, roots));
   bind<1>({t.links});
   dispatchBy(stars_, offsetof(State, blocks));
+  // Without geomorphing the two steps for moving vertices, before and after the publication, are left out.
   if (isMorphing && t.nodeCount > 0) {
     bind<7>({t.nodeBalls, t.nodes, members_, t.morphs, t.rises, moving_, blockList_});
     dispatchBy(list_, offsetof(State, blocks));
@@ -119,6 +124,8 @@ void ComputeFront::cut(const TerrainOnGpu& t, bool isMorphing, int morphSteps) {
   glMemoryBarrier(GL_ELEMENT_ARRAY_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
                   GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 
+  // The state is copied with a fence, a few frames behind: the CPU reads counts without waiting for the
+  // device.
   Copy& copy = copies_[std::size_t(nextCopy_)];
   nextCopy_ = (nextCopy_ + 1) % kLate;
   if (copy.fence) glDeleteSync(copy.fence);

@@ -61,6 +61,7 @@ class StlWriter {
         context_(context),
         runs_(mesh) {}
 
+  // Only ASCII STL can hold several objects, so a mesh of several runs is written as that.
   Result<MeshWriteReport> write() {
     ARETE_CHECK(runs_.runs.size() > 1 ? writeAscii() : writeBinary());
     return std::move(report_);
@@ -79,6 +80,7 @@ class StlWriter {
       return refuse(
           fmt::format("{} triangles are more than the 32-bit count of an STL", shape_.triangles.size()));
     const std::string header = takeHeader();
+    // Positions are checked before the file is created, so that a refusal leaves an older file alone.
     constexpr double kLargest = std::numeric_limits<float>::max();
     for (const Vec3& p : shape_.positions)
       if (!(std::abs(p.x - origin_.x) <= kLargest && std::abs(p.y - origin_.y) <= kLargest &&
@@ -95,6 +97,7 @@ class StlWriter {
                         static_cast<double>(t) / static_cast<double>(shape_.triangles.size()));
         if (context_.cancelled()) return interrupted();
       }
+      // The normal is computed from the rounded corners: it belongs to the triangle that readers see.
       std::array<std::array<float, 3>, 3> rounded;
       std::array<Vec3, 3> corners;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -139,6 +142,8 @@ class StlWriter {
     return header;
   }
 
+  // A column with the words of the file goes back unchanged, and takes precedence over colours, which would
+  // be packed into the same two bytes.
   void findFacetAttribute() {
     for (const Attribute& a : mesh_.triangleAttributes) {
       if (a.name == "attribute" && a.type == ScalarType::uint16 && a.components == 1) words_ = &a;
@@ -158,6 +163,7 @@ class StlWriter {
     return facetWord(color, isColorRounded_);
   }
 
+  /// What the format could not hold is listed for the user, and only where this mesh has it.
   void nameBinaryLosses() {
     report_.lost = lossesOf(
         mesh_, {.triangleAttribute = [&](const Attribute& a) { return &a == words_ || &a == colors_; },
@@ -167,6 +173,8 @@ class StlWriter {
     if (flattened_ > 0) report_.lost.push_back(flattenedLoss(flattened_));
   }
 
+  // A run without an object has no name; the ASCII format takes a bare "solid". The lists of what is lost
+  // follow the file, as the file itself has succeeded by then.
   Status writeAscii() {
     WriteProgress progress(shape_.triangles.size() + runs_.runs.size(), path_.string(), context_);
     ARETE_TRY(FileWriter file, FileWriter::create(path_));
@@ -194,6 +202,7 @@ class StlWriter {
     return {};
   }
 
+  /// Numbers have the shortest digits that give the same number, so ASCII keeps doubles to the bit.
   void writeFacet(FileWriter& file, std::size_t t) {
     std::array<Vec3, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = shape_.positions[shape_.triangles[t][k]];

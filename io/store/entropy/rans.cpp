@@ -37,6 +37,8 @@ RansTable RansTable::ofCounts(std::span<const std::uint64_t, kAlphabet> counts) 
   return *ofShares(shares);
 }
 
+// Shares come from a file too, so a sum that is not the whole, or overflows on the way, is refused and not
+// repaired.
 std::optional<RansTable> RansTable::ofShares(const std::array<std::uint16_t, kAlphabet>& shares) {
   RansTable table;
   table.shares_.assign(shares.begin(), shares.end());
@@ -51,6 +53,8 @@ std::optional<RansTable> RansTable::ofShares(const std::array<std::uint16_t, kAl
   return table;
 }
 
+// A decoder finds a symbol by one look-up: each symbol fills as many bytes as it has share. The shares and
+// beginnings follow them, one word for each symbol.
 void RansTable::writeEntries(std::uint32_t* entries) const {
   std::fill_n(entries, kEntries, 0);
   if (isEmpty()) return;
@@ -62,12 +66,16 @@ void RansTable::writeEntries(std::uint32_t* entries) const {
   std::memcpy(entries, symbols.data(), symbols.size());
 }
 
+/// The last symbol is encoded first, so that the decoder, which works in the opposite direction, gets the
+/// first one first.
 std::vector<std::byte> ransEncode(std::span<const RansSymbol> symbols, std::span<const RansTable> tables) {
   std::vector<std::uint32_t> words;
   std::uint64_t state = RansDecoder::kLow;
   for (std::size_t i = symbols.size(); i-- > 0;) {
     const RansTable& table = tables[symbols[i].table];
     const std::uint32_t share = table.share(symbols[i].symbol);
+    // The bound is the least state that the step would carry to 2^63: one word at most is written at each
+    // step.
     if (state >= std::uint64_t{share} << (63 - RansTable::kBits)) {
       words.push_back(static_cast<std::uint32_t>(state));
       state >>= 32;
@@ -82,6 +90,8 @@ std::vector<std::byte> ransEncode(std::span<const RansSymbol> symbols, std::span
   return bytes;
 }
 
+/// Symbols are stored by their distances from each other and shares less one, so that common tables take a
+/// byte for each number.
 std::vector<std::byte> toBytes(std::span<const RansTable> tables) {
   NumberWriter out;
   for (const RansTable& table : tables) {
@@ -100,6 +110,8 @@ std::vector<std::byte> toBytes(std::span<const RansTable> tables) {
   return out.take();
 }
 
+/// The bytes come from a file: each symbol must lie in the alphabet, shares must add up, and nothing may
+/// follow.
 std::optional<std::vector<RansTable>> tablesOf(std::span<const std::byte> bytes, std::size_t count) {
   NumberReader in(bytes);
   std::vector<RansTable> tables(count);

@@ -191,6 +191,7 @@ GltfVertexAttributes::Column GltfVertexAttributes::columnOf(const VertexGroup& g
   return column;
 }
 
+// This estimates the memory before anything is stored, so that a small file cannot make the reader take much.
 std::uint64_t GltfVertexAttributes::bytesAfter(const VertexGroup& group, std::uint64_t first,
                                                std::uint64_t count) const {
   std::uint64_t perVertex = 0;
@@ -200,6 +201,8 @@ std::uint64_t GltfVertexAttributes::bytesAfter(const VertexGroup& group, std::ui
   return perVertex * (first + count);
 }
 
+// The attributes of a group are added to columns that grow with the groups. Vertices of earlier groups that
+// lack the attribute are filled in first.
 void GltfVertexAttributes::add(const VertexGroup& group, std::uint64_t first, std::uint64_t count) {
   for (const GltfAttribute& attribute : group.primitive.attributes) {
     if (isLeftOut(attribute)) continue;
@@ -218,6 +221,8 @@ void GltfVertexAttributes::add(const VertexGroup& group, std::uint64_t first, st
     Attribute& to = column->attribute;
     column->isGuessed |= wanted.isGuessed;
     fillTo(to, first);
+    // A column takes the type that holds both the old and the new elements; the old ones are converted at
+    // most when that type changes.
     const auto [type, isNormalized] = commonType(to, wanted.attribute);
     const std::uint8_t components = std::max(to.components, wanted.attribute.components);
     if (type != to.type || isNormalized != to.isNormalized || components != to.components) {
@@ -227,6 +232,7 @@ void GltfVertexAttributes::add(const VertexGroup& group, std::uint64_t first, st
       column->hasSeveralTypes = true;
     }
     column->filled += count;
+    // Equal types are copied byte by byte, so that the numbers of the file survive to the bit.
     const GltfElements& from = attribute.elements;
     if (isCopied(group, attribute) && from.type == to.type && from.components == to.components &&
         from.isPacked() && (from.isNormalized || column->isGuessed) == to.isNormalized) {
@@ -236,6 +242,8 @@ void GltfVertexAttributes::add(const VertexGroup& group, std::uint64_t first, st
       }
       continue;
     }
+    // Whole numbers that are guessed to be fractions have no fraction taken yet, which the division makes up
+    // for.
     std::vector<double> element;
     const double guessed = wanted.isGuessed ? GltfElements::largestOf(from.type) : 1;
     for (std::uint64_t i = 0; i < count; ++i) {
@@ -247,6 +255,8 @@ void GltfVertexAttributes::add(const VertexGroup& group, std::uint64_t first, st
   }
 }
 
+// What the reader changed or filled in is said once for each attribute, and vertices behind the last group
+// with it are filled.
 std::vector<Attribute> GltfVertexAttributes::finish(std::uint64_t vertices, Warnings& warnings) {
   std::vector<Attribute> attributes;
   if (hasTooMany_)

@@ -85,6 +85,8 @@ class DocumentWriter {
  public:
   explicit DocumentWriter(const Parts& parts) : parts_(parts) {}
 
+  // The order of the additions to the plan is the order of the bytes in the buffer, which BufferWriter
+  // repeats.
   Json document() {
     Json document = {{"asset", parts_.asset}};
     if (parts_.plan.objects.empty()) return document;
@@ -93,6 +95,8 @@ class DocumentWriter {
       Json node = Json::object(), mesh = Json::object();
       if (!object.name.empty()) node["name"] = mesh["name"] = object.name;
       node["mesh"] = meshes.size();
+      // Positions are stored near the origin, where 32-bit floats have most digits; the node moves them back
+      // to where they belong.
       if (const Vec3& t = parts_.translation; !(t == Vec3{})) node["translation"] = {t.x, t.y, t.z};
       mesh["primitives"] = primitivesOf(object);
       roots.push_back(nodes.size());
@@ -110,6 +114,7 @@ class DocumentWriter {
     document["scene"] = 0;
     document["scenes"] = {{{"nodes", std::move(roots)}}};
     document["nodes"] = std::move(nodes);
+    // The standard does not allow an empty list, so lists without elements are left out.
     const auto add = [&](const char* key, Json list) {
       if (!list.empty()) document[key] = std::move(list);
     };
@@ -135,6 +140,8 @@ class DocumentWriter {
     if (!required.empty()) document["extensionsRequired"] = required;
   }
 
+  // Every primitive of an object shares its vertices; only the indices differ. The standard requires the box
+  // of the positions.
   Json primitivesOf(const ObjectPlan& object) {
     const std::size_t count = object.vertices.empty() ? parts_.positions.size() : object.vertices.size();
     Json attributes = {{"POSITION", plan_.add(count, sizeof(Float3), sizeof(Float3), GltfCode::kVertexData,
