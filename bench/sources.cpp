@@ -62,6 +62,7 @@ Status writeScattered(const std::string& path, const RasterHeightfield& field) {
 
 }  // namespace
 
+/// A damaged file ends as an error with the message of the JSON library.
 Result<std::vector<GreedyBaseline>> readBaselines(const std::string& path) {
   std::ifstream file(path);
   if (!file) return failure(ErrorCode::notFound, "the baselines cannot be opened", path);
@@ -79,6 +80,7 @@ Result<std::vector<GreedyBaseline>> readBaselines(const std::string& path) {
   }
 }
 
+// Without ARETE_DATA the data is looked for in a folder next to the sources.
 std::string dataFolder() {
   if (const char* stated = std::getenv("ARETE_DATA")) return stated;
   const fs::path beside = fs::path(ARETE_SOURCE_FOLDER).parent_path() / "shared" / "data";
@@ -86,6 +88,7 @@ std::string dataFolder() {
   return fs::exists(beside, ignored) ? beside.string() : std::string();
 }
 
+// DEMs that are not here are passed over, so that the benchmarks run with whatever part of the data exists.
 std::vector<DemSource> realDems(const std::string& folder) {
   std::vector<DemSource> sources;
   std::error_code ignored;
@@ -97,6 +100,8 @@ std::vector<DemSource> realDems(const std::string& folder) {
   return sources;
 }
 
+// A million samples is a square of 1024 by 1024 cells; one more sample in each direction closes the last
+// cells. The side is in the name of the file, so that it is generated once and used again.
 DemSource generatedDem(double millions, const std::string& scratch) {
   DemSource source;
   source.name = fmt::format("generated-{:g}M", millions);
@@ -114,6 +119,7 @@ DemSource withoutLake(const DemSource& source) {
   return dry;
 }
 
+// The points of the lake would be missing, so the terrain of scattered points is made without it.
 DemSource scattered(const DemSource& source) {
   DemSource points = withoutLake(source);
   points.name = "points" + points.name.substr(points.name.find('-'));
@@ -140,6 +146,7 @@ Result<RasterHeightfield> readField(const DemSource& source) {
   return std::move(std::get<RasterHeightfield>(dem.heightfield));
 }
 
+// The benchmark has written the model itself, so the checksums are not verified.
 Result<TerrainModel> loadModel(const std::string& path) {
   AmtLoadOptions trusted;
   trusted.verify = AmtVerify::none;

@@ -64,6 +64,7 @@ class NodeCheck {
       for (std::size_t j = 0; j < i; ++j)
         if (floor[j] == t) return fmt::format("law 3: node {} lists triangle {} twice", n, t);
     }
+    // The last slot of an open star is no triangle, and its remover is the node itself.
     for (std::uint32_t i = 0; i < slots; ++i) {
       if (link[i] >= mt_.apex(node).index())
         return fmt::format("law 1: node {} inserts vertex {} next to the younger vertex {}", n,
@@ -78,6 +79,7 @@ class NodeCheck {
     }
     if (std::string what = boundary(n); !what.empty()) return what;
     if (std::string what = saturation(n); !what.empty()) return what;
+    // Blocks and pages of nodes bound their members' errors and spheres, since cuts skip them as a whole.
     for (const std::uint64_t entry : blockEntries(mt_.nodeCount(), n)) {
       if (!holdsError(a_, entry, n))
         return fmt::format("law 6: block {} has a smaller error than its node {}", entry, n);
@@ -98,6 +100,7 @@ class NodeCheck {
     };
     std::vector<Edge> edges;
     double floorArea = 0, starArea = 0, uncertainty = 0;
+    // Areas are sums with bounds of their rounding, so that a valid file is never refused for it.
     for (std::uint32_t f = 0; f < floor.size(); ++f) {
       const auto c = mt_.corners(TriangleId(floor[f]));
       if (hasPlan_) {
@@ -125,6 +128,7 @@ class NodeCheck {
       return x;
     };
     std::size_t onRim = 0, inner = 0;
+    // Edges are compared with each other in pairs, since a floor has few triangles.
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const Edge& e = edges[i];
       std::size_t same = 0, reverse = 0;
@@ -143,6 +147,8 @@ class NodeCheck {
             e.from, e.to, same, reverse, isRim ? "on" : "off");
       (isRim ? onRim : inner) += 1;
     }
+    // The floor is one polygon if its triangles are connected and share one inner edge less than there are
+    // triangles.
     if (onRim != slots)
       return fmt::format("law 2: the floor of node {} holds {} of the rim's {} edges", n, onRim, slots);
     for (std::uint32_t f = 1; f < floor.size(); ++f)
@@ -157,6 +163,8 @@ class NodeCheck {
     return {};
   }
 
+  /// A test of a node must never pass where its child's, or a triangle's of its floor, fails: errors and
+  /// spheres of a node hold all below it.
   std::string saturation(std::uint32_t n) const {
     const NodeId node(n);
     for (const std::uint32_t t : mt_.floor(node))
@@ -176,6 +184,8 @@ class NodeCheck {
       return fmt::format("law 6: the sphere of node {} misses its own vertex", n);
     for (const std::uint32_t v : mt_.link(node))
       if (!holds(v)) return fmt::format("law 6: the sphere of node {} misses its link's vertex {}", n, v);
+    // The triangles that a node adds are removed by its children, whose errors and spheres the node must
+    // hold.
     for (std::uint32_t i = 0; i < mt_.ceilingSize(node); ++i) {
       const NodeId child = mt_.remover(mt_.slotTriangle(node, i));
       if (!child.isValid()) continue;

@@ -126,6 +126,8 @@ class ViewMesh::State {
     return camera.pixelsOf(std::max(worst, cutPixels) + offset);
   }
 
+  // The cut and the surface go on from frame to frame; the vectors are copies of the last frame, with which
+  // the next one is compared.
   IncrementalCut cut_;
   GeomorphedSurface surface_;
   Vec3 origin_;
@@ -135,6 +137,7 @@ class ViewMesh::State {
   std::vector<HeightChange> heights_;
 };
 
+// Exaggeration changes the metric and the spheres alone, so the cut and its tolerances need no other change.
 Result<ViewMesh> ViewMesh::create(MultiTriangulation mt, const Options& options) try {
   if (!(options.heightScale > 0 && std::isfinite(options.heightScale)))
     return failure(ErrorCode::usage, "heights can be multiplied by a number above 0 only", "view mesh");
@@ -156,6 +159,7 @@ Result<ViewMesh::Report> ViewMesh::update(const View& view, const UpdateOptions&
   return caughtFailure();
 }
 
+// Positions are computed for all vertices, since a front may use any of them.
 std::vector<std::array<float, 3>> ViewMesh::positions() const {
   std::vector<std::array<float, 3>> all(mt().vertexCount());
   parallelFor(IndexRange<std::uint32_t>(0, mt().vertexCount(), 4096), [&](const auto& range) {

@@ -49,6 +49,8 @@ Result<std::shared_ptr<const CopiedFile>> CopiedFile::open(const std::string& pa
                                                           file.status, static_cast<std::byte*>(begin)));
 }
 
+// Blocks are read at different times, so each must be of the same file: its size and time of change are
+// compared after every read.
 Status CopiedFile::checkUnchanged() const {
   struct ::stat now {};
   if (::fstat(descriptor_, &now) != 0)
@@ -74,6 +76,8 @@ Status CopiedFile::read(std::size_t begin, std::size_t end) const {
   return checkUnchanged();
 }
 
+// The flags are read without the lock first, since most parts are there already. Neighbouring blocks that are
+// missing are read at once.
 bool CopiedFile::load(std::span<const std::byte> part) const {
   if (part.empty()) return true;
   const auto begin = static_cast<std::size_t>(part.data() - bytes_.data());
@@ -90,6 +94,8 @@ bool CopiedFile::load(std::span<const std::byte> part) const {
     }
     std::size_t behind = block + 1;
     while (behind < end && !isLoaded(behind)) ++behind;
+    // A block counts as loaded only after the whole read has succeeded; the first problem is kept, so that it
+    // can be reported later.
     const Status done = read(block * kBlock, std::min(behind * kBlock, bytes_.size()));
     if (!done) {
       if (!problem_) problem_ = done.error();

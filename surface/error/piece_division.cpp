@@ -266,6 +266,8 @@ void PieceDivision::assign(std::uint32_t face, std::uint32_t cuts, std::span<con
   bounds_[f] = std::max(bounds_[f], std::sqrt(whole.squared) * (1 + 1e-12) + rounding);
 }
 
+/// The pieces are measured by their distances from the segment between a and b: the triangle contains it, so
+/// the bound holds for the triangle too.
 void PieceDivision::giveAcross(int f, std::uint8_t across, const Vec3& a, const Vec3& b) {
   joinParts();
   const Vec3 along = b - a;
@@ -299,6 +301,7 @@ void PieceDivision::divide(std::span<const Vec3> corners, const HoleTriangulatio
     bounds_[t] = 0;
     integrals_[t] = {};
   }
+  // What every division leaves anyway is known before any cut, so parts that are good enough are not cut.
   double anyway = 0;
   for (Part& part : parts_) {
     double least = 0;
@@ -314,6 +317,7 @@ void PieceDivision::divide(std::span<const Vec3> corners, const HoleTriangulatio
       assign(part.face, part.cuts, polygonOf(part), face, part.whole);
       continue;
     }
+    // The tree of cuts is made at the first part that needs it, and shared by the others.
     if (!isPlanned) {
       root = planCuts(floor, FloorJoins(floor), corners, members);
       isPlanned = true;
@@ -323,6 +327,8 @@ void PieceDivision::divide(std::span<const Vec3> corners, const HoleTriangulatio
     cutAlong(root, 0, face, hull_, part.cuts);
     for (std::size_t i = 0, count = leafCount_; i < count; ++i)
       cutFurther(i, face, kNearEnough * kNearEnough * anyway, 0);
+    // Cuts are kept only if they make the part's largest distance smaller; otherwise the part stays whole and
+    // the lists stay short.
     double worst = 0;
     const std::span<const Leaf> leaves(leaves_.data(), leafCount_);
     for (const Leaf& leaf : leaves) worst = std::max(worst, leaf.whole.squared);

@@ -53,6 +53,8 @@ class Transfer {
     result_.pictures = source.pictures;
   }
 
+  // Vertices and triangles have one source each, so their attributes are copied. A triangle without a source
+  // gets zeros.
   SurfaceMesh run() {
     for (const Attribute& attribute : source_.vertexAttributes) {
       Attribute& to = result_.vertexAttributes.emplace_back(emptyLike(attribute));
@@ -82,6 +84,8 @@ class Transfer {
       to.push_back(t == SurfaceMesh::kNone ? SurfaceMesh::kNone : from[t]);
   }
 
+  // Triangles with a source come first: a filling triangle takes, at each vertex, a wedge that is there
+  // already, and gets zeros only where its vertex has none.
   void carryWedges() {
     for (const Attribute& attribute : source_.wedgeAttributes) {
       result_.wedgeAttributes.push_back(emptyLike(attribute));
@@ -101,6 +105,7 @@ class Transfer {
       }
   }
 
+  /// A vertex that only filling triangles use gets a wedge of zeros.
   std::uint32_t addZeros() {
     for (Attribute& to : result_.wedgeAttributes) {
       const std::vector<std::byte> zeros(to.elementBytes(), std::byte{0});

@@ -73,6 +73,7 @@ RootGrid::RootGrid(const MultiTriangulation& mt, double margin) {
     cells /= 4;
   } while (!countLists(triangles, kMostListed * (triangles.size() + kMostListed)) && begin_.size() > 2);
 
+  // The counts become the beginnings of the lists by a prefix sum, and a second walk fills them.
   for (std::size_t cell = 1; cell < begin_.size(); ++cell) begin_[cell] += begin_[cell - 1];
   triangles_.resize(begin_.back());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
@@ -80,6 +81,8 @@ RootGrid::RootGrid(const MultiTriangulation& mt, double margin) {
     forCellsOf(triangles[t], [&](std::size_t cell) { triangles_[next[cell]++] = TriangleId(t); });
 }
 
+/// The cells are about square, whatever the shape of the domain; along a side there are never more than
+/// wanted in all.
 void RootGrid::layCells(double about) {
   const double width = bounds_.xMax - bounds_.xMin, height = bounds_.yMax - bounds_.yMin;
   const bool hasAspect = width > 0 && height > 0 && std::isfinite(width) && std::isfinite(height);
@@ -93,6 +96,7 @@ void RootGrid::layCells(double about) {
   cellHeight_ = height > 0 ? height / rows_ : 1;
 }
 
+/// The walk ends as soon as the lists are too long, so that needles cost no more than good triangles.
 bool RootGrid::countLists(std::span<const std::array<Vec2, 3>> triangles, std::size_t most) {
   begin_.assign(std::size_t(columns_) * rows_ + 1, 0);
   std::size_t total = 0;
@@ -114,6 +118,8 @@ std::uint32_t RootGrid::row(double y) const {
   return cellOf((y - bounds_.yMin) / cellHeight_, rows_);
 }
 
+// The extent of the triangle in one row of cells, and not its whole bounding box, says which columns it
+// reaches.
 template <class Visit>
 void RootGrid::forCellsOf(const std::array<Vec2, 3>& triangle, const Visit& visit) const {
   const auto [yMin, yMax] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
@@ -127,6 +133,8 @@ void RootGrid::forCellsOf(const std::array<Vec2, 3>& triangle, const Visit& visi
   }
 }
 
+// The cell's list has every triangle at the place; one that the margin alone has put there is found out by
+// the caller's test.
 std::span<const TriangleId> RootGrid::near(Vec2 p) const {
   if (!(p.x >= bounds_.xMin - margin_ && p.x <= bounds_.xMax + margin_ && p.y >= bounds_.yMin - margin_ &&
         p.y <= bounds_.yMax + margin_))
@@ -135,6 +143,7 @@ std::span<const TriangleId> RootGrid::near(Vec2 p) const {
   return std::span(triangles_).subspan(begin_[cell], begin_[cell + 1] - begin_[cell]);
 }
 
+// A segment is listed as a triangle with two equal corners. Triangles of several cells are listed once.
 void RootGrid::along(Vec2 from, Vec2 to, std::vector<TriangleId>& triangles) const {
   triangles.clear();
   if (triangles_.empty() || !std::isfinite(from.x + from.y + to.x + to.y)) return;

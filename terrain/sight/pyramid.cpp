@@ -41,6 +41,8 @@ class SightPyramid final : public SightEngine {
     });
   }
 
+  // A clearance is sought in two passes: the hints bound it, so that most of the pyramid is skipped. Where a
+  // hint turns out not to hold, the line is answered again without them.
   SightAnswer answer(const SightLine& line, const SightOptions& options) const override {
     std::uint64_t visited = 0;
     if (options.wantsClearance) {
@@ -65,6 +67,8 @@ class SightPyramid final : public SightEngine {
     return level;
   }
 
+  // Squares share their border samples, so that the terrain between two squares belongs to one of them.
+  // Heights are rounded upwards: a square never hides what lies in it.
   Level firstLevel() const {
     Level level = shape(kFirstSize);
     parallelFor(std::uint32_t{0}, level.rows, [&](std::uint32_t row) {
@@ -89,6 +93,7 @@ class SightPyramid final : public SightEngine {
     return level;
   }
 
+  // Each square holds the largest of the squares below it, and a gap if one of them has a gap.
   Level nextLevel() const {
     const Level& finer = levels_.back();
     Level level = shape(finer.size * kGrowth);

@@ -16,12 +16,14 @@ constexpr double kRadians = std::numbers::pi / 180;
 
 }  // namespace
 
+/// An angle just below 0 can round to 360 when 360 is added. It becomes 0, so that the result is below 360.
 double wrappedAzimuth(double degrees) {
   const double wrapped = std::fmod(degrees, 360);
   if (wrapped >= 0) return wrapped;
   return wrapped + 360 < 360 ? wrapped + 360 : 0;
 }
 
+// The columns of the affine map are inverted here once. Points have coordinates of the source as they are.
 CameraSpace::CameraSpace(const TerrainModel& model) {
   const MetricFrame& metric = model.mt.metric();
   originXy_ = model.toSource({metric.origin.x, metric.origin.y});
@@ -58,6 +60,7 @@ Camera CameraSpace::at(Camera camera, const Vec3& position) const {
   return camera;
 }
 
+// East and north need not be at right angles here, so the azimuth is composed of both and made a unit.
 Vec3 CameraSpace::level(double azimuthDegrees) const {
   const double sine = std::sin(azimuthDegrees * kRadians), cosine = std::cos(azimuthDegrees * kRadians);
   const Vec2 a = unit(sine * east_ + cosine * north_);
@@ -76,11 +79,13 @@ Vec3 CameraSpace::up(Look look) const {
   return {-rise * a.x, -rise * a.y, run};
 }
 
+// In a mirrored grid the right-hand side of a direction is the other one.
 Vec3 CameraSpace::right(double azimuthDegrees) const {
   const Vec3 a = level(azimuthDegrees);
   return isMirrored_ ? Vec3{-a.y, a.x, 0} : Vec3{a.y, -a.x, 0};
 }
 
+// Straight up or down a direction has no azimuth, and the one given is kept.
 Look CameraSpace::lookAlong(const Vec3& d, double azimuthThere) const {
   const double run = std::hypot(d.x, d.y);
   Look look{wrappedAzimuth(azimuthThere), std::atan2(d.z, run) / kRadians};

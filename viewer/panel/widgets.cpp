@@ -15,6 +15,7 @@ constexpr ImGuiWindowFlags kColumn = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_
 
 }  // namespace
 
+// Sizes are multiples of the font's size, so that the panel follows the scale of the screen.
 float em() {
   return ImGui::GetFontSize();
 }
@@ -31,6 +32,7 @@ void dim(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+// The values of all rows begin in one column, 5.2 letters from the left.
 void row(const char* name, const std::string& value) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ImGui::TextUnformatted(name);
@@ -57,6 +59,7 @@ bool section(const char* name, bool isOpen) {
   return ImGui::CollapsingHeader(name, isOpen ? ImGuiTreeNodeFlags_DefaultOpen : 0);
 }
 
+// The library slides floats only; the value keeps its own digits until the user moves the slider.
 bool slider(const char* name, double& value, double low, double high, const char* format,
             bool isLogarithmic) {
   auto shown = float(value);
@@ -75,6 +78,7 @@ void tip(const char* text) {
   ImGui::EndTooltip();
 }
 
+// The column stands at one side of the window, has a fixed width and is never higher than the window.
 void beginColumn(const char* name, bool isRight) {
   const ImGuiIO& io = ImGui::GetIO();
   const float gap = 0.5f * em(), width = 20 * em();
@@ -90,6 +94,7 @@ void endColumn() {
   ImGui::End();
 }
 
+// A message lies at the lower edge and takes no input, so that it is never in the way of the mouse.
 void showMessage(const std::string& text) {
   const ImGuiIO& io = ImGui::GetIO();
   ImGui::SetNextWindowPos({io.DisplaySize.x / 2, io.DisplaySize.y - em()}, ImGuiCond_Always, {0.5f, 1});

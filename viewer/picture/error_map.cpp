@@ -113,6 +113,8 @@ void drawBeyond(Canvas& canvas, const Rect& bar, const Statistics& s, double lim
   if (s.low < -limit) point(bar.bottom(), bar.bottom() + 12, errorColor(-limit, limit));
 }
 
+// The bar is drawn as a picture of its own, a row for each pixel, so that its colours are those of the map
+// exactly.
 void drawColorBar(Canvas& canvas, const Rect& bar, const RasterHeightfield& errors, const Statistics& s,
                   double limit, const std::string& unit) {
   Image colors(int(bar.width), int(bar.height));
@@ -132,6 +134,7 @@ void drawColorBar(Canvas& canvas, const Rect& bar, const RasterHeightfield& erro
   }
   canvas.text(unit, {bar.left, bar.top - 18}, {.size = 14, .color = kQuietInk});
 
+  // Ticks stand at round values; a short bar has fewer, so that their labels stay apart.
   const auto yOf = [&](double error) { return bar.top + bar.height * (1 - error / limit) / 2; };
   for (const double tick : linearTicks(-limit, limit, bar.height > 300 ? 8 : 4)) {
     canvas.line({bar.right(), yOf(tick)}, {bar.right() + 5, yOf(tick)}, {.color = kInk, .width = 1});
@@ -139,6 +142,7 @@ void drawColorBar(Canvas& canvas, const Rect& bar, const RasterHeightfield& erro
     canvas.text(label, {bar.right() + 9, yOf(tick)}, {.size = 13, .color = kInk, .vertical = Align::center});
   }
 
+  // The histogram stands at the height of the bar, so that a bin is next to its colour.
   const auto bins = histogramOf(errors.heights, limit);
   const double most = std::sqrt(double(*std::max_element(bins.begin(), bins.end())));
   const double left = bar.right() + kHistogramGap;
@@ -156,6 +160,8 @@ struct Plan {
   ErrorMapLayout layout;
 };
 
+// The limit is the one stated, or the largest error rounded up to a round number, so that maps of similar
+// errors have the same colours.
 Result<Plan> plan(const RasterHeightfield& errors, const ErrorMapOptions& options) {
   const Statistics s = statisticsOf(errors.heights);
   if (s.count == 0)

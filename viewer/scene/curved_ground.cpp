@@ -114,6 +114,8 @@ bool CurvedGround::State::measure() {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
+  // Steps are a kilometre or more, so that second differences are far larger than the rounding of the
+  // projection.
   constexpr int kCells = 32;
   const double step = std::max({(high.x - low.x) / kCells, (high.y - low.y) / kCells, 1000.0});
   const int nx = int(std::ceil((high.x - low.x) / step)), ny = int(std::ceil((high.y - low.y) / step));
@@ -126,6 +128,8 @@ bool CurvedGround::State::measure() {
       const auto upAt = [&](int dx, int dy) {
         return unit(ofFlat(x + dx * step, y + dy * step, 1000) - at(dx, dy));
       };
+      // Second differences along x, y and the diagonals give the bend in every direction. A place for which
+      // the CRS gives no value is passed over.
       const Vec3 twice = -2 * at(0, 0);
       const Vec3 xx = at(1, 0) + at(-1, 0) + twice, yy = at(0, 1) + at(0, -1) + twice;
       const Vec3 xy = 0.25 * ((at(1, 1) + at(-1, -1)) - (at(1, -1) + at(-1, 1)));
@@ -144,6 +148,7 @@ bool CurvedGround::State::measure() {
   return turning > 0;
 }
 
+// The frame touches the ellipsoid in the middle of the DEM, and turn() aligns it with the flat metric there.
 Result<CurvedGround> CurvedGround::create(const TerrainModel& model) {
   Result<CrsLonLat> lonLat = CrsLonLat::of(model.georeference);
   if (!lonLat) return failure(lonLat.error().code, lonLat.error().message, kCulprit);
@@ -175,6 +180,8 @@ Vec3 CurvedGround::position(Vec2 xy, double height, double stretch) const {
   return state_->position(xy, state_->exaggerated(height, stretch));
 }
 
+// This inverts position(): the turn about the vertical is undone first, then the frame, then the CRS and
+// the exaggeration.
 Vec3 CurvedGround::source(const Vec3& p, double stretch) const {
   const State& s = *state_;
   const Vec3 there =

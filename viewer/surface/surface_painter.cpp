@@ -53,6 +53,7 @@ Result<SurfacePainter> SurfacePainter::create() {
   return p;
 }
 
+// The look differs from range to range and is written before each draw call; OpenGL keeps the order.
 void SurfacePainter::drawRange(const DrawnSurface::Range& range, const Look& look) {
   glNamedBufferSubData(look_, 0, sizeof look, &look);
   glDrawElements(GL_TRIANGLES, GLsizei(3 * range.count), GL_UNSIGNED_INT,
@@ -68,6 +69,7 @@ void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& mat
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, front.errors != 0 ? front.errors : nothing_);
   glUseProgram(surface_);
   const GLuint array = surfaceArray_;
+  // An attribute that the surface lacks is disabled, and a constant takes its place: no coordinates, white.
   const auto attribute = [&](GLuint index, GLuint buffer, GLint size, GLenum type) {
     if (buffer == 0) {
       glDisableVertexArrayAttrib(array, index);
@@ -91,6 +93,8 @@ void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& mat
 
   const Vec3 sun = towardsSun(frame, look);
   const bool hasMaterials = look.coloring == SurfaceColoring::materials;
+  // Blended materials are drawn after the others, over them, and do not write depth, so that what lies behind
+  // them stays visible. Only the colouring by materials has any.
   for (const bool isBlended : {false, true}) {
     for (const DrawnSurface::Range& range : front.ranges) {
       const DrawnMaterial& m = materials.materials()[range.material];

@@ -100,6 +100,7 @@ class FrameFiles {
   std::uint64_t frame_ = 0, count_ = 0;
 };
 
+/// The loop of the window. The window owns the context of OpenGL and is destroyed after what uses it.
 class WindowLoop {
  public:
   WindowLoop(const TerrainModel& model, const WindowOptions& options, GlfwWindow window, TerrainView view)
@@ -114,6 +115,7 @@ class WindowLoop {
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &session_.mostOverlayPixels);
   }
 
+  // A window of no size, as one that is minimized, is not drawn; the loop sleeps instead of spinning.
   Status run(const RunContext& context) {
     if (options_.onReady) ARETE_CHECK(options_.onReady(view_));
     window_.show();
@@ -139,6 +141,8 @@ class WindowLoop {
       ARETE_TRY(FrameTarget target, FrameTarget::create(width, height, options_.samples));
       target_.emplace(std::move(target));
     }
+    // Input to the panel does not reach the camera. All input is applied before the frame is drawn, so that
+    // the picture shows it.
     const ImGuiIO& io = ImGui::GetIO();
     GlfwWindow::Events events = window_.poll(io.WantCaptureMouse, io.WantCaptureKeyboard);
     session_.rig.setPicture(width, height);
@@ -152,6 +156,8 @@ class WindowLoop {
     ImGui::Render();
 
     ARETE_CHECK(drawTerrain());
+    // Pictures are saved before the panel is drawn over the terrain. The time is taken before the swap, which
+    // waits for the screen.
     ARETE_CHECK(savePictures());
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, width, height);
@@ -209,6 +215,8 @@ class WindowLoop {
     settings.waits = settings.waits || files_.has_value();
     if (!s.isFrozen || !hasCut_) {
       Result<FrameFigures> figures = view_.cut(s.rig.camera(), settings);
+      // A setting that cannot be cut or drawn is taken back, and the last one that was drawn is used; only if
+      // that fails too the window ends.
       if (!figures && drawn_) {
         goBack(figures.error());
         settings = s.settings;
@@ -236,6 +244,7 @@ class WindowLoop {
     return {};
   }
 
+  /// While frames are written, the flight places the camera, and the user's input does not move it.
   Status placeFrameFile() {
     ViewerSession& s = session_;
     if (!s.wantsFrames) {
@@ -255,6 +264,7 @@ class WindowLoop {
     return {};
   }
 
+  // The writing of frames ends after the last frame or the first failure; the window says either and goes on.
   Status savePictures() {
     ViewerSession& s = session_;
     if (files_) {

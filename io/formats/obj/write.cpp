@@ -182,6 +182,8 @@ void nameLostNames(const MeshAttributes& mesh, std::vector<std::string>& lost) {
     }
 }
 
+/// Faces refer to the lines before them by number, so vertices and values are written first, each list as a
+/// whole.
 class ObjWriter {
  public:
   ObjWriter(MeshRef mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
@@ -221,6 +223,7 @@ class ObjWriter {
       report_.lost.insert(report_.lost.end(), written.lost.begin(), written.lost.end());
     }
 
+    // Nothing of the mesh's own file is written before the library has been, whose name stands in it.
     ARETE_TRY(FileWriter file, FileWriter::create(path_));
     file.write(fmt::format("# {}\n", kMeshTextGenerator));
     file.write(meshComments(options_));
@@ -230,6 +233,7 @@ class ObjWriter {
         normals(normal, wedgeNormal != nullptr, "vn");
     file.write(texcoords.text());
     file.write(normals.text());
+    // A mesh without anything but its shape is written by a loop of its own, which looks nothing up.
     const bool isPlain = !texcoord && !normal && mesh_.objects.empty() && mesh_.groups.empty() &&
                          mesh_.materials.empty() && mesh_.triangleAttributes.empty();
     if (!(isPlain ? writePlainFaces(file) : writeFaces(file, texcoords, normals, states)))
@@ -262,6 +266,8 @@ class ObjWriter {
     return true;
   }
 
+  /// Programs read the colours behind a vertex as sRGB between 0 and 1; what cannot be said so is counted as
+  /// lost.
   void appendColor(Line& line, std::size_t vertex) {
     const std::vector<double> numbers = color_->numbers(vertex);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -283,6 +289,8 @@ class ObjWriter {
     return true;
   }
 
+  // A run of faces without an object follows one with a name only behind an "o" line without one, since an
+  // object goes on until the next.
   bool writeFaces(FileWriter& file, const Values& texcoords, const Values& normals, States& states) {
     for (const ObjectRun& run : runs_.runs) {
       if (run.object != MeshAttributes::kNone)
@@ -303,6 +311,8 @@ class ObjWriter {
     return text.empty() ? "o\n" : fmt::format("o {}\n", text);
   }
 
+  // A line for each state that changes comes before the face. Numbers begin at 1, and 0 stands for a value
+  // that is not there.
   void writeFace(FileWriter& file, std::size_t t, const Values& texcoords, const Values& normals,
                  States& states) {
     changes_.clear();

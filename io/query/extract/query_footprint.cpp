@@ -53,6 +53,7 @@ int QueryFootprint::rowOf(double y) const {
   return cellOf((y - domain_.yMin) * rowsPerUnit_);
 }
 
+// The cells around a place belong to it too, so that rounding of its coordinates never leaves a cell out.
 QueryFootprint::Cells QueryFootprint::cellsAround(Vec2 low, Vec2 high) const {
   return {std::max(columnOf(low.x - reach_) - 1, 0), std::min(columnOf(high.x + reach_) + 1, kCells - 1),
           std::max(rowOf(low.y - reach_) - 1, 0), std::min(rowOf(high.y + reach_) + 1, kCells - 1)};
@@ -66,6 +67,7 @@ bool QueryFootprint::areMarked(const Cells& cells) const {
   return true;
 }
 
+// Cells are marked and never unmarked, so queries can be added in any order.
 void QueryFootprint::mark(const Cells& cells) {
   for (int row = cells.bottom; row <= cells.top; ++row) {
     const auto begin = isMarked_.begin() + row * kCells;
@@ -77,6 +79,8 @@ void QueryFootprint::add(Vec2 plan) {
   if (std::isfinite(plan.x + plan.y)) mark(cellsAround(plan, plan));
 }
 
+// A number of steps is bounded, for lines that lead far beyond the domain; longer steps mark larger boxes,
+// which is safe.
 void QueryFootprint::addLine(Vec2 from, Vec2 to) {
   const Vec2 way{to.x - from.x, to.y - from.y};
   if (!std::isfinite(from.x + from.y) || !std::isfinite(way.x + way.y)) return;
@@ -101,6 +105,8 @@ void QueryFootprint::addDisc(const SightEarth& earth, Vec2 centre, double metres
   if (std::isfinite(centre.x + centre.y)) addPart({earth, centre, metres}, 0, 0, kCells);
 }
 
+// The distance from the middle to a corner, widened for how maps bend, bounds how far any place of the square
+// is from its middle. A square whose distances cannot be computed is divided until it can be, or is marked.
 void QueryFootprint::addPart(const Disc& disc, int column, int row, int size) {
   const auto at = [&](double columns, double rows) {
     return Vec2{domain_.xMin + (domain_.xMax - domain_.xMin) * (column + columns) / kCells,

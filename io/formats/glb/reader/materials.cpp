@@ -38,6 +38,8 @@ std::string textOf(const Json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
+/// What the model has fields for is taken out of a copy of the JSON; what is left of the copy is kept
+/// verbatim, so that a glTF written from the model can have it again.
 class MaterialReader {
  public:
   explicit MaterialReader(const GltfDocument& document) : document_(document) {}
@@ -69,6 +71,7 @@ class MaterialReader {
       problems.push_back(
           fmt::format("material {} has a damaged \"{}\"", text::quotedToken(material.name), what));
     };
+    // A damaged member costs a message and its default, and the rest of the material is read all the same.
     if (const auto found = rest.find("doubleSided"); found != rest.end()) {
       found->is_boolean() ? void(material.isDoubleSided = *found) : damaged("doubleSided");
       rest.erase("doubleSided");
@@ -99,6 +102,8 @@ class MaterialReader {
     takeTexture(rest, "normalTexture", "normal", material);
     takeTexture(rest, "occlusionTexture", "occlusion", material);
     takeTexture(rest, "emissiveTexture", "emissive", material);
+    // Extensions have textures of their own. They are listed before any is taken, since taking one changes
+    // the object that is walked through.
     if (const auto extensions = rest.find("extensions"); extensions != rest.end() && extensions->is_object())
       for (auto& [name, extension] : extensions->items()) {
         if (!extension.is_object()) continue;
@@ -123,6 +128,8 @@ class MaterialReader {
       problems.push_back(fmt::format("material {} is without its texture {}: {}",
                                      text::quotedToken(material.name), text::quotedToken(role), reason));
     };
+    // A texture that cannot be read leaves the material without it; the problem names the material and the
+    // role.
     if (!use.is_object()) return lost("it is no object");
     const auto number = GltfDocument::wholeNumber(use, "index"),
                set = GltfDocument::wholeNumber(use, "texCoord", 0);
@@ -135,6 +142,8 @@ class MaterialReader {
     material.textures.push_back({role, *picture, static_cast<std::uint32_t>(*set)});
     use.erase("index");
     use.erase("texCoord");
+    // A sampler belongs to the use of the texture here, since the model has none; one with no members says
+    // nothing.
     if ((*texture)->contains("sampler")) {
       const auto samplerNumber = GltfDocument::wholeNumber(**texture, "sampler");
       const auto sampler = document_.element("samplers", samplerNumber.value_or(~std::uint64_t{0}));
@@ -149,6 +158,8 @@ class MaterialReader {
       ARETE_TRY(const auto source, GltfDocument::wholeNumber(texture, "source"));
       image = source;
     }
+    // The picture for programs without an extension counts if there is one, otherwise the first one of an
+    // extension. Further ones are counted for a warning.
     for (const char* name : kImageExtensions) {
       const Json* const extension = extensionOf(texture, name);
       const auto source = extension == nullptr
@@ -166,6 +177,8 @@ class MaterialReader {
     return known->second;
   }
 
+  /// A picture with bytes, in a view or a data URI, becomes one of the model and is named "#" and its number;
+  /// a file keeps its name.
   Result<std::string> readImage(std::uint64_t number) {
     ARETE_TRY(const auto image, document_.element("images", number));
     EmbeddedPicture picture{
