@@ -24,6 +24,8 @@ std::vector<std::uint32_t> catchmentOf(std::uint32_t outlet, const DrainageNetwo
   cells.reserve(network.upstreamCells[outlet]);
   const auto n = static_cast<std::int64_t>(network.receiver.size());
   const std::int64_t w = columns;
+  // The list grows while it is walked through: it is the queue too. A neighbour across the left or right
+  // border belongs to another row, and flows to cells next to it, so it is never taken.
   for (std::size_t i = 0; i < cells.size(); ++i)
     for (const std::int64_t offset :
          {-w - 1, -w, -w + 1, std::int64_t(-1), std::int64_t(1), w - 1, w, w + 1}) {
@@ -42,6 +44,8 @@ struct Lake {
   std::vector<std::uint32_t> cells;
 };
 
+// The cells below the level are those before the order statistic; heights can be equal, so cells are compared
+// by their numbers too.
 Lake lakeBehind(std::uint32_t dam, std::size_t area, const ReliefGrid& grid, const DrainageNetwork& network) {
   Lake lake;
   lake.dam = dam;
@@ -58,6 +62,7 @@ Lake lakeBehind(std::uint32_t dam, std::size_t area, const ReliefGrid& grid, con
   return lake;
 }
 
+/// A lake at the border could run out of the terrain, and the moraine needs room.
 bool touchesEdge(const Lake& lake, const ReliefGrid& grid) {
   return std::any_of(lake.cells.begin(), lake.cells.end(), [&](std::uint32_t cell) {
     const std::uint32_t column = cell % grid.columns, row = cell / grid.columns;
@@ -65,6 +70,8 @@ bool touchesEdge(const Lake& lake, const ReliefGrid& grid) {
   });
 }
 
+// The moraine falls off from the shore at a fixed slope, so how far it reaches follows from its height.
+// Heights are multiples of 1/64 m, as in the rest of the terrain.
 void raiseMoraine(RasterHeightfield& field, const Lake& lake, double pixelMetres) {
   constexpr double kFreeboard = 4, kOuterSlope = 0.25;
   const auto reach = std::min<std::int64_t>(

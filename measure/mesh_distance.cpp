@@ -142,10 +142,14 @@ class OneWay {
         takeSamples(index - vertexRuns, runs[index]);
     });
     if (!done) return tl::unexpected(done.error());
+    // The distances of vertices are kept by vertex, for the caller and for the search, which begins from
+    // them.
     if (vertexDistances) {
       vertexDistances->clear();
       for (const NearestOnMesh::Answer& answer : answers_) vertexDistances->push_back(answer.distance);
     }
+    // Vertices bound the maximum only; means are taken over the samples, which are spread evenly over the
+    // area.
     RunTotals all = sum(std::span(runs).first(vertexRuns));
     const RunTotals atSamples = sum(std::span(runs).subspan(vertexRuns));
     const auto n = static_cast<double>(samples_.count());
@@ -157,6 +161,7 @@ class OneWay {
     found.maximumAtVertices = all.maximum;
     all.add(atSamples);
 
+    // Without an accuracy nothing is known of the places between samples, and the upper bound is infinite.
     found.atMost = std::numeric_limits<double>::infinity();
     if (std::isfinite(options_.accuracy)) {
       std::vector<FarthestPoint> searched(runsOf(from_.mesh.triangles.size(), kTrianglesPerRun));
@@ -176,6 +181,8 @@ class OneWay {
   }
 
  private:
+  // A vertex without a triangle is not of the surface: it gets a distance only if distances of all vertices
+  // are wanted.
   void takeVertices(std::size_t index, bool withUnused, RunTotals& run) {
     const std::size_t end = std::min<std::size_t>(answers_.size(), (index + 1) * kPerRun);
     for (std::size_t v = index * kPerRun; v < end; ++v) {

@@ -102,6 +102,7 @@ class SurfacePictures {
     if (failed)
       return failure(ErrorCode::unreadable, "the folder cannot be made: " + failed.message(),
                      a_.pictures.frames);
+    // The camera turns with its place, so the middle of the surface stays in the middle of each picture.
     const CameraSpace space;
     const Vec3 middle = view_.view().shape().box.centre(), from = space.position(first) - middle;
     Json list = Json::array();
@@ -124,6 +125,8 @@ class SurfacePictures {
       session_.context().report("draw frames", double(i + 1) / double(count));
     }
     json["frames"] = std::move(list);
+    // The figures of all frames go to a file only if one is named; the film is made of the frames in their
+    // folder.
     if (!a_.pictures.figures.empty()) {
       ARETE_TRY(auto file, FileWriter::create(a_.pictures.figures));
       file.write(json.dump(1) + "\n");
@@ -140,6 +143,7 @@ class SurfacePictures {
   }
 
  private:
+  /// A budget that is too small is reported under the option that states it.
   Result<SurfaceFigures> draw(const Camera& camera) {
     Result<SurfaceFigures> figures = view_.draw(camera, settings_, session_.context());
     if (!figures && figures.error().culprit == "maxTriangles")
@@ -154,6 +158,7 @@ class SurfacePictures {
   Session& session_;
 };
 
+// Each output is compared with the model and with the outputs before it, so that none destroys another.
 Status checkOutputs(const ViewArguments& a) {
   std::vector<std::string> outputs;
   for (const auto& [option, path] : {std::pair{"--screenshot", &a.pictures.screenshot},

@@ -61,6 +61,8 @@ LiveMesh LiveMesh::fromTriangles(std::vector<std::array<std::uint32_t, 3>> corne
       break;
     }
   }
+  // A vertex on the border keeps the half-edge with which its fan begins, so that one turn visits the whole
+  // fan. A vertex whose fan has fewer triangles than the vertex is in has several fans: it is pinched.
   for (std::uint32_t i = 0; i < vertexCount; ++i) {
     const VertexId v(i);
     if (!mesh.isInTriangle(v)) continue;
@@ -80,6 +82,8 @@ LiveMesh LiveMesh::fromTriangles(std::vector<std::array<std::uint32_t, 3>> corne
   return mesh;
 }
 
+// Slots keep their order, so the result does not depend on threads. Half-edges name slots, and are renamed
+// with them.
 SlotMap LiveMesh::compact(std::span<const VertexId> vertices) {
   SlotMap newSlot(triangles.size(), [&](SlotId slot) { return !triangles[slot].isDead(); });
   const auto moved = [&](HalfedgeId h) {
@@ -100,6 +104,8 @@ SlotMap LiveMesh::compact(std::span<const VertexId> vertices) {
   return newSlot;
 }
 
+/// Each vertex is written at the slot of its own half-edge, so each is listed once and in the order of the
+/// slots.
 UninitializedVector<VertexId> LiveMesh::verticesInOrder() const {
   UninitializedVector<VertexId> inOrder;
   ParallelFilter<VertexId> halfedges;

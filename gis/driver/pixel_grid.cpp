@@ -40,6 +40,7 @@ Result<PixelGrid> PixelGrid::of(const TerrainModel& outline, std::optional<doubl
   return grid;
 }
 
+// Pixels of the source have their samples in the middle, at whole numbers of plan coordinates.
 Vec2 PixelGrid::pixelOf(Vec2 plan) const {
   if (isOfSource_) return {plan.x + 0.5, plan.y + 0.5};
   const Vec2 p = model_->toSource(plan);
@@ -56,6 +57,8 @@ Box2 PixelGrid::planBoxOf(double left, double top, double right, double bottom) 
   return planBox(corners);
 }
 
+// Triangles are put into bins by their boxes, a few to a bin, so that a window looks at those near it only. A
+// prefix sum gives each bin a part of one array.
 TriangleBins::TriangleBins(GridTriangles triangles) : triangles_(std::move(triangles)) {
   if (triangles_.triangles.empty()) return;
   const auto& corners = triangles_.corners;
@@ -78,6 +81,7 @@ TriangleBins::TriangleBins(GridTriangles triangles) : triangles_(std::move(trian
     const auto bin = [](double at, double from, double size, int count) {
       return std::clamp(static_cast<int>((at - from) / size * count), 0, count - 1);
     };
+    // A triangle across several bins is in each of them; fill() removes the repeats.
     for (int y = bin(box.yMin, top_, height_, down_); y <= bin(box.yMax, top_, height_, down_); ++y)
       for (int x = bin(box.xMin, left_, width_, across_); x <= bin(box.xMax, left_, width_, across_); ++x)
         visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(x));
@@ -108,6 +112,8 @@ void TriangleBins::fill(const PixelWindow& window, std::span<double> heights, st
       p[i] = sampleOf(triangles_.corners[t[i]].pixel);
       z[i] = triangles_.corners[t[i]].height;
     }
+    // Triangles are turned counter-clockwise, so that all shares are positive inside. One without area has no
+    // pixels.
     double area = cross(p[1] - p[0], p[2] - p[0]);
     if (area < 0) {
       std::swap(p[1], p[2]);
@@ -124,6 +130,8 @@ void TriangleBins::fill(const PixelWindow& window, std::span<double> heights, st
               rowEnd = std::min(window.rows - 1, clamped(std::floor(high + kOnEdge), window.rows));
     const int columnBegin = std::max(0, clamped(std::ceil(first - kOnEdge), window.columns)),
               columnEnd = std::min(window.columns - 1, clamped(std::floor(last + kOnEdge), window.columns));
+    // A sample on an edge may be off by rounding, so a share may be slightly negative, in proportion to the
+    // side.
     std::array<double, 3> slack{};
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 side = p[(i + 2) % 3] - p[(i + 1) % 3];
@@ -136,6 +144,7 @@ void TriangleBins::fill(const PixelWindow& window, std::span<double> heights, st
                                              cross(p[1] - p[0], q - p[0])};
         if (share[0] < slack[0] || share[1] < slack[1] || share[2] < slack[2]) continue;
         double height = z[0] + (share[1] * (z[1] - z[0]) + share[2] * (z[2] - z[0])) / area;
+        // At a corner the height is the corner's own, to the bit.
         for (std::size_t i = 0; i < 3; ++i)
           if (share[i] == area) height = z[i];
         heights[static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column)] = height;
@@ -156,6 +165,8 @@ void TriangleBins::fill(const PixelWindow& window, std::span<double> heights, st
           static_cast<std::size_t>(y) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(x);
       some.insert(some.end(), members_.begin() + begin_[b], members_.begin() + begin_[b + 1]);
     }
+  // Triangles are filled in the order of their numbers, so that a sample on an edge does not depend on the
+  // window.
   std::ranges::sort(some);
   const auto last = std::unique(some.begin(), some.end());
   some.erase(last, some.end());

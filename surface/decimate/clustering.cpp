@@ -76,6 +76,7 @@ class Clustering {
       for (const std::uint32_t v : t) isUsed[v] = 1;
     std::vector<std::uint32_t> all;
     Box3 box = Box3::empty();
+    // Vertices without a triangle get no cell, since they have no quadric and no part in the result.
     for (std::uint32_t v = 0; v < at.size(); ++v) {
       if (isUsed[v] == 0) continue;
       all.push_back(v);
@@ -91,6 +92,8 @@ class Clustering {
     std::vector<Part> parts;
     cells_.emplace_back();
     parts.push_back({std::move(all), box.low, box.longestSide(), 0, 0});
+    // A stack takes the place of recursion. At the greatest depth, vertices in nearly one place stay in one
+    // leaf.
     while (!parts.empty()) {
       Part part = std::move(parts.back());
       parts.pop_back();
@@ -121,8 +124,11 @@ class Clustering {
         parts.push_back({std::move(eighths[e]), corner, half, child, part.depth + 1});
       }
     }
+    // A cell is ready for the heap when all its children are leaves; this counts how many are not yet.
     for (Cluster& cell : cells_)
       for (const std::uint32_t child : cell.children) cell.childrenLeft += cells_[child].isLeaf ? 0 : 1;
+    // Triangles with two corners in one leaf are degenerate from the start and do not count, but their planes
+    // belong to the quadrics.
     isThere_.assign(source_.triangles.size(), 1);
     for (std::uint32_t t = 0; t < source_.triangles.size(); ++t) {
       const auto& [i, j, k] = source_.triangles[t];

@@ -17,6 +17,7 @@ constexpr double kAccuracy = 1e-3;
 
 }  // namespace
 
+// The edges of the root belong to no slot and have blocks of their own, found by halving in a sorted list.
 DirectionProblem::DirectionProblem(const MultiTriangulation& mt)
     : mt_(mt),
       diagonal_(mt.vertexCount(), Symmetric3::Zero()),
@@ -31,6 +32,8 @@ DirectionProblem::DirectionProblem(const MultiTriangulation& mt)
   ofRootEdge_.assign(rootEdges_.size(), Block::Zero());
 }
 
+/// A displacement is the mean of the corners' directions with the shares, so the block of two corners has the
+/// product of their shares.
 void DirectionProblem::Part::add(const std::array<double, 3>& shares, const Symmetric3& metric,
                                  const Vec3& residual) {
   const Eigen::Vector3d pull = unpacked(metric) * toEigen(residual);
@@ -38,6 +41,8 @@ void DirectionProblem::Part::add(const std::array<double, 3>& shares, const Symm
   for (Eigen::Index c = 0; c < 3; ++c) right.col(c) += shares[static_cast<std::size_t>(c)] * pull;
 }
 
+// The higher vertex of an edge is the younger one: the lower one is in the link of its node, or both are of
+// the root.
 DirectionProblem::Block& DirectionProblem::blockOf(std::uint32_t a, std::uint32_t b) {
   const auto [low, high] = std::minmax(a, b);
   if (high < mt_.rootVertexCount())
@@ -56,6 +61,7 @@ void DirectionProblem::add(const std::array<std::uint32_t, 3>& corners, const Pa
   }
 }
 
+// The matrix is symmetric and each block is kept once, so it counts for both of its vertices.
 void DirectionProblem::multiply(std::span<const Symmetric3> diagonal, const Eigen::Matrix3Xd& x,
                                 Eigen::Matrix3Xd& y) const {
   for (std::size_t v = 0; v < diagonal.size(); ++v) {
@@ -76,6 +82,8 @@ void DirectionProblem::multiply(std::span<const Symmetric3> diagonal, const Eige
   }
 }
 
+// Every diagonal block is made a little stiffer, and an empty one becomes the identity, so that the problem
+// has one solution.
 std::vector<Vec3> DirectionProblem::solve() const {
   BlockMatrix matrix;
   matrix.diagonal = diagonal_;

@@ -80,6 +80,7 @@ Status checkFaces(const SurfaceModel& model) {
 
 }  // namespace
 
+// The finest front is examined once; every other front is compared with it.
 Result<SurfaceTopology> SurfaceTopology::of(const MultiTriangulation& mt, const RunContext& context) {
   const Cut finest = frontOfPrefix(mt, mt.nodeCount());
   ARETE_TRY(const ExaminedFront front, examine(mt, finest, context));
@@ -95,6 +96,8 @@ Result<SurfaceTopology> SurfaceTopology::of(const MultiTriangulation& mt, const 
   return topology;
 }
 
+/// Components of a front and of the finest one are matched by their vertices, one to one, and each must have
+/// kept its Euler number and its borders.
 Status SurfaceTopology::check(const Cut& cut, const RunContext& context) const {
   ARETE_TRY(const ExaminedFront front, examine(mt_, cut, context));
   const MeshDiagnosis& d = front.diagnosis;
@@ -114,6 +117,7 @@ Status SurfaceTopology::check(const Cut& cut, const RunContext& context) const {
       if (known != finest)
         return broken(fmt::format("triangle {} joins two components of the surface", cut.ids[t]));
     }
+  // A component that has fallen into parts is counted more often than once, and one that is gone not at all.
   for (std::size_t c = 0; c < countOf.size(); ++c)
     if (countOf[c] != 1)
       return broken(fmt::format("component {} of the surface has become {}", c, countOf[c]));
@@ -129,6 +133,7 @@ Status SurfaceTopology::check(const Cut& cut, const RunContext& context) const {
   return {};
 }
 
+// Fronts after shares of the nodes, from the root on, are a sample: any prefix of the nodes is a front.
 Status validateSurface(const SurfaceModel& model, const SurfaceLawOptions& options,
                        const RunContext& context) {
   ARETE_CHECK(model.validate());

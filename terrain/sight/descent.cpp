@@ -142,6 +142,7 @@ class Descent {
     follow(begin, first, last, mayFill_);
   }
 
+  // The spans of the stars below each other share one vector as a stack, so that no star allocates.
   MtCrossing crossing_;
   const MultiTriangulation& mt_;
   std::span<const OutwardScale::Code> below_, above_;
@@ -155,6 +156,7 @@ class Descent {
   bool hasFirst_ = false, hasLast_ = false;
 };
 
+/// A line has legs, each straight in the plan. The judge gets the terrain of each in the order of distances.
 class SightDescent final : public SightEngine {
  public:
   explicit SightDescent(const TerrainModel& model)
@@ -166,6 +168,8 @@ class SightDescent final : public SightEngine {
     const OutwardScale::Code allowed = locator.mt().scale().floorCode(options.maxError);
     std::uint64_t visited = 0;
     const auto points = line.points();
+    // An end that lies on no triangle, as on an isolated sample, still has a height, which the judge gets
+    // alone.
     const auto addEnd = [&](const SightPoint& end) {
       if (judge.isDone()) return;
       if (const auto z = heights_.at(heights_.model().toSource(end.plan)))
@@ -175,6 +179,7 @@ class SightDescent final : public SightEngine {
     for (std::size_t i = 1; i < points.size() && !judge.isDone(); ++i) {
       const SightLeg leg(points[i - 1], points[i]);
       if (leg.isJump()) continue;
+      // A leg without extent in the plan stays in one place, whose height holds for all of it.
       if (leg.dx == 0 && leg.dy == 0) {
         if (const auto z = heights_.at(heights_.model().toSource(points[i].plan))) {
           judge.terrain(leg.s, z->height, leg.distance(1), z->height);

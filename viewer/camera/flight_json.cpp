@@ -126,6 +126,7 @@ Result<FlightRead> readFlightText(std::string_view text, const std::string& name
   const auto frames = object.find("frames");
   if (frames == object.end() || !frames->is_array()) return refuse("has no array of key frames, \"frames\"");
 
+  // Members that are not known are named in a warning, as they may be misspelt.
   FlightRead read;
   warnOfStrangers(object, kMembers, "", read.warnings);
   if (auto problem = findCrsProblem(object, dem, read.warnings)) return refuse(std::move(*problem));
@@ -144,6 +145,8 @@ Result<FlightRead> readFlightText(std::string_view text, const std::string& name
     read.plan.isClosed = closed->get<bool>();
   }
 
+  // Positions and heights become those of the DEM: a longitude is moved by whole turns, a height by the ratio
+  // of the units. Equal units are not multiplied, so that a flight survives to the bit.
   for (std::size_t i = 0; i < frames->size(); ++i) {
     Camera key;
     if (const auto problem = findFrameProblem((*frames)[i], key))
@@ -162,6 +165,8 @@ Result<FlightRead> readFlight(const std::filesystem::path& path, const Georefere
   return readFlightText(bytes.view(), path.string(), dem, turns);
 }
 
+// Only one of speed and duration is stated, and the text has the same one. The unit of heights is written
+// always, so that the file does not depend on the DEM that it is read with.
 std::string flightText(const FlightPlan& plan, const Georeference& dem) {
   ordered_json object;
   if (!dem.crsWkt.empty()) object["crs"] = dem.crsWkt;

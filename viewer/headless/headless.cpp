@@ -98,6 +98,7 @@ Result<FrameFigures> HeadlessView::draw(const Camera& stated) {
     if (canFit && !fits()) ARETE_CHECK(cutAt(coarse));
     figures->isComplete = false;
   }
+  // The time of drawing ends when the device has finished, and not when the last call returns.
   const Stopwatch watch;
   s.target.begin();
   ARETE_CHECK(s.view.draw(camera, settings));
@@ -120,6 +121,7 @@ const Warnings& HeadlessView::warnings() const {
   return state_->warnings;
 }
 
+/// A flight of too many frames is refused before the first one is drawn.
 Result<std::uint64_t> filmFrames(const Flight& flight, double framesPerSecond) {
   const std::uint64_t count = flight.frameCount(framesPerSecond);
   if (count <= kMostFrames) return count;
@@ -129,6 +131,8 @@ Result<std::uint64_t> filmFrames(const Flight& flight, double framesPerSecond) {
       "flight");
 }
 
+// Frames are drawn at exact times of the flight, and each waits for its full detail, so that a film does not
+// depend on the speed of the machine.
 Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight, const FilmOptions& options,
                                         const RunContext& context) {
   const double rate = options.framesPerSecond > 0 ? options.framesPerSecond : flight.plan().framesPerSecond;
@@ -159,6 +163,7 @@ Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight
   return frames;
 }
 
+// Everything that can be known to fail is checked before the frames are drawn, which can take minutes.
 Status canEncodeFilm(const std::filesystem::path& film) {
   constexpr std::array kEndings = {"mp4", "m4v", "mov", "mkv", "avi"};
   if (std::ranges::find(kEndings, text::lowerExtension(film.string())) == kEndings.end())

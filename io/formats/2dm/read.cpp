@@ -53,6 +53,8 @@ class TwoDmReader final : public MeshTextReader {
     return {from, static_cast<std::size_t>(p - from)};
   }
 
+  // The first card must be MESH2D. A card that is not known is left out, with the lines of data behind it;
+  // such a line behind any other card is an error.
   Status readCard() {
     const std::string_view card = nextWord();
     if (card.empty()) return {};
@@ -80,6 +82,7 @@ class TwoDmReader final : public MeshTextReader {
     return {};
   }
 
+  // A block is counted once, by its beginning.
   void leaveOutCard(std::string_view card) {
     const bool begins = card.starts_with("BEG"), ends = card.starts_with("END");
     if (!ends && !isInBlock_ && card != "NUM_MATERIALS_PER_ELEM") leaveOut(card);
@@ -93,6 +96,7 @@ class TwoDmReader final : public MeshTextReader {
     return error == std::errc{} && behind == word.data() + word.size() && !word.empty();
   }
 
+  /// A node's number is kept as it is, since elements refer to it and may come before it.
   Status readNode() {
     std::uint32_t number = 0;
     if (!nextNumber(number)) return corrupt(line_, "is a node without a number of its own");
@@ -145,6 +149,7 @@ class TwoDmReader final : public MeshTextReader {
     materials_.push_back(material);
   }
 
+  // Without any material but the usual one, or with none at all, the mesh gets no attribute.
   void takeMaterials() {
     const bool areNone = std::ranges::all_of(materials_, [](std::int32_t m) { return m == kNoMaterial; }) &&
                          materials_.size() == faces().size();
@@ -156,6 +161,7 @@ class TwoDmReader final : public MeshTextReader {
     mesh().mesh.triangleAttributes.push_back(std::move(attribute));
   }
 
+  // Elements can be resolved only now, when all nodes are known.
   Status finish() override {
     if (!isMesh_) return failure(ErrorCode::corrupt, "is not a 2DM: it is empty", path());
     if (!isOurs() && mesh().mesh.triangles.empty())
@@ -173,6 +179,7 @@ class TwoDmReader final : public MeshTextReader {
     return areInOrder_ ? indexDirectly() : indexBySortedNumbers();
   }
 
+  /// Both functions below replace numbers of nodes by indices, and refuse a number that no node has.
   tl::unexpected<Error> missingNode(std::size_t triangle, std::uint32_t number) const {
     return failure(ErrorCode::corrupt,
                    fmt::format("triangle {} names node {}, which does not exist", triangle, number), path());

@@ -12,6 +12,7 @@ constexpr const char* kProjected = "map";
 
 }  // namespace
 
+// Only the members that a kind of frame needs are written, so that none contradicts the others.
 nlohmann::ordered_json toJson(const GlbFrame& frame) {
   const LocalFrameSpec& s = frame.local;
   nlohmann::ordered_json json = {
@@ -35,6 +36,8 @@ nlohmann::ordered_json toJson(const GlbFrame& frame) {
   return json;
 }
 
+// The first member that is missing or of another type is reported; the values are checked where the frame is
+// made.
 Result<GlbFrame> glbFrameFromJson(const nlohmann::json& json) {
   GlbFrame frame;
   LocalFrameSpec& s = frame.local;
@@ -68,6 +71,7 @@ Result<GlbFrame> glbFrameFromJson(const nlohmann::json& json) {
     take("middleLongitude", s.middleLongitude);
   } else {
     take("linearUnitMetres", s.linearUnitMetres);
+    // A scale of 1 is not written, so the member may be missing.
     if (const auto scale = json.find("mapScale"); scale != json.end()) {
       if (scale->is_array() && scale->size() == 2 && (*scale)[0].is_number() && (*scale)[1].is_number())
         s.mapScale = {(*scale)[0].get<double>(), (*scale)[1].get<double>()};

@@ -55,6 +55,7 @@ class BinaryOffReader {
   tl::unexpected<Error> corrupt(std::string message) const {
     return failure(ErrorCode::corrupt, std::move(message), path_);
   }
+  // The file is a sequence of words of four bytes, the most significant first.
   bool has(std::uint64_t words) const { return (file_.size() - at_) / kWord >= words; }
 
   std::uint32_t word() {
@@ -73,6 +74,7 @@ class BinaryOffReader {
     return {};
   }
 
+  // A vertex has three coordinates and, after them, as many values as the keyword announces.
   Status readVertices(std::uint32_t count) {
     vertices_ = count;
     result_.mesh.positions.reserve(count);
@@ -93,6 +95,7 @@ class BinaryOffReader {
     return {};
   }
 
+  /// Corners and colours vary in number from face to face, so each is checked against the rest of the file.
   Status readFaces(std::uint32_t count) {
     result_.mesh.triangles.reserve(count);
     std::vector<std::uint32_t> corners;

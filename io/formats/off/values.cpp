@@ -37,6 +37,8 @@ void OffColors::add(std::size_t element, std::span<const OffNumber> numbers) {
   ++count_;
 }
 
+// Colours are bytes or fractions. In a file of Arete the form of the numbers decides; in others whole numbers
+// up to 255 are bytes if one of them is above 1 or all are 0. Elements without a colour are white and opaque.
 Attribute OffColors::attribute(std::size_t elements, bool isExact) const {
   const std::uint8_t components = hasAlpha_ ? 4 : 3;
   double largest = 0;
@@ -70,6 +72,8 @@ Attribute OffColors::attribute(std::size_t elements, bool isExact) const {
   return attribute;
 }
 
+/// A vertex has as many numbers as the keyword announces; one with fewer gets zeros and is counted. Numbers
+/// without an announcement may be a colour, which other programs write so.
 void OffVertices::add(std::span<const OffNumber> numbers) {
   const std::size_t vertex = vertices_++;
   const std::size_t normals = keyword_.hasNormals ? 3 : 0, texcoords = keyword_.hasTexcoords ? 2 : 0;
@@ -91,6 +95,8 @@ void OffVertices::add(std::span<const OffNumber> numbers) {
     texcoords_.push_back(fits ? numbers[normals + colors + i].value : 0);
   if (!fits) ++misfits_;
   if (fits && !keyword_.hasColors && rest > 0) ++surplus_;
+  // Two programs read the order of normals and colours differently; both interpretations are tried on every
+  // vertex, and the one that fits all is taken.
   if (!keyword_.namesNormalsFirst || !fits) return;
   areGeomviews_ = areGeomviews_ && isUnit(numbers.first(3));
   areMeshLabs_ = areMeshLabs_ && colors == 4 && isUnit(numbers.subspan(4, 3)) &&

@@ -74,6 +74,7 @@ Status writeGeoPackage(const std::filesystem::path& path, ExistingFile existing,
   }
   const CPLConfigOptionSetter noWait("OGR_SQLITE_SYNCHRONOUS", "OFF", false);
   const CPLConfigOptionSetter noJournal("OGR_SQLITE_JOURNAL", "OFF", false);
+  // The date of a change is fixed, so that equal input gives equal files.
   const CPLConfigOptionSetter noClock("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z", false);
   GdalErrors errors;
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
@@ -83,11 +84,15 @@ Status writeGeoPackage(const std::filesystem::path& path, ExistingFile existing,
       copy && copy->isMade()
           ? openToAdd(temporary)
           : GdalDatasetPtr(driver->Create(temporary.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  // A file that cannot be opened as a GeoPackage is refused rather than replaced, since its other layers were
+  // to be kept.
   if (!dataset && copy)
     return failure(ErrorCode::invalidData,
                    fmt::format("exists and cannot be added to: {}", errors.firstFailure()));
   if (!dataset)
     return failure(ErrorCode::unreadable, fmt::format("cannot be created: {}", errors.firstFailure()));
+  // Closing writes the last pages, and its failure is seen in the collected messages alone. The database is
+  // checked before the file gets its name.
   Status filled = fill(*dataset, errors);
   dataset.reset();
   if (!filled) return filled;
@@ -108,6 +113,7 @@ Result<OGRLayer*> addLayer(GDALDataset& dataset, const std::string& name, const 
   return layer;
 }
 
+// Types of the source are kept where a GeoPackage has them; what it has not becomes text.
 bool addField(OGRLayer& layer, const std::string& name, PointAttributes::Kind kind) {
   using Kind = PointAttributes::Kind;
   struct Type {

@@ -91,6 +91,7 @@ class Walk {
     return {};
   }
 
+  // A node with instances stands for its mesh several times, moved by each instance and then by the node.
   Status addMesh(std::uint64_t number, const Json& node, const Affine& placed) {
     ARETE_TRY(const auto mesh, GltfDocument::wholeNumber(node, "mesh"));
     if (node.contains("skin")) ++leftOut_.skinnedNodes;
@@ -104,6 +105,7 @@ class Walk {
     return ok;
   }
 
+  /// The number of placements is bounded, since a small file can repeat a large mesh any number of times.
   Status add(const GltfPlacement& placement) {
     if (found.size() >= most_)
       return failure(ErrorCode::unsupported,
@@ -112,6 +114,7 @@ class Walk {
     return {};
   }
 
+  /// All attributes of instances must have one count. One that is not known is checked for its count alone.
   Status addInstances(std::uint64_t node, std::uint64_t mesh, const Json& attributes, const Affine& placed) {
     std::optional<GltfElements> translations, rotations, scales;
     std::optional<std::uint64_t> count;
@@ -131,6 +134,7 @@ class Walk {
       count = elements.count;
       if (to != nullptr) *to = elements;
     }
+    // An attribute that is missing has its neutral value: no translation, no rotation, a scale of 1.
     for (std::uint64_t i = 0; i < count.value_or(0); ++i) {
       const auto at = [&](const std::optional<GltfElements>& elements, std::size_t c, double otherwise) {
         return elements ? elements->value(i, c) : otherwise;

@@ -37,6 +37,7 @@ std::optional<std::uint32_t> setNumberOf(std::string_view name, std::string_view
   return number;
 }
 
+// glTF has integers of 8 and 16 bits as attributes of vertices, and no longer ones.
 bool isSmallInteger(ScalarType type) {
   return type == ScalarType::int8 || type == ScalarType::uint8 || type == ScalarType::int16 ||
          type == ScalarType::uint16;
@@ -50,6 +51,8 @@ class Converter {
   Converter(const TriangleMesh& mesh, const std::vector<Float3>& positions, GltfDirections directions)
       : mesh_(mesh), positions_(positions), directions_(directions) {}
 
+  // Each attribute finds its semantic first; what has the right meaning and the wrong number of components
+  // becomes one of the application.
   GltfVertexValues convert(std::vector<Attribute> attributes) {
     std::map<std::uint32_t, Attribute*> textureSets, colorSets;
     Attribute *normal = nullptr, *tangent = nullptr;
@@ -67,6 +70,7 @@ class Converter {
       else
         others.push_back(&a);
     }
+    // Tangents come after the normals, since a tangent without a normal is not allowed.
     const bool hasNormal = normal != nullptr || directions_ == GltfDirections::recomputed;
     if (hasNormal) addNormal(normal);
     if (tangent != nullptr) addTangent(*tangent, hasNormal);
@@ -86,6 +90,7 @@ class Converter {
   }
 
  private:
+  /// A loss is named once, however many vertices it concerns.
   void lose(std::string what) {
     if (std::ranges::find(out_.lost, what) == out_.lost.end()) out_.lost.push_back(std::move(what));
   }
