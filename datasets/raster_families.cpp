@@ -224,6 +224,7 @@ RasterHeightfield makeIslands(std::uint32_t columns, std::uint32_t rows, std::ui
   return field;
 }
 
+/// The degenerate families follow: rasters that are too small or too empty for a triangle.
 RasterHeightfield makeOneRow(std::uint32_t columns, std::uint32_t, std::uint64_t seed) {
   return fill("one row", columns, 1, [&](auto column, auto row) { return hills(seed, column, row); });
 }
@@ -240,6 +241,7 @@ RasterHeightfield makeAllNoData(std::uint32_t columns, std::uint32_t rows, std::
   return fill("all nodata", columns, rows, [](auto, auto) { return kNoData; });
 }
 
+// The arguments are drawn in statements of their own, so that compilers agree on their order.
 RasterHeightfield makeOneValid(std::uint32_t columns, std::uint32_t rows, std::uint64_t seed) {
   RasterHeightfield field = fill("one valid sample", columns, rows, [](auto, auto) { return kNoData; });
   Random random(seed);
@@ -249,12 +251,14 @@ RasterHeightfield makeOneValid(std::uint32_t columns, std::uint32_t rows, std::u
   return field;
 }
 
+// No two valid samples are neighbours along a row or column, so every cell lacks two corners.
 RasterHeightfield makeCheckerboard(std::uint32_t columns, std::uint32_t rows, std::uint64_t seed) {
   return fill("checkerboard", columns, rows, [&](auto column, auto row) {
     return (column + row) % 2 == 0 ? hills(seed, column, row) : kNoData;
   });
 }
 
+// These families have triangles; the ones below have none and are for what must be refused.
 constexpr std::array kRasterFamilies = {
     RasterFamily{"flat", makeFlat},
     RasterFamily{"ramp", makeRamp},

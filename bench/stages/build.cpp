@@ -79,6 +79,7 @@ Result<Figures> readStage(const DemSource& source, const Plan& plan) {
   return figures;
 }
 
+// The stages of one build are credited to a clock; what they do not claim is a figure of its own.
 Result<Figures> buildOnce(const DemSource& source, HoleShape shape, int threads, const std::string& model) {
   const auto limit = limitTo(threads);
   StageClock clock;

@@ -161,6 +161,7 @@ Result<Figures> cutStage(const DemSource& source, const std::string& path, const
   return CutStage(source, model, plan).run();
 }
 
+// Only the writing is timed: the cut is taken before. The file is removed, and its size gives the rate.
 Result<Figures> exportStage(const DemSource& source, const std::string& path, const Plan& plan) {
   ARETE_TRY(const TerrainModel model, loadModel(path));
   const double tolerance = source.tolerances.front();
@@ -187,6 +188,7 @@ Result<Figures> exportStage(const DemSource& source, const std::string& path, co
                  {source.name, "export", variant, "rate", bytes / seconds / 1e6, "MB/s", Better::higher}};
 }
 
+// The measurement that is timed is also checked: a result that breaks its promise fails the stage.
 Result<Figures> measureStage(const DemSource& source, const std::string& path, const Plan& plan) {
   ARETE_TRY(const TerrainModel model, loadModel(path));
   ARETE_TRY(const RasterHeightfield field, readField(source));
@@ -208,6 +210,8 @@ Result<Figures> measureStage(const DemSource& source, const std::string& path, c
   return figures;
 }
 
+// Two models of the same terrain are compared with counts of other programs; each count is of a mesh that
+// keeps the tolerance.
 Result<Figures> trianglesStage(const DemSource& source, const std::string& delaunay,
                                const std::string& fidelity, const std::vector<GreedyBaseline>& baselines) {
   ARETE_TRY(const RasterHeightfield field, readField(source));

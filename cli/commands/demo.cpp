@@ -15,12 +15,14 @@
 namespace arete {
 namespace {
 
+/// The arguments outlive the parser, since the command runs after everything is parsed.
 struct DemoArguments {
   DemArguments dem;
   DemoOptions options;
   std::string maxErrors;
 };
 
+// The JSON has the numbers of the table and of the curve, so that both can be drawn again.
 Json answerOf(const DemoReport& report) {
   Json results = Json::array(), curve = Json::array();
   for (const DemoResult& r : report.results)
@@ -64,6 +66,8 @@ std::string textOf(const DemoReport& report) {
   return text;
 }
 
+// A share of the relief and an error in the unit of heights may be mixed in one list; the demo resolves
+// shares when it knows the relief.
 Status demonstrate(DemoArguments& arguments, Session& session) {
   arguments.options.reading = arguments.dem.reading;
   if (!arguments.maxErrors.empty()) {

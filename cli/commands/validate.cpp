@@ -65,6 +65,8 @@ std::string scopeOf(const Law& law, const ErrorsChecked& checked) {
                                         counted(checked.triangles, "triangle", "triangles"));
 }
 
+// A violation is an answer and not a failure of the command, so it is reported as JSON too before the exit
+// code tells of it.
 Status runValidate(const ValidateArguments& arguments, Session& session) {
   ARETE_TRY(AmtContainer container, openModelFile(arguments.model));
   ARETE_CHECK(arguments.kinds.refuseOther(kindOf(container)));
@@ -96,6 +98,7 @@ Status runValidate(const ValidateArguments& arguments, Session& session) {
                                                         nameWithoutQuery(arguments.source.path));
     session.say(text);
   }
+  // The laws are listed only if all hold, since the check ends at the first violation.
   Json laws = Json::array();
   for (const Law& law : kLaws)
     if (valid)

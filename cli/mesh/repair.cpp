@@ -112,6 +112,7 @@ Result<RepairedMesh> mend(MeshInput& input, const RepairArguments& arguments, bo
 
 using Line = std::pair<std::uint64_t, const char*>;
 
+/// Every count has its words here; mendedText() leaves out what did not occur.
 std::vector<Line> mendedLines(const RepairCounts& c) {
   return {{c.duplicateTriangles, "duplicate faces left out"},
           {c.degenerateTriangles, "faces without area left out"},
@@ -127,6 +128,8 @@ std::vector<Line> mendedLines(const RepairCounts& c) {
           {c.unusedVertices, "vertices without a face left out"}};
 }
 
+// A weld is said with its distance, also one that the rounding of the file has called for; then it would be
+// wrong to say that there was nothing to mend.
 std::string mendedText(const MeshInput& input, const std::optional<Welded>& welded,
                        const RepairedMesh& repaired) {
   std::string text;
@@ -158,6 +161,7 @@ std::string mendedText(const MeshInput& input, const std::optional<Welded>& weld
   return text;
 }
 
+// The JSON has every count, zeros included, so that programs need no defaults.
 Json mendedJson(const RepairCounts& c) {
   return {{"turnedSolids", c.turnedSolids},         {"turnedCavities", c.turnedCavities},
           {"duplicateFaces", c.duplicateTriangles}, {"degenerateFaces", c.degenerateTriangles},
@@ -186,6 +190,7 @@ Result<double> distanceOfNearBorders(const MeshInput& input, const RunContext& c
   return d.farthestNear <= d.shortestBorderEdge / 4 ? d.farthestNear : 0;
 }
 
+// Borders are welded by a stated distance, or else by the distance that the rounding of the file explains.
 Status runRepair(const RepairArguments& arguments, Session& session) {
   ARETE_TRY(const MeshTarget target, meshTarget(arguments.output, arguments.input, session));
   ARETE_TRY(MeshInput input, readMeshInput(arguments.input, session.context()));
@@ -212,9 +217,11 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
     welded->edges = joined.joinedEdges;
     welded->farthestMove = joined.farthestMove;
   }
+  // Errors that the mesh carries no longer hold where welding has moved a vertex, so mending is given that.
   ARETE_TRY(const RepairedMesh repaired, mend(input, arguments, welded && welded->farthestMove > 0, session));
   if (input.file.mesh.triangles.empty())
     return failure(ErrorCode::invalidData, "no face is left: all were without area", arguments.input);
+  // The report of the repair holds examples only; JSON lists all, so the result is examined once more.
   Result<MeshDiagnosis> diagnosis = repaired.diagnosis;
   if (session.wantsJson())
     diagnosis = diagnose(repaired.mesh,

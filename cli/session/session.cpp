@@ -102,6 +102,8 @@ CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std:
       ->add_flag("--confined", isConfined_,
                  "Read the named files and their sidecars only, without network (for services)")
       ->group("Output");
+  // The command runs after parsing has ended, and not within it, so that its errors are not taken for those
+  // in the arguments.
   command->callback([this, command, run = std::move(run)] {
     run_ = run;
     command_ = command;
@@ -109,6 +111,8 @@ CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std:
   return command;
 }
 
+/// The status is explained before it is reported: a changed input or a signal may be the cause of what looks
+/// like another error. A failed write to stdout is noticed at the last flush.
 ExitCode Session::runParsed() {
   std::optional<ThreadLimit> limit;
   if (threads_ > 0) limit.emplace(threads_);
@@ -132,6 +136,7 @@ ExitCode Session::runParsed() {
   return code;
 }
 
+// GDAL is confined before the first file is opened; what GDAL says outside any reader becomes a warning.
 Status Session::prepareGdal() {
   sendUnclaimedGdalMessages(quiet_ ? nullptr : warnOfGdal);
   guardProjFiles();

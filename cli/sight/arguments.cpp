@@ -10,6 +10,7 @@
 
 namespace arete {
 
+// A stated coefficient is kept apart from the default one, since a stated one is an error on a plane.
 void SightArguments::addEarthTo(CLI::App& command) {
   const std::string group = "Shape of the Earth";
   command
@@ -34,6 +35,7 @@ void SightArguments::addEarthTo(CLI::App& command) {
       ->group(group);
 }
 
+// The option is kept, so that commands can see whether it was stated.
 void SightArguments::addNodataTo(CLI::App& command) {
   nodataOption =
       command
@@ -58,6 +60,8 @@ Json SightArguments::refractionJson(const TerrainModel& model) const {
   return earthName(model) == "plane" ? Json() : Json(refraction);
 }
 
+// A plane has no refraction. If the CRS exists and allows no ellipsoid, the user is warned that the plane is
+// taken.
 Result<std::unique_ptr<SightEarth>> SightArguments::makeEarth(const TerrainModel& model,
                                                               Session& session) const {
   if (earthName(model) == "plane") {

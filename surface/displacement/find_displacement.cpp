@@ -40,6 +40,8 @@ double lifeOf(const MultiTriangulation& mt, TriangleId t) {
   return last > first ? std::log(last / first) : 0;
 }
 
+/// The triangles of a batch are visited by several threads, and added in their order at its end, so that sums
+/// do not depend on threads.
 class Pulls final : public CoarseTriangleVisitor {
  public:
   Pulls(const SurfaceModel& model, const OriginalSurface& original)
@@ -58,6 +60,7 @@ class Pulls final : public CoarseTriangleVisitor {
     const SpaceTriangle place = {original_.positions[t.corners[0]], original_.positions[t.corners[1]],
                                  original_.positions[t.corners[2]]};
     const Vec3 normal = areaNormal(place);
+    // A triangle without error, life or area cannot say what its samples want.
     if (!(scale > 0) || !(life > 0) || !(dot(normal, normal) > 0)) return;
     const Symmetric3 along = metricAlong(unit(normal), kAcross);
     std::vector<SurfaceSample> samples;
@@ -65,6 +68,8 @@ class Pulls final : public CoarseTriangleVisitor {
       if (piece.across == 0) samples_.append(piece, samples);
     });
     for (const SurfaceSample& sample : samples) {
+      // Where the nearest point is inside, the distance along the normal counts most; on the boundary a
+      // sample pulls in all directions alike.
       const std::array<double, 3> shares = sharesAt(nearestOnTriangle(sample.place, place), place);
       const Vec3 r = sample.place - (shares[0] * place[0] + shares[1] * place[1] + shares[2] * place[2]);
       const bool isInside = std::min({shares[0], shares[1], shares[2]}) > kOnBoundary;

@@ -77,6 +77,7 @@ struct OffscreenContext::Held {
   GLFWwindow* window = nullptr;
   std::string description;
 
+  // The context goes before the display or the library that it belongs to.
   ~Held() {
     if (context != EGL_NO_CONTEXT) {
       eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
@@ -90,6 +91,8 @@ struct OffscreenContext::Held {
   }
 };
 
+// A display that opens has not yet a context of version 4.5, so the next one is tried until one has. A hidden
+// window is the last resort, on machines whose EGL has no devices.
 Result<OffscreenContext> OffscreenContext::create() {
   auto held = std::make_unique<Held>();
   for (const auto& open : displays()) {
@@ -127,6 +130,7 @@ const std::string& OffscreenContext::description() const {
   return held_->description;
 }
 
+// The version is checked once a context is there, since a driver may give an older one than was wanted.
 Result<std::string> checkOpenGl() {
   const int version = epoxy_gl_version();
   if (!epoxy_is_desktop_gl() || version < 45)

@@ -54,6 +54,8 @@ double CameraRig::reach() const {
   return std::max(distance(eye, target), 1e-3);
 }
 
+/// Both cameras and the following of the terrain begin anew from a place, so that the next input continues
+/// from it in either mode.
 void CameraRig::enter(const Camera& camera) {
   camera_ = camera;
   camera_.azimuthDegrees = wrappedAzimuth(camera.azimuthDegrees);
@@ -85,6 +87,7 @@ void CameraRig::home(HomeView view, const CurvedGround* ground) {
                : homeCamera(view, space_, picker_.box(), camera_, stretch_));
 }
 
+// The target stays in the middle of the picture, at the stated distance or the present one.
 void CameraRig::lookAt(const Vec3& metric, double metres) {
   const double radius = metres > 0 ? metres : orbit_.orbit().radius;
   const Vec3 f = space_.forward(lookOf(camera_)), target{metric.x, metric.y, metric.z * stretch_};
@@ -93,6 +96,7 @@ void CameraRig::lookAt(const Vec3& metric, double metres) {
   enter(floorMetres_ > 0 ? ground_->aboveFloor(there) : there);
 }
 
+// A change of the picture or the field of view changes what lies in its middle, so the orbit is found again.
 void CameraRig::setPicture(double widthPixels, double heightPixels) {
   if (camera_.widthPixels == widthPixels && camera_.heightPixels == heightPixels) return;
   camera_.widthPixels = widthPixels;

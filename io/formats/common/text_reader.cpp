@@ -23,6 +23,7 @@ constexpr std::size_t kMostKeywords = 8;
 MeshTextReader::MeshTextReader(const FileBytes& file, std::string path, const RunContext& context)
     : begin_(file.begin()), at_(file.begin()), end_(file.end()), path_(std::move(path)), context_(context) {}
 
+// A format may leave the position behind several lines, so lines are counted for cancelling only.
 Result<MeshFile> MeshTextReader::read() {
   for (std::size_t line = 0; at_ < end_; ++line) {
     if (line % kLinesPerCancelCheck == 0) {
@@ -41,6 +42,8 @@ Result<MeshFile> MeshTextReader::read() {
   return std::move(mesh_);
 }
 
+// Comments of Arete hold what the format has no field for. A file that begins as ours must end as ours, so
+// that a truncated one is noticed.
 void MeshTextReader::takeComment(std::string_view comment) {
   while (!comment.empty() && text::isBlank(comment.back())) comment.remove_suffix(1);
   if (!comment.empty() && comment.front() == ' ') comment.remove_prefix(1);
@@ -59,6 +62,7 @@ bool MeshTextReader::isKeyword(std::string_view word) {
   });
 }
 
+/// A few keywords are counted by name and the rest together, so that a damaged file makes no long warning.
 void MeshTextReader::leaveOut(std::string_view keyword) {
   if (const auto known = leftOut_.find(keyword); known != leftOut_.end())
     ++known->second;
@@ -77,6 +81,7 @@ void MeshTextReader::warnOfLeftOut(std::string_view lines) {
   mesh_.warnings.push_back({WarningCode::omitted, fmt::format("its {} {} are left out", lines, list)});
 }
 
+// The number of the line is counted only when an error needs it.
 tl::unexpected<Error> MeshTextReader::corrupt(const char* place, std::string_view what) const {
   return failure(ErrorCode::corrupt, fmt::format("line {} {}", text::lineOf(begin_, place), what), path_);
 }

@@ -125,6 +125,7 @@ Status applySparse(const GltfDocument& document, GltfViews& views, const nlohman
 
 }  // namespace
 
+/// The standard itself has no 5124 and 5130; extensions use them for whole numbers of 32 bits and doubles.
 std::optional<ScalarType> scalarTypeOf(std::uint64_t componentType) {
   switch (componentType) {
     case 5120:
@@ -158,6 +159,7 @@ Result<GltfElements> readAccessor(const GltfDocument& document, GltfViews& views
   const auto count = GltfDocument::wholeNumber(accessor, "count"),
              component = GltfDocument::wholeNumber(accessor, "componentType"),
              offset = GltfDocument::wholeNumber(accessor, "byteOffset", 0);
+  // Each member is checked before it is used, and the message names the accessor, since a file has many.
   for (const auto* value : {&count, &component, &offset})
     if (!*value) return wrong(number, value->error().message);
   GltfElements elements;
@@ -171,6 +173,8 @@ Result<GltfElements> readAccessor(const GltfDocument& document, GltfViews& views
   const auto normalized = accessor.find("normalized");
   elements.isNormalized = normalized != accessor.end() && *normalized == true && !isFloat(*scalar);
 
+  // Without a view all elements are zeros, read from one place again and again; a sparse list may change
+  // some.
   if (accessor.contains("bufferView")) {
     const auto viewNumber = GltfDocument::wholeNumber(accessor, "bufferView");
     if (!viewNumber) return wrong(number, viewNumber.error().message);

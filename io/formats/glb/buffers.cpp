@@ -36,6 +36,7 @@ bool staysBelow(const std::string& name) {
 
 }  // namespace
 
+// A per cent sign without two digits stands for itself.
 std::string percentDecoded(std::string_view uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -52,6 +53,7 @@ std::string percentDecoded(std::string_view uri) {
   return text;
 }
 
+/// Only base 64 is read; a data URI of text is refused.
 Result<std::string> GltfBuffers::dataOf(std::string_view uri) {
   const std::size_t comma = uri.find(',');
   if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(kBase64))
@@ -61,6 +63,8 @@ Result<std::string> GltfBuffers::dataOf(std::string_view uri) {
   return std::move(*decoded);
 }
 
+// A decoded data URI is kept by the number of its buffer, since views point into it. A file may be longer
+// than the buffer, as chunks are padded.
 Result<std::string_view> GltfBuffers::bytesOf(std::uint64_t number, const nlohmann::json& buffer) {
   const auto found = buffer.find("uri");
   if (found == buffer.end()) {

@@ -21,6 +21,8 @@ constexpr std::size_t kTrianglesPerCancelCheck = 1 << 12;
 constexpr const char* kLayer = "triangles";
 constexpr const char* kVerticalUnitKey = "VERTICAL_UNIT";
 
+// The notes become the description of the layer. The unit of heights has no field in the format and is
+// metadata.
 Result<OGRLayer*> createLayer(GDALDataset& dataset, const MeshWriteOptions& options,
                               const GdalErrors& errors) {
   std::string description;
@@ -40,6 +42,7 @@ Result<OGRLayer*> createLayer(GDALDataset& dataset, const MeshWriteOptions& opti
   return layer;
 }
 
+// A ring closes with its first point, so it has four. Features are numbered from 1 and triangles from 0.
 Status writeTriangles(OGRLayer& layer, const TriangleMesh& mesh, std::span<const float> triangleErrors,
                       const GdalErrors& errors, const RunContext& context) {
   OGRFeature feature(layer.GetLayerDefn());
@@ -66,6 +69,7 @@ Status writeTriangles(OGRLayer& layer, const TriangleMesh& mesh, std::span<const
   return {};
 }
 
+// An insertion reports its failure by its result, so messages of creating the layer are dropped before.
 Status fill(GDALDataset& dataset, GdalErrors& errors, const TriangleMesh& mesh,
             const MeshWriteOptions& options, const RunContext& context) {
   ARETE_TRY(OGRLayer* const layer, createLayer(dataset, options, errors));

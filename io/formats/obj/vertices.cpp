@@ -44,6 +44,7 @@ double objAlphaOf(const Attribute& color, double number) {
   return fractionOf(whole, number);
 }
 
+/// A byte of sRGB is written by a table, so that reading it gives the byte again.
 ObjColorNumber objColorNumber(const Attribute& color, double number) {
   const double fraction = objAlphaOf(color, number);
   if (color.colorSpace != ColorSpace::linear) {
@@ -59,6 +60,8 @@ ObjColorNumber objColorNumber(const Attribute& color, double number) {
   return {srgb, color.type != ScalarType::float64};
 }
 
+// A vertex may have one number, a weight, or three or four, a colour. Vertices before the first colour are
+// filled in with white.
 void ObjVertexExtras::add(std::size_t vertex, std::span<const double> numbers) {
   const bool isColor = (numbers.size() == 3 || numbers.size() == 4) &&
                        std::ranges::all_of(numbers, [](double n) { return std::isfinite(n); });

@@ -153,6 +153,7 @@ std::string misfitOf(const TriangleMesh& mesh, const MeshWriteOptions& options) 
 Result<MeshWriteReport> writePly(MeshRef written, const std::filesystem::path& path,
                                  const MeshWriteOptions& options, const RunContext& context) {
   const TriangleMesh& mesh = written.shape;
+  // A mesh that does not fit the format or its options is refused before the file is created.
   if (const Status ok = written.validate(); !ok)
     return failure(ErrorCode::invalidData, ok.error().message, path.string());
   if (std::string misfit = misfitOf(mesh, options); !misfit.empty())
@@ -165,6 +166,8 @@ Result<MeshWriteReport> writePly(MeshRef written, const std::filesystem::path& p
   file.write(headerOf(mesh, options, columns, textures, withFloats));
   WriteProgress progress(mesh.positions.size() + mesh.triangles.size(), path.string(), context);
 
+  // Records of vertices have one size, and so have those of faces, as each face has three corners. So each is
+  // filled in place.
   const bool withQualities = !options.vertexQualities.empty(), withColors = !options.vertexColors.empty();
   Records vertices(file, 3 * (withFloats ? sizeof(float) : sizeof(double)) +
                              (withQualities ? sizeof(float) : 0) + (withColors ? 3 : 0) +
@@ -181,6 +184,7 @@ Result<MeshWriteReport> writePly(MeshRef written, const std::filesystem::path& p
     vertices.end();
   }
 
+  // Lists of corners have a length before their values, in a byte where it fits.
   const bool withErrors = !options.triangleErrors.empty(), withNumbers = !textures.numbers.empty();
   std::size_t faceSize = 1 + 3 * sizeof(std::int32_t) + (withErrors ? sizeof(float) : 0) +
                          (withNumbers ? sizeof(std::int32_t) : 0) + sizeOfRecord(columns.faces);
@@ -199,6 +203,7 @@ Result<MeshWriteReport> writePly(MeshRef written, const std::filesystem::path& p
   }
   ARETE_CHECK(file.finish());
 
+  // The columns say themselves what they lose; the rest is what the format has no place for.
   const MeshHolds::Test any = [](const Attribute&) { return true; };
   MeshWriteReport report{.lost = lossesOf(written.attributes, {.vertexAttribute = any,
                                                                .wedgeAttribute = any,

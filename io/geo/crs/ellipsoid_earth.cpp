@@ -60,6 +60,7 @@ PlanExtent extentOf(const TerrainModel& model) {
   return {std::sqrt(area / std::max(1u, model.mt.vertexCount())), (box.xMin + box.xMax) / 2, box.yMin};
 }
 
+/// Lines are geodesics of the ellipsoid of the CRS, and distances are their lengths.
 class EllipsoidEarth final : public SightEarth {
  public:
   EllipsoidEarth(const TerrainModel& model, CrsLonLat lonLat, double refraction)
@@ -85,6 +86,7 @@ class EllipsoidEarth final : public SightEarth {
     return length;
   }
 
+  // An end at a pole has any longitude; it takes the one of the other end, so that the line arrives straight.
   Result<SightTrack> track(Vec2 from, Vec2 to) const override {
     from = sightEnd(model_, from);
     to = sightEnd(model_, to);
@@ -102,6 +104,8 @@ class EllipsoidEarth final : public SightEarth {
       track.points = {{from, 0}, {from, 0}};
       return track;
     }
+    // The curvature of the ellipsoid along the line, lessened by refraction, is what a line of sight sees;
+    // too long a line would leave the approximation.
     const GeodesicLine line =
         geodesic_.Line(ends[0].y, ends[0].x, azimuth,
                        Geodesic::LATITUDE | Geodesic::LONGITUDE | Geodesic::AZIMUTH | Geodesic::DISTANCE_IN);

@@ -56,6 +56,8 @@ void takeUnit(const std::string& unit, Georeference& georeference, Warnings& war
 
 }  // namespace
 
+// A vertical axis is the third of a three-dimensional CRS, or the only one of the vertical part of a compound
+// CRS.
 bool pointsDown(const OGRSpatialReference& crs) {
   OGRAxisOrientation orientation = OAO_Other;
   if (crs.IsCompound())
@@ -77,6 +79,8 @@ Result<bool> describeVertical(const OGRSpatialReference& crs, const VerticalSign
   }
   ARETE_CHECK(describeCrs(crs, georeference));
 
+  // The heights of the model count upwards, so a vertical CRS of depths would be wrong for them: only its
+  // datum is kept.
   const bool isDown = pointsDown(crs);
   if (isDown) {
     const std::string datum = attributeOf(crs, "VERT_DATUM");
@@ -88,6 +92,8 @@ Result<bool> describeVertical(const OGRSpatialReference& crs, const VerticalSign
       horizontal.DemoteTo2D(nullptr);
     georeference.crsWkt = wktOf(horizontal);
   }
+  // What the user states counts first, then a format that demands heights, then the file's conventions, then
+  // its CRS. What the file decides is said, since a wrong sign turns the terrain over.
   const std::string reason =
       !signs.depthName.empty() ? signs.depthName
       : isDown                 ? fmt::format("its vertical CRS, {}, points down", attributeOf(crs, "VERT_CS"))
@@ -106,6 +112,7 @@ Result<bool> describeVertical(const OGRSpatialReference& crs, const VerticalSign
              "{}, but its format demands heights: they are taken as they are; `isDepth` down negates them",
              reason)});
 
+  // The unit of the file is found first, so that a warning can name a stated one that contradicts it.
   takeUnit(signs.unit, georeference, warnings);
   if (georeference.verticalDatum.empty()) georeference.verticalDatum = signs.datum;
   if (statedMetres) {

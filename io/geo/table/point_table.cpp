@@ -30,6 +30,8 @@ bool isPlace(Vec2 p) {
   return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
+/// Gathers the rows of features: the number of the feature, then its fields. A row without a position stays,
+/// so that rows of the answer match rows of the file.
 class FeatureReader {
  public:
   FeatureReader(OGRLayer& layer, PointTable& table) : layer_(layer), table_(table) {
@@ -62,6 +64,8 @@ class FeatureReader {
   }
 
  private:
+  // A feature of several points is a row for each, with equal attributes. Positions that are not finite count
+  // as missing.
   void addPoint(OGRFeature& feature, const OGRPoint& point) {
     const auto stated = [&](double value) {
       return !point.IsEmpty() && std::isfinite(value) ? value : kNone;

@@ -164,6 +164,8 @@ std::optional<std::string> findScaleProblem(const OutwardScale& scale) {
   return fmt::format("the error scale's base is {}, more than {}", scale.base(), kMaxBase);
 }
 
+/// Fixed vertices are a chunk of their own, so the options in the metadata are without them. The source is
+/// named without the query of its address, which may hold what is secret.
 AmtMetadata amtMetadataOf(const TerrainModel& model, std::string writer) {
   AmtMetadata m;
   static_cast<AmtHead&>(m) = amtHeadOf(model.mt, std::move(writer));
@@ -185,6 +187,8 @@ AmtMetadata amtMetadataOf(const TerrainModel& model, std::string writer) {
   return m;
 }
 
+/// The numbers come from a file: later code relies on counts that fit 32 bits, on a grid that has the
+/// vertices, and on a geotransform that can be inverted.
 std::optional<std::string> findAmtProblem(const AmtMetadata& m) {
   if (auto problem = findCountProblem(m.counts)) return problem;
   const TerrainModel& model = m.model;
@@ -208,6 +212,7 @@ std::optional<std::string> findAmtProblem(const AmtMetadata& m) {
   return std::nullopt;
 }
 
+// What JSON cannot hold as a number, such as a NODATA value of NaN, is stored as text.
 std::string toAmtJson(const AmtMetadata& metadata) {
   JsonTree object(nlohmann::ordered_json::object());
   json_fields::Writer writer(*object);

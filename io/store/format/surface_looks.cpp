@@ -38,6 +38,7 @@ constexpr std::array<Choice<AttributeMeaning>, 5> kMeanings = {
 constexpr std::array<Choice<ColorSpace>, 3> kSpaces = {
     {{ColorSpace::none, "none"}, {ColorSpace::srgb, "srgb"}, {ColorSpace::linear, "linear"}}};
 
+/// The reader and the writer visit the same fields, so a field cannot be in one of them only.
 template <class Visitor, class A>
 void visitAttribute(Visitor& visitor, A& a) {
   visitor.field("name", a.name);
@@ -64,6 +65,7 @@ void visitTexture(Visitor& visitor, T& t) {
   visitor.field("textureCoords", t.textureCoords);
 }
 
+// This makes an object of one element of a list, with the fields that a visitor writes.
 nlohmann::ordered_json written(const auto& visit) {
   nlohmann::ordered_json object = nlohmann::ordered_json::object();
   json_fields::Writer writer(object);
@@ -110,6 +112,7 @@ std::string toLooksJson(const SurfaceModel& model) {
   json_fields::Writer top(looks);
   for (const auto& [key, attributes] : attributeLists(a))
     for (const Attribute& attribute : *attributes)
+      // The number of components is a byte in memory, and a number like any other in the file.
       looks[key].push_back(written([&](auto& w) {
         visitAttribute(w, attribute);
         w.field("components", std::uint32_t{attribute.components});
@@ -127,6 +130,7 @@ std::string toLooksJson(const SurfaceModel& model) {
       }
       w.optional("verbatim", verbatim);
     }));
+  // Textures come after the materials, as lists within them.
   for (std::size_t m = 0; m < a.materials.size(); ++m)
     for (const TextureUse& texture : a.materials[m].textures)
       looks["materials"][m]["textures"].push_back(written([&](auto& w) { visitTexture(w, texture); }));
@@ -147,6 +151,7 @@ Status fromLooksJson(std::string_view text, std::uint64_t attributeBytes, Surfac
   std::string problem;
   MeshAttributes& a = model.attributes;
   json_fields::Reader top(looks, problem);
+  // An attribute gets its type here and its values later, from another chunk.
   for (const auto& list : attributeLists(a))
     readRow(looks, list.first, problem, [&](json_fields::Reader& r, const Json&) {
       Attribute& attribute = list.second->emplace_back();
@@ -178,6 +183,7 @@ Status fromLooksJson(std::string_view text, std::uint64_t attributeBytes, Surfac
     readRow(object, "textures", problem,
             [&](json_fields::Reader& t, const Json&) { visitTexture(t, material.textures.emplace_back()); });
   });
+  // The sizes of the pictures are returned, since their bytes lie in another chunk one after the other.
   readRow(looks, "pictures", problem, [&](json_fields::Reader& r, const Json&) {
     EmbeddedPicture& picture = a.pictures.emplace_back();
     r.field("name", picture.name);
@@ -188,6 +194,8 @@ Status fromLooksJson(std::string_view text, std::uint64_t attributeBytes, Surfac
   return {};
 }
 
+// The order is the order of the lists in the JSON, and within them of the attributes: nothing else says where
+// a column begins.
 std::vector<std::byte> attributeBytesOf(const SurfaceModel& model) {
   std::vector<std::byte> bytes;
   const auto add = [&](std::span<const std::byte> more) {
@@ -199,6 +207,8 @@ std::vector<std::byte> attributeBytesOf(const SurfaceModel& model) {
   return bytes;
 }
 
+/// The sum of all columns is compared with the chunk before anything is copied, so that no column reaches
+/// beyond its end.
 Status takeAttributeBytes(std::span<const std::byte> bytes, std::uint64_t vertices, SurfaceModel& model) {
   MeshAttributes& a = model.attributes;
   const std::array<std::uint64_t, 3> counts{vertices, a.wedgeCount, model.sourceFaces};

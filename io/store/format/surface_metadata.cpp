@@ -138,6 +138,8 @@ std::optional<std::string> findAmtProblem(const SurfaceMetadata& m) {
   return std::nullopt;
 }
 
+/// Numbers that older versions did not have are left out where they are zero, so that such a model's file is
+/// as it was.
 std::string toAmtJson(const SurfaceMetadata& metadata) {
   JsonTree object(nlohmann::ordered_json::object());
   json_fields::Writer writer(*object);
@@ -148,6 +150,7 @@ std::string toAmtJson(const SurfaceMetadata& metadata) {
   return (*object).dump(1) + "\n";
 }
 
+/// A field that an older file lacks gets the value that it had by definition then.
 Result<SurfaceMetadata> fromSurfaceJson(std::string_view text) {
   const JsonTree object(nlohmann::json::parse(text, nullptr, false));
   if (!(*object).is_object()) return failure(ErrorCode::corrupt, "the metadata is not a JSON object");
