@@ -182,7 +182,7 @@ TriangleBvh::Below TriangleBvh::refit(std::uint32_t child, std::span<const Vec3>
     to[1][lane] = v.y;
     to[2][lane] = v.z;
   };
-  // The boxes of an inner node follow from its children; those of missing children stay empty, infinitely far
+  // The boxes of an inner node follow from its children; a missing child has an empty box, infinitely far
   // from every point. The leaves below a child follow each other, so their triangles are one span.
   if (child < kLeaf) {
     Node& node = nodes_[child];

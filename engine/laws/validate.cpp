@@ -64,7 +64,7 @@ class NodeCheck {
       for (std::size_t j = 0; j < i; ++j)
         if (floor[j] == t) return fmt::format("law 3: node {} lists triangle {} twice", n, t);
     }
-    // The last slot of an open star is no triangle, and its remover is the node itself.
+    // The last slot of an open star holds no triangle, and its remover is the node itself.
     for (std::uint32_t i = 0; i < slots; ++i) {
       if (link[i] >= mt_.apex(node).index())
         return fmt::format("law 1: node {} inserts vertex {} next to the younger vertex {}", n,

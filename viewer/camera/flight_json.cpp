@@ -145,8 +145,8 @@ Result<FlightRead> readFlightText(std::string_view text, const std::string& name
     read.plan.isClosed = closed->get<bool>();
   }
 
-  // Positions and heights become those of the DEM: a longitude is moved by whole turns, a height by the ratio
-  // of the units. Equal units are not multiplied, so that a flight survives to the bit.
+  // A longitude is moved by whole turns to where the DEM lies, and a height gets the unit of the DEM. Equal
+  // units are not multiplied, so that a flight survives to the bit.
   for (std::size_t i = 0; i < frames->size(); ++i) {
     Camera key;
     if (const auto problem = findFrameProblem((*frames)[i], key))

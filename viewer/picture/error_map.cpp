@@ -113,8 +113,8 @@ void drawBeyond(Canvas& canvas, const Rect& bar, const Statistics& s, double lim
   if (s.low < -limit) point(bar.bottom(), bar.bottom() + 12, errorColor(-limit, limit));
 }
 
-// The bar is drawn as a picture of its own, a row for each pixel, so that its colours are those of the map
-// exactly.
+// The bar is drawn as a picture of its own, a row for each pixel, so that its colours are exactly the colours
+// of the map.
 void drawColorBar(Canvas& canvas, const Rect& bar, const RasterHeightfield& errors, const Statistics& s,
                   double limit, const std::string& unit) {
   Image colors(int(bar.width), int(bar.height));

@@ -166,8 +166,8 @@ Result<MeshWriteReport> writePly(MeshRef written, const std::filesystem::path& p
   file.write(headerOf(mesh, options, columns, textures, withFloats));
   WriteProgress progress(mesh.positions.size() + mesh.triangles.size(), path.string(), context);
 
-  // Records of vertices have one size, and so have those of faces, as each face has three corners. So each is
-  // filled in place.
+  // All records of vertices have one size, and so do all of faces, as each face has three corners. So each
+  // record is filled in place.
   const bool withQualities = !options.vertexQualities.empty(), withColors = !options.vertexColors.empty();
   Records vertices(file, 3 * (withFloats ? sizeof(float) : sizeof(double)) +
                              (withQualities ? sizeof(float) : 0) + (withColors ? 3 : 0) +
