@@ -25,6 +25,7 @@ class Rays final : public EmbreeRays {
     const bool isGrid = geometry == Geometry::grid;
     RTCGeometry shape = rtcNewGeometry(device_, isGrid ? RTC_GEOMETRY_TYPE_GRID : RTC_GEOMETRY_TYPE_TRIANGLE);
     const std::uint32_t columns = grid.columns(), rows = grid.rows();
+    // A grid of Embree's has no holes, so samples without data lie far below the rest.
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
         shape, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), std::size_t{columns} * rows));
     for (std::uint32_t r = 0; r < rows; ++r)
@@ -69,6 +70,7 @@ class Rays final : public EmbreeRays {
     RTCRay16 rays;
     alignas(64) int valid[kPacket];
     for (std::uint32_t r = 0; r < rows; ++r)
+      // The rays of a packet go to neighbours in a row; the last packet of a row may be partly invalid.
       for (std::uint32_t first = 0; first < columns; first += kPacket) {
         for (std::uint32_t i = 0; i < kPacket; ++i) {
           const std::uint32_t c = first + i;
@@ -89,6 +91,7 @@ class Rays final : public EmbreeRays {
           rays.id[i] = i;
           rays.flags[i] = 0;
         }
+        // Embree sets tfar of an occluded ray to minus infinity.
         rtcOccluded16(valid, scene_, &context, &rays);
         for (std::uint32_t i = 0; i < kPacket && first + i < columns; ++i)
           seen[std::size_t{r} * columns + first + i] = rays.tfar[i] >= 0;
@@ -98,6 +101,7 @@ class Rays final : public EmbreeRays {
 
  private:
   void place(double column, double row, double height, float* at) const {
+    // The middle of the grid is the origin, so that floats are most exact.
     const double x = column - (grid_.columns() - 1) / 2.0, y = row - (grid_.rows() - 1) / 2.0;
     at[0] = static_cast<float>(x * steps_.x.x + y * steps_.y.x);
     at[1] = static_cast<float>(x * steps_.x.y + y * steps_.y.y);

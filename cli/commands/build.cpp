@@ -72,6 +72,7 @@ Result<FixedVertexOptions> fixedOptions(const BuildArguments& arguments, std::sp
   if (!arguments.featurePersistence.empty()) {
     ARETE_TRY(const auto stated, parseStatedSize(arguments.featurePersistence, "--feature-persistence"));
     const std::optional<double> relief = stated.isShare ? std::optional(reliefOf(heights)) : std::nullopt;
+    // A stated persistence replaces the number of features, which is then unlimited.
     fixed.features->count = std::numeric_limits<std::size_t>::max();
     fixed.features->minimumPersistence = stated.of(relief.value_or(0));
     if (relief)
@@ -95,6 +96,7 @@ void report(Session& session, const BuildArguments& arguments, const TerrainMode
   const MultiTriangulation& mt = model.mt;
   const std::uint64_t samples = std::uint64_t(mt.vertexCount()) + model.isolated.size();
   std::error_code error;
+  // The report does not fail where the size of the file cannot be read.
   const auto size = std::filesystem::file_size(arguments.output, error);
   const std::uint64_t bytes = error ? 0 : size;
   const double count = static_cast<double>(samples), rate = count / seconds.build;
@@ -143,6 +145,7 @@ void report(Session& session, const BuildArguments& arguments, const TerrainMode
       seconds.read, seconds.features, seconds.write, byteCount(bytes), bytesPerSample));
 }
 
+/// The smallest aspect has a meaning only where the shape of holes follows the data.
 Status takeShape(BuildArguments& arguments) {
   if (arguments.shape == "fidelity") arguments.options.shape = HoleShape::dataDependent;
   if (arguments.minimumAspect < 0) return {};
@@ -289,6 +292,8 @@ void addBuildCommand(CLI::App& app, Session& session) {
   command->add_flag("--packed", arguments->isPacked,
                     "Write the compressed form: a ninth to a fifteenth of the size (of a surface a fifth);\n"
                     "it is unpacked when read");
+  // Options for terrain or for surfaces alone are declared as such; one check refuses them with the other
+  // kind.
   OptionKinds& kinds = arguments->kinds;
   kinds.ofSurfaces(addPositionBitsTo(*command, arguments->positionBits));
   kinds.ofSurfaces(addDropAttributesTo(*command, arguments->dropAttributes));
@@ -323,6 +328,7 @@ void addBuildCommand(CLI::App& app, Session& session) {
           ->check(finiteAtLeast(0))
           ->type_name("SAMPLES"));
   const std::string keeping = "Vertices kept at every tolerance";
+  // Features are chosen by number or by persistence, or not at all: these three exclude each other.
   CLI::Option* count =
       kinds.ofTerrain(command
                           ->add_option("--features", arguments->featureCount,

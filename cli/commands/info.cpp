@@ -37,6 +37,7 @@ struct Facts {
   std::vector<CurvePoint> curve;
 };
 
+/// The error of the coarsest triangulation, with which the curve ends.
 double largestRootError(const MultiTriangulation& mt) {
   double largest = 0;
   for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t)
@@ -50,6 +51,7 @@ std::string gridText(const TerrainModel& model) {
   std::string text =
       fmt::format("{} x {}", counted(model.columns, "column", "columns"), counted(model.rows, "row", "rows"));
   if (!model.georeference.hasGeoTransform) return text + ", not placed";
+  // A step along a row or a column is a vector, so rotated grids have pixel sizes as well.
   const bool rotated = g[2] != 0 || g[4] != 0;
   return text + fmt::format(", pixel {:.9g} x {:.9g}{}, corner {:.9g}, {:.9g}", std::hypot(g[1], g[4]),
                             std::hypot(g[2], g[5]), rotated ? " (rotated)" : "", g[0], g[3]);
@@ -64,6 +66,7 @@ void sayFacts(const InfoArguments& arguments, const TerrainModel& model, const F
               const Session& session) {
   const MultiTriangulation& mt = model.mt;
   const BuildOptions& o = model.options;
+  // Isolated samples are in no triangle and so no vertices, but the file holds them.
   const double bytesPerSample = static_cast<double>(facts.bytes) /
                                 static_cast<double>(std::uint64_t{mt.vertexCount()} + model.isolated.size());
   std::string text = fmt::format(
@@ -105,6 +108,7 @@ void sayFacts(const InfoArguments& arguments, const TerrainModel& model, const F
     text +=
         fmt::format("  {:>12}  {:>9}  {:>13}  {:>13}\n", error, share, grouped(minimal), grouped(saturated));
   };
+  // Stated errors are answered alone; otherwise the finest and the root triangulation frame the curve.
   if (arguments.at.empty()) row("0 (finest)", 0, mt.finestTriangleCount(), mt.finestTriangleCount());
   for (const CurvePoint& point : facts.curve)
     row(fmt::format("{:g}", point.maxError), point.maxError, point.minimalTriangles,
@@ -123,6 +127,7 @@ Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const 
     grid = {{"columns", model.columns},
             {"rows", model.rows},
             {"geoTransform", g.hasGeoTransform ? Json(g.geoTransform) : Json()}};
+  // JSON has no infinity, so an error without a number is null.
   Json curve = Json::array();
   for (const CurvePoint& point : facts.curve)
     curve.push_back({{"maxError", std::isfinite(point.maxError) ? Json(point.maxError) : Json()},
@@ -174,6 +179,7 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
   facts.isPacked = file.isPacked();
   facts.rootError = largestRootError(model.mt);
   facts.relief = reliefOf(model);
+  // Stated shares are of the relief, which only the model knows.
   std::vector<double> tolerances = toleranceLadder(model.mt, arguments.curvePoints);
   if (!arguments.at.empty()) {
     ARETE_TRY(const auto stated, parseStatedSizes(arguments.at, "--at"));

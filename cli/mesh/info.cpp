@@ -105,6 +105,7 @@ std::string factsText(const MeshInput& input, const Facts& facts) {
   const MeshDiagnosis& d = facts.diagnosis;
   line("format", fmt::format("{}; vertices and faces count from {}", input.format, input.numbers.first));
   line("vertices", grouped(input.fileVertices));
+  // Triangles with corners of their own are joined by the reader, or every edge would count as a border.
   if (input.file.joinedVertices > 0)
     line("",
          fmt::format("{} joined: every triangle had corners of its own", grouped(input.file.joinedVertices)));
@@ -131,6 +132,7 @@ std::string factsText(const MeshInput& input, const Facts& facts) {
   line("box", fmt::format("{} to {}", positionText(d.boxLow), positionText(d.boxHigh)));
   line("diagonal", fmt::format("{:.9g}", d.diagonal));
   line("area", fmt::format("{:.9g}", facts.area));
+  // Only solids have a volume; it is negative where the faces turn inwards.
   if (facts.volume)
     line("volume", fmt::format("{:.9g}{}", *facts.volume, *facts.volume < 0 ? " (faces turn inwards)" : ""));
   if (!d.selfIntersections) line("crossings", "not searched for");
@@ -186,6 +188,7 @@ Json factsJson(const std::string& path, const MeshInput& input, const Facts& fac
                {"diagonal", d.diagonal},
                {"area", facts.area},
                {"volume", facts.volume ? Json(*facts.volume) : Json()}};
+  // The findings name vertices and faces by the numbers of the file, as the text does.
   json.update(diagnosisJson(d, input.numbers));
   json["warnings"] = Json::array();
   json["warningCodes"] = Json::array();
@@ -202,6 +205,7 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
   const SurfaceMesh& mesh = input.file.mesh;
   DiagnosisOptions options{.selfIntersections = !arguments.leavesOutSelfIntersections,
                            .rounding = input.rounding};
+  // The text shows the first places of a finding, JSON lists all of them.
   if (session.wantsJson()) options.mostPlaces = std::numeric_limits<std::size_t>::max();
   ARETE_TRY(MeshDiagnosis diagnosis, diagnose(mesh, options, session.context()));
   Facts facts;

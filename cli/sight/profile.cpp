@@ -83,6 +83,7 @@ Result<Way> typedWay(const std::string& text, const CrsTransform& toDem) {
     ARETE_TRY(const auto place, readPlaceArgument("--along", part, toDem));
     way.vertices.push_back(place);
   }
+  // Heights make a line of sight of exactly two places; on a longer line they are an error.
   if (positions.size() == 2 && parts.size() == 2)
     way.ends = {positions[0], positions[1]};
   else if (!positions.empty())
@@ -98,6 +99,7 @@ Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference&
     ARETE_TRY(auto way, typedWay(a.along, toDem));
     return std::vector<Way>{std::move(way)};
   }
+  // A file states its CRS, and its longitudes may be a whole turn away from the DEM's.
   if (a.sight.lonLat)
     return failure(ErrorCode::usage, "cannot be combined with --along FILE, which has a CRS of its own",
                    "--lonlat");
@@ -142,6 +144,7 @@ class ProfileTable {
     if (hasLine && wavelength_ > 0) text += ",fresnel_radius";
     text += '\n';
     for (std::size_t i = 0; i < answers.size(); ++i) {
+      // A part ends where the next vertex is not joined to the one before it, as over NODATA.
       int part = 0;
       for (const ProfileVertex& v : answers[i].profile.vertices) {
         part += !v.isJoined;
@@ -266,6 +269,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
   if (!a.png.empty() && text::lowerExtension(a.png) != "png")
     return failure(ErrorCode::usage, "a picture ends in .png", "--png " + a.png);
   ARETE_TRY(const AmtFile amt, openTerrainFile(a.model));
+  // The outline places the lines, and the lines decide which terrain is read.
   ARETE_TRY(const TerrainModel outline, outlineOf(amt, session));
   for (const auto& [option, path] : {std::pair{"--output", a.output}, {"--png", a.png}})
     if (!path.empty()) ARETE_CHECK(checkOutput(option, path, {a.model, a.along, outline.source}));
@@ -282,6 +286,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
   ARETE_TRY(const TerrainModel model, readWanted(amt, outline, wantedFor(ways, *earth, outline), session));
 
   ARETE_TRY(const TerrainError maxError, terrainErrorOf(a.maxError, amt, session));
+  // A grid of the samples serves only profiles of full resolution, which Fresnel zones always need.
   const bool isFull = maxError.value == 0 || a.frequency > 0;
   const Profiles profiles(model,
                           isFull && model.isRaster ? std::make_shared<const SightGrid>(model) : nullptr);
@@ -299,6 +304,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
         ErrorCode::invalidData,
         "has no terrain along the line; X,Y are coordinates of its CRS, or longitude,latitude with --lonlat",
         a.model);
+  // Typed places keep the CRS that they were typed in; a file's places have become the DEM's.
   const ProfileTable table(model, a.sight.lonLat && !isFile(a.along) ? toDem.sourceWkt() : dem.crsWkt,
                            wavelength);
   Json json = {{"model", a.model},

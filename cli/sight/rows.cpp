@@ -49,6 +49,7 @@ Json numberOrNull(double value) {
 SightRows SightRows::of(const SightPairs& pairs, const GroundHeights& heights) {
   SightRows all;
   all.rows.reserve(pairs.rows.size());
+  // A row without a path keeps its place, so that texts and tables have an entry for every row of the file.
   for (const auto& row : pairs.rows) {
     auto path = pathOf(row, heights);
     if (path) {
@@ -81,6 +82,7 @@ const Error* SightResults::errorOf(std::size_t row) const {
 
 SightCounts SightResults::counts() const {
   SightCounts counts;
+  // A row fails if it has no path, or if its path has no answer.
   for (std::size_t i = 0; i < rows.count(); ++i) {
     if (errorOf(i)) {
       ++counts.failed;
@@ -119,6 +121,7 @@ std::string SightResults::textOf(std::size_t row) const {
     if (a.sight.clearanceWithin > 0)
       text += fmt::format("             within {}\n", withUnit(a.sight.clearanceWithin, unit));
   }
+  // An obstruction without a terrain height is NODATA that counts as opaque.
   if (a.sight.obstruction)
     text += fmt::format("obstruction  {} at {}\n",
                         std::isnan(a.sight.obstruction->terrainHeight)
@@ -143,6 +146,7 @@ Json SightResults::jsonOf(std::size_t row) const {
   const auto& [from, to] = pairs.rows[row];
   Json json = {{"from", {numberOrNull(from.stated.x), numberOrNull(from.stated.y)}},
                {"to", {numberOrNull(to.stated.x), numberOrNull(to.stated.y)}}};
+  // A row without an answer still states its ends and the reason.
   if (const Error* error = errorOf(row)) {
     json["verdict"] = Json();
     json["error"] = withOptionNames(*error).describe();
@@ -183,6 +187,7 @@ Json SightResults::jsonOf(std::size_t row) const {
 PointAttributes SightResults::columns() const {
   using Kind = PointAttributes::Kind;
   PointAttributes table;
+  // The options alone decide which columns there are; a row without an answer leaves most of them empty.
   for (const char* name : {"x1", "y1", "height1", "x2", "y2", "height2"})
     table.columns.push_back({name, Kind::real});
   table.columns.push_back({"verdict", Kind::text});

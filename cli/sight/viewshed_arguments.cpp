@@ -28,6 +28,7 @@ Result<std::pair<double, double>> readRange(const std::string& option, const std
 }  // namespace
 
 void ObserverArguments::addTo(CLI::App& command) {
+  // Each --observer takes one text, or it would take the arguments behind it as well.
   command.add_option("--observer", typed, "Position of an observer, in the DEM's CRS; may be repeated")
       ->type_size(1)
       ->expected(1)
@@ -76,6 +77,8 @@ Result<ViewshedField> FieldOfViewArguments::field() const {
                    fmt::format("--min-distance {}", leastMetres));
   if (!azimuths.empty()) {
     ARETE_TRY(const auto range, readRange("--azimuth", azimuths));
+    // A field may go through north, from a larger azimuth to a smaller one, so only the turn between them
+    // counts.
     const auto turned = [](double v) { return v - 360 * std::floor(v / 360); };
     field.fromAzimuth = turned(range.first);
     const double span = range.second - range.first;
@@ -131,6 +134,7 @@ void ViewshedArguments::addTo(CLI::App& command) {
 }
 
 Status ViewshedArguments::check() const {
+  // Observers may be typed, come from a file, or both, so neither option is required by itself.
   if (observers.typed.empty() && observers.file.empty())
     return failure(ErrorCode::usage, "--observer or --observers is required");
   if (!isGeoTiffName(output))
@@ -148,6 +152,7 @@ Result<ViewshedOptions> ViewshedArguments::options() const {
   options.nodata = sight.nodata;
   options.method = method;
   options.field = field;
+  // Counts and servers need only what is seen, so these modes compute no values of cells.
   options.value = mode == ViewshedMode::height    ? ViewshedValue::leastHeight
                   : mode == ViewshedMode::horizon ? ViewshedValue::horizon
                                                   : ViewshedValue::none;

@@ -71,6 +71,7 @@ void ViewpointArguments::addTo(CLI::App& command, OptionKinds& kinds) {
 }
 
 HomeView ViewpointArguments::homeView() const {
+  // An empty name, the default, is the overview.
   for (const HomeView view : kHomeViews)
     if (toString(view) == home) return view;
   return HomeView::overview;
@@ -116,6 +117,7 @@ void DetailArguments::addTo(CLI::App& command, OptionKinds& kinds) {
 
 Status DetailArguments::findBudget(std::uint64_t finest) {
   if (budget.empty()) return {};
+  // A share is of the finest triangulation, so the number is known only once the model has been read.
   ARETE_TRY(const std::vector<StatedTriangles> stated, parseTriangleBudgets(budget, finest));
   if (stated.size() != 1) return failure(ErrorCode::usage, "takes one number", "--max-triangles");
   maxTriangles = std::min<std::int64_t>(stated.front().count, kMostTriangles);
@@ -144,6 +146,7 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
           ->check(oneOf({"height", "slope", "aspect", "plain", "error", "material"}))
           ->type_name("NAME")
           ->group(group);
+  // Some colours exist for one kind of model alone; with the other kind they are refused.
   kinds.valuesOf(ModelKind::terrain, colors, {"height", "slope", "aspect"});
   kinds.valuesOf(ModelKind::surface, colors, {"material"});
   CLI::Option* picture = kinds.ofTerrain(
@@ -191,6 +194,7 @@ Result<DrapeOptions> AppearanceArguments::drapeOptions() const {
   if (drapeBands.empty()) return options;
   ARETE_TRY(const auto numbers, parseNumbers("--drape-bands", drapeBands));
   for (const double n : numbers) {
+    // A picture is grey or has three colours, so two bands are an error.
     if (!(n >= 1 && n <= 65535 && n == std::floor(n)) || (numbers.size() != 1 && numbers.size() != 3))
       return failure(ErrorCode::usage, "must be one band (grey) or three (red, green, blue), counted from 1",
                      "--drape-bands " + drapeBands);
@@ -206,6 +210,7 @@ Result<ViewLook> AppearanceArguments::look() const {
   look.contourInterval = contours;
   look.hazeKilometres = hazeKilometres;
   look.hasWireframe = hasWireframe;
+  // Without a direction the sun stays where ViewLook has it.
   if (sun.empty()) return look;
   ARETE_TRY(const auto angles, anglesOfSun(sun));
   std::tie(look.sunAzimuthDegrees, look.sunElevationDegrees) = angles;
@@ -214,6 +219,7 @@ Result<ViewLook> AppearanceArguments::look() const {
 
 void PictureArguments::addTo(CLI::App& command) {
   const std::string group = "Pictures";
+  // What writes pictures needs --headless, and what describes a flight's pictures needs --frames.
   CLI::Option* headless =
       command.add_flag("--headless", isHeadless, "Draw without a window or display")->group(group);
   command.add_option("--size", sizeText, "Size of the picture or window in pixels (default 1280x720)")

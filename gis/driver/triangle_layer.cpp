@@ -13,6 +13,7 @@ namespace arete {
 
 PlacedTriangles PlacedTriangles::sorted(TriangleMesh mesh, std::span<const std::uint32_t> ids,
                                         std::span<const float> errors) {
+  // The features are sorted by id, so that GetFeature() finds one by bisection.
   std::vector<std::uint32_t> order(ids.size());
   std::iota(order.begin(), order.end(), 0u);
   std::ranges::sort(order, {}, [&](std::uint32_t t) { return ids[t]; });
@@ -32,6 +33,7 @@ TriangleLayer::TriangleLayer(const std::string& name, const OGRSpatialReference&
   SetDescription(name.c_str());
   definition_->SetGeomType(wkbPolygon25D);
   if (!crs.IsEmpty()) {
+    // The definition counts references, and the caller's object may go before it does: it gets a copy.
     OGRSpatialReference* const own = crs.Clone();
     definition_->GetGeomFieldDefn(0)->SetSpatialRef(own);
     own->Release();
@@ -45,6 +47,7 @@ TriangleLayer::~TriangleLayer() {
 }
 
 const PlacedTriangles* TriangleLayer::triangles() {
+  // The triangles are computed at the first question. A failure is reported once and leaves the layer empty.
   if (!triangles_ && !hasFailed_) {
     Result<PlacedTriangles> taken = [&]() -> Result<PlacedTriangles> {
       try {
@@ -80,6 +83,7 @@ OGRFeature* TriangleLayer::feature(const PlacedTriangles& from, std::size_t numb
 }
 
 bool TriangleLayer::mayBeWanted(const PlacedTriangles& from, std::size_t number) const {
+  // Boxes are compared before any geometry is made, because a small filter leaves most triangles out.
   if (m_poFilterGeom == nullptr) return true;
   OGREnvelope box;
   for (const std::uint32_t v : from.mesh.triangles[number])
@@ -110,6 +114,7 @@ OGRFeature* TriangleLayer::GetFeature(GIntBig id) {
 }
 
 GIntBig TriangleLayer::GetFeatureCount(int force) {
+  // Without a filter the number is known; with one, OGR counts the features.
   if (m_poFilterGeom != nullptr || m_poAttrQuery != nullptr) return OGRLayer::GetFeatureCount(force);
   const PlacedTriangles* const all = triangles();
   return all == nullptr ? 0 : static_cast<GIntBig>(all->ids.size());

@@ -20,6 +20,7 @@ namespace py = pybind11;
 
 void raise(const Error& error) {
   const std::string text = withoutQueries(error.describe());
+  // Python's own class is raised where one fits; other errors are a RuntimeError.
   switch (error.code) {
     case ErrorCode::usage:
       PyErr_SetString(PyExc_ValueError, text.c_str());
@@ -47,11 +48,14 @@ void warn(const Warnings& warnings) {
   const py::object category = py::module_::import("arete._warning").attr("AreteWarning");
   const py::object warnPython = py::module_::import("warnings").attr("warn");
   using namespace py::literals;
+  // A stack level of 2 names the line that called this module.
   for (const Warning& warning : warnings)
     warnPython(category(withoutQueries(warning.sentence), nameOf(warning.code)), "stacklevel"_a = 2);
 }
 
 Error inPython(Error error) {
+  // A culprit of letters in camel case is an option, which Python spells in snake case; others stay as they
+  // are.
   const auto isOfName = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   if (error.culprit.empty() || std::isupper(static_cast<unsigned char>(error.culprit.front())) != 0 ||
       !std::ranges::all_of(error.culprit, isOfName))
@@ -84,6 +88,7 @@ void runBeside(const py::object& progress, const std::function<void(const RunCon
       hasReport = true;
       changed.notify_one();
     };
+  // The body runs on a thread without Python's lock, while this one serves signals and progress.
   std::thread worker([&] {
     try {
       const GuestWork work;
@@ -103,6 +108,7 @@ void runBeside(const py::object& progress, const std::function<void(const RunCon
     std::string latestStage;
     double latest = 0;
     bool isNew = false, isEnd = false;
+    // The wait ends every 50 ms even without a report, so that an interrupt from the keyboard is noticed.
     {
       const py::gil_scoped_release released;
       std::unique_lock lock(mutex);
@@ -112,6 +118,7 @@ void runBeside(const py::object& progress, const std::function<void(const RunCon
       latestStage = stage;
       latest = fraction;
     }
+    // An exception of Python stops the body, and leaves here only after the thread has ended.
     if (!raised) {
       try {
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();

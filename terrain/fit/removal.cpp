@@ -35,6 +35,7 @@ void FitPatches::begin() {
     slotStamp_.assign(mesh_.slotCount(), 0);
     now_ = 0;
   }
+  // A stamp marks what belongs to the patch, so that a new patch need not clear the arrays.
   ++now_;
   unknowns_.clear();
   slots_.clear();
@@ -50,6 +51,7 @@ void FitPatches::addUnknown(std::uint32_t vertex) {
 
 void FitPatches::grow(std::uint32_t without) {
   const std::size_t end = unknowns_.size();
+  // The outermost ring begins at ringBegin_; the stars of its vertices hold the next one.
   for (; ringBegin_ < end; ++ringBegin_)
     mesh_.forStar(unknowns_[ringBegin_], [&](std::uint32_t slot) {
       for (const std::uint32_t v : mesh_.triangle(slot).corners)
@@ -80,6 +82,7 @@ bool FitPatches::addRows(const FitMesh::Corners& corners, const Samples& samples
     double bound = mesh_.bounds().at(s);
     const std::array<double, 3> w = weights.of(mesh_.plan(s));
     const double r = mesh_.residual(corners, w, s);
+    // A spared sample may stay as far away as it is, but not go further.
     if (spares) bound = std::max(bound, std::abs(r));
     row.rest = r / bound;
     bool isMoved = false;
@@ -87,6 +90,7 @@ bool FitPatches::addRows(const FitMesh::Corners& corners, const Samples& samples
       row.weight[i] = moves[i] && w[i] > kNoWeight ? w[i] / bound : 0;
       isMoved = isMoved || row.weight[i] > 0;
     }
+    // A sample that no unknown moves must be within its bound already.
     if (isMoved)
       patch_.add(row);
     else if (std::abs(row.rest) > mesh_.accepted())
@@ -116,6 +120,7 @@ void FitPatches::tryRemoval(NodeId leaf, std::uint32_t rings, RemovalTrial& tria
   trial.read.assign(1, apex);
   std::vector<std::uint32_t>& link = trial.read;
   for (const std::uint32_t v : mt.link(leaf)) link.push_back(mesh_.indexOf(v));
+  // Without all of its link in the mesh, the leaf cannot be removed; then only the apex has been read.
   if (!std::ranges::all_of(link, [&](std::uint32_t v) { return isInMesh(v); })) {
     link.resize(1);
     return;

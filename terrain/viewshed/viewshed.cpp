@@ -82,6 +82,7 @@ Result<ViewshedMaker> ViewshedMaker::make(const TerrainModel& model, const Sight
   ViewshedMaker maker(model, earth, grid ? std::move(grid) : std::make_shared<SightGrid>(model));
   ARETE_TRY(auto engine, makeSightEngine(SightMethod::pyramid, model, maker.grid_, context));
   maker.engine_ = std::move(engine);
+  // Only the sweep over geodesics needs the steepness; it is of the grid, so all observers share it.
   if (!earth.planeSteps() && earth.geodesicError())
     maker.steepness_ = std::make_shared<const std::vector<float>>(viewshedSteepness(*maker.grid_, context));
   return maker;
@@ -103,6 +104,7 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
   ARETE_TRY(const auto engine, engineFor(options));
   const bool hasTolerance = options.maxError > 0;
   const ViewshedObserver from{sightEnd(*model_, observer.plan), observer.height};
+  // An observer that the Earth cannot place fails here, once, instead of at every cell.
   ARETE_CHECK(earth_->track(from.plan, from.plan));
   const ViewshedExact exact(*engine, *earth_, model_->georeference.verticalUnitMetres, from, options);
   static const std::vector<float> kNothing;
@@ -115,6 +117,7 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
   result.cells.assign(count, ViewshedCell::outside);
   if (options.value != ViewshedValue::none)
     result.values.assign(count, std::numeric_limits<float>::quiet_NaN());
+  // The conditions that need no map come first, because a map of geodesics takes time.
   std::optional<std::string> whyNot;
   if (hasTolerance) {
     whyNot = "it has no tolerance";
@@ -131,6 +134,7 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
       whyNot = made.error();
     }
   }
+  // The automatic method falls back to rays; a sweep that was asked for fails with the reason.
   if (options.method == ViewshedMethod::sweep && whyNot)
     return failure(ErrorCode::unsupported, "the sweep is not possible: " + *whyNot, "method");
   result.method =
@@ -158,6 +162,7 @@ Result<Viewshed> ViewshedMaker::of(std::span<const Vec2> places, const ViewshedO
   const ViewshedExact exact(*engine, *earth_, model_->georeference.verticalUnitMetres, from, options);
   std::vector<Vec2> targets(places.begin(), places.end());
   for (Vec2& place : targets) place = sightEnd(*model_, place);
+  // The result is one row with a cell for each place.
   Viewshed result;
   result.columns = static_cast<std::uint32_t>(places.size());
   result.rows = 1;

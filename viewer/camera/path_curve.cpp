@@ -40,6 +40,7 @@ PathCurve::PathCurve(std::span<const Vec3> points, bool isClosed) : points_(poin
     knots[i + 1] = knots[i] + h;
     secants[i] = {d.x / h, d.y / h};
   }
+  // Heights have slopes of their own, so that the path never leaves the range between two keys.
   for (std::size_t i = 0; i <= last; ++i) heights[i] = points_[i].z;
   const std::vector<double> climbs = monotoneSlopes(knots, heights, isClosed);
 
@@ -56,6 +57,7 @@ PathCurve::PathCurve(std::span<const Vec3> points, bool isClosed) : points_(poin
     const auto free = [](Vec2 secant, const Vec3& other) -> Vec3 {
       return {(3 * secant.x - other.x) / 2, (3 * secant.y - other.y) / 2, 0};
     };
+    // A single leg has no other secant and is straight.
     const Vec3 straight{secants[0].x, secants[0].y, 0};
     slopes_[0] = last == 1 ? straight : free(secants[0], slopes_[1]);
     slopes_[last] = last == 1 ? straight : free(secants[last - 1], slopes_[last - 1]);
@@ -75,6 +77,7 @@ void PathCurve::addPieces(const Piece& piece, double length, double slack, int d
   const double middle = (piece.from + piece.to) / 2;
   const double left = quadrature(piece.leg, piece.from, middle);
   const double right = quadrature(piece.leg, middle, piece.to);
+  // Both halves keep the slack of the whole leg; the depth bounds the work at a cusp.
   if (depth < kMostHalvings && std::abs(left + right - length) > slack) {
     addPieces({piece.leg, piece.from, middle}, left, slack, depth + 1);
     addPieces({piece.leg, middle, piece.to}, right, slack, depth + 1);
@@ -87,6 +90,7 @@ void PathCurve::addPieces(const Piece& piece, double length, double slack, int d
 Vec3 PathCurve::valueAt(std::size_t leg, double u) const {
   const Vec3 &p = points_[leg], &q = points_[leg + 1], &m = slopes_[leg], &n = slopes_[leg + 1];
   const double h = knotSteps_[leg];
+  // The slopes of z are monotone, so the clamp only takes rounding away.
   const auto [low, high] = std::minmax(p.z, q.z);
   return {hermite(u, h, p.x, m.x, q.x, n.x), hermite(u, h, p.y, m.y, q.y, n.y),
           std::clamp(hermite(u, h, p.z, m.z, q.z, n.z), low, high)};
@@ -102,6 +106,7 @@ double PathCurve::speedAt(std::size_t leg, double u) const {
 }
 
 double PathCurve::quadrature(std::size_t leg, double from, double to) const {
+  // These are places and weights of the rule of five points, which is exact up to degree 9.
   constexpr std::array<double, 3> kAt = {0, 0.5384693101056831, 0.9061798459386640};
   constexpr std::array<double, 3> kWeight = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
   const double middle = (from + to) / 2, half = (to - from) / 2;
@@ -116,6 +121,7 @@ Vec3 PathCurve::at(double length) const {
   if (length >= lengths_.back()) return points_.back();
   const auto next = static_cast<std::size_t>(std::ranges::upper_bound(lengths_, length) - lengths_.begin());
   const auto& [leg, from, to] = pieces_[next - 1];
+  // The place stays between low and high: a step of Newton's that would leave them becomes a bisection.
   const double wanted = length - lengths_[next - 1];
   double low = from, high = to;
   double u = low + (high - low) * wanted / (lengths_[next] - lengths_[next - 1]);

@@ -94,6 +94,7 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
   p.scale_ = mt.scale();
   p.frame_ = makeBuffer(sizeof(FrameBlock));
   p.look_ = makeBuffer(sizeof(Look));
+  // A small buffer stands in where a front has no ids, so that the shader never meets an empty binding.
   p.noIds_ = makeBuffer(64);
   p.emptyArray_ = makeVertexArray();
   p.linesArray_ = makeVertexArray();
@@ -107,6 +108,7 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
   }
   p.lowest_ = (low - p.metric_.origin.z) * p.metric_.scale.z;
   p.highest_ = (high - p.metric_.origin.z) * p.metric_.scale.z;
+  // The sun and the aspects refer to east and north on the ground: where a camera at the middle looks.
   const Vec2 middle = model.toSource({p.metric_.origin.x, p.metric_.origin.y});
   const auto axis = [&](double azimuth) -> Vec2 {
     const Result<View> view = viewOf({.xy = middle, .azimuthDegrees = azimuth}, model);
@@ -125,6 +127,8 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
   glTextureSubImage1D(p.tints_, 0, 0, 256, GL_RGBA, GL_UNSIGNED_BYTE, tints.data());
   setSampling(p.tints_, GL_LINEAR, GL_LINEAR);
 
+  // A raster larger than a texture has no slopes of its own; the shader then computes them from the
+  // triangles.
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
   if (model.isRaster && model.columns <= std::uint32_t(most) && model.rows <= std::uint32_t(most)) {
@@ -165,12 +169,14 @@ void TerrainPainter::setOverlay(int width, int height, std::span<const std::arra
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTextureSubImage2D(overlay_, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   glGenerateTextureMipmap(overlay_);
+  // The overlay keeps hard edges when it is enlarged: a pixel is one answer.
   setSampling(overlay_, GL_LINEAR_MIPMAP_LINEAR, GL_NEAREST);
   overlayFrame_ = {float(scale.x), float(scale.y), float(shift.x), float(shift.y)};
 }
 
 void TerrainPainter::draw(const TerrainOnGpu& terrain, const DrawnFront& front, const ViewLook& l) {
   Look look;
+  // Azimuths go clockwise from north. The sun's direction is in metric space.
   const double azimuth = l.sunAzimuthDegrees * kRadians, elevation = l.sunElevationDegrees * kRadians;
   const double flat = std::cos(elevation);
   look.sun = {float(flat * (std::sin(azimuth) * east_.x + std::cos(azimuth) * north_.x)),
@@ -191,6 +197,8 @@ void TerrainPainter::draw(const TerrainOnGpu& terrain, const DrawnFront& front, 
   look.eastNorth = {float(east_.x), float(east_.y), float(north_.x), float(north_.y)};
   look.heat = {float(l.heatError), 0, 0, 0};
   drawWith(terrain, front, look);
+  // Edges are the same triangles drawn as lines of one colour, and the offset keeps them in front of the
+  // faces.
   if (l.hasWireframe) {
     look.heightUnits[3] = 1;
     look.flatColor = {0.05f, 0.07f, 0.10f, 1};

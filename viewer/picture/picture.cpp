@@ -70,6 +70,7 @@ struct Canvas::Drawing {
 
   Drawing(int width, int height)
       : surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)), cairo(cairo_create(surface)) {
+    // Without hinting, the extents of a text grow in proportion to its size.
     cairo_font_options_t* options = cairo_font_options_create();
     cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
     cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
@@ -103,6 +104,7 @@ Result<Canvas> Canvas::create(int widthPixels, int heightPixels, Rgb background)
                                widthPixels, heightPixels, kLargestSide));
   }
   auto drawing = std::make_unique<Drawing>(widthPixels, heightPixels);
+  // cairo never returns null: an object that could not be made is in a state of error.
   if (cairo_status(drawing->cairo) != CAIRO_STATUS_SUCCESS) {
     return failure(ErrorCode::unreadable,
                    fmt::format("A picture of {} x {} pixels cannot be made: {}.", widthPixels, heightPixels,
@@ -121,6 +123,7 @@ int Canvas::height() const {
 }
 
 Rgb Canvas::pixel(int x, int y) const {
+  // cairo may hold drawing back; after a flush the memory is the picture.
   cairo_surface_flush(drawing_->surface);
   const std::uint32_t value = drawing_->row(y)[x];
   return {std::uint8_t(value >> 16), std::uint8_t(value >> 8), std::uint8_t(value)};
@@ -165,6 +168,7 @@ void Canvas::polyline(std::span<const Vec2> points, const Stroke& stroke) {
 void Canvas::segments(std::span<const Vec2> ends, const Stroke& stroke) {
   setStroke(drawing_->cairo, stroke);
   cairo_new_path(drawing_->cairo);
+  // A full group is stroked at once; the last stroke draws what is left.
   for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
     cairo_move_to(drawing_->cairo, ends[i].x, ends[i].y);
     cairo_line_to(drawing_->cairo, ends[i + 1].x, ends[i + 1].y);
@@ -179,6 +183,7 @@ void Canvas::image(const Image& image, int left, int top) {
     cairo_surface_flush(surface);
     unsigned char* data = cairo_image_surface_get_data(surface);
     const int stride = cairo_image_surface_get_stride(surface);
+    // A pixel of RGB24 is a 32-bit word with red in its upper byte; rows may be padded.
     for (int y = 0; y < image.height; ++y) {
       auto* row = reinterpret_cast<std::uint32_t*>(data + std::ptrdiff_t(y) * stride);
       for (int x = 0; x < image.width; ++x) {

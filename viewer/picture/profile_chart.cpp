@@ -40,6 +40,7 @@ void include(double& low, double& high, double z) {
 /// The terrain between vertices that are joined, as one area per run.
 void drawTerrain(Canvas& canvas, const Frame& frame, const Profile& profile) {
   const auto& vertices = profile.vertices;
+  // Where the terrain is not known, the plot is shaded over its whole height, at both ends as well.
   double end = 0;
   const auto drawGap = [&](double from, double to) {
     const Vec2 a = frame.at(from, frame.low), b = frame.at(to, frame.high);
@@ -65,6 +66,7 @@ void drawTerrain(Canvas& canvas, const Frame& frame, const Profile& profile) {
 
 void drawZone(Canvas& canvas, const Frame& frame, const ProfileSight& sight) {
   const double length = sight.line.length(), unit = sight.line.heightUnitMetres();
+  // The whole zone is drawn fainter, and over it the part that has to be clear.
   for (const auto& [part, alpha] : {std::pair{1.0, 0.16}, {sight.part, 0.20}}) {
     std::vector<Vec2> zone;
     for (int i = 0; i <= 2 * kLineSteps; ++i) {
@@ -86,6 +88,7 @@ void drawLine(Canvas& canvas, const Frame& frame, const ProfileSight& sight) {
     const double s = length * i / kLineSteps;
     (s <= seen ? clear : hidden).push_back(frame.at(s, sight.line.height(s)));
   }
+  // The clear and the hidden part meet at the obstruction, which is between two steps.
   if (isBlocked) {
     const Vec2 p = frame.at(seen, sight.line.height(seen));
     clear.push_back(p);
@@ -104,6 +107,7 @@ void drawLine(Canvas& canvas, const Frame& frame, const ProfileSight& sight) {
     const Vec2 p = frame.at(seen, sight.line.height(seen));
     canvas.fillCircle(p, 7, {255, 255, 255});
     canvas.fillCircle(p, 5.5, kBlocked);
+    // The text goes to the side of the place that has more room.
     const bool isLeft = p.x < frame.plot.left + frame.plot.width / 2;
     canvas.text(fmt::format("obstruction at {} m", numberText(seen)), {p.x + (isLeft ? 12 : -12), p.y - 10},
                 {.size = 14, .color = kBlocked, .horizontal = isLeft ? Align::start : Align::end});
@@ -115,6 +119,7 @@ void drawAxes(Canvas& canvas, const Frame& frame, const ProfileChartOptions& opt
   const double perMetre = isFar ? 1e-3 : 1;
   const Rect& plot = frame.plot;
   for (const double z : linearTicks(frame.low, frame.high, 6)) {
+    // A line of one pixel is sharp where its middle is half a pixel from the grid.
     const double y = std::round(frame.at(0, z).y) + 0.5;
     canvas.line({plot.left, y}, {plot.right(), y}, {.color = kGridLine, .width = 1});
     canvas.text(numberText(z), {plot.left - 10, y},

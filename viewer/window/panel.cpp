@@ -50,6 +50,7 @@ void Panel::draw(ViewerSession& s, double scale) {
 void Panel::frameSection(ViewerSession& s) {
   if (!section("Frame")) return;
   const FrameHistory& h = s.history;
+  // The scale reaches above the longest frame and the wanted time, and covers at least 4 ms.
   const double most = std::max({h.mostWork() * 1.1, s.wanted.frameMilliseconds * 1.5, 4.0});
   const std::string label = fmt::format("{:.1f} ms   {:.0f} frames/s", h.lastWork(), h.framesPerSecond());
   ImGui::PlotLines("##times", h.work().data(), int(FrameHistory::kFrames), int(h.first()), label.c_str(), 0,
@@ -78,6 +79,7 @@ void Panel::detailSection(ViewerSession& s) {
   if (!section("Detail")) return;
   slider("tolerance", s.wanted.pixels, 0.25, 32, "%.2f px", true);
   tip("How far anything drawn may be from the terrain at full resolution, on the screen.");
+  // The slider counts thousands of triangles; 0 stands for any number.
   int triangles = int(s.wanted.maxTriangles / 1000);
   if (ImGui::SliderInt("most triangles", &triangles, 0, 4000, triangles == 0 ? "any number" : "%d 000",
                        ImGuiSliderFlags_Logarithmic))
@@ -85,6 +87,7 @@ void Panel::detailSection(ViewerSession& s) {
   slider("frame time", s.wanted.frameMilliseconds, 0, 100,
          s.wanted.frameMilliseconds <= 0 ? "any" : "%.0f ms");
   tip("The tolerance is made coarser, up to 64 pixels, until frames take no longer.");
+  // A device that cannot compute cuts leaves the processor as the only choice: the reason replaces the menu.
   int path = s.settings.path == CutPath::device ? 0 : 1;
   if (!s.deviceRefusal.empty()) {
     path = 1;
@@ -124,6 +127,7 @@ void Panel::lookSection(ViewerSession& s) {
   }
   if (s.canBeCurved) ImGui::Checkbox("curved Earth", &s.settings.isCurved);
   slider("heights times", s.settings.stretch, 0.5, 10, "%.2f", true);
+  // The picker's box is in metres; contours are in the DEM's unit of height.
   const double range = (s.picker.box().high.z - s.picker.box().low.z) / s.picker.space().metresPerHeight();
   bool hasContours = look.contourInterval > 0;
   if (ImGui::Checkbox("contours", &hasContours)) s.apply(Action::contours);
@@ -161,6 +165,7 @@ void Panel::cameraSection(ViewerSession& s) {
   bool follows = s.rig.follows();
   if (ImGui::Checkbox("follow", &follows)) s.rig.follow(follows);
   if (s.rig.mode() == CameraMode::free) {
+    // Speed and floor are of the free flight. The speed's range follows the size of the terrain.
     double speed = s.rig.metresPerSecond();
     const double diagonal = s.picker.box().diagonal();
     if (slider("fly at", speed, 1e-5 * diagonal, diagonal, "%.1f m/s", true)) s.rig.setMetresPerSecond(speed);
@@ -201,6 +206,8 @@ void Panel::pickSection(ViewerSession& s) {
   bool isMoved = slider("A above ground", s.observerAbove, 0, 200, "%.1f", true);
   isMoved = slider("B above ground", s.targetAbove, 0, 200, "%.1f", true) || isMoved;
   if (isMoved) s.updateSight();
+  // Only the first line, the verdict, has a colour: green for visible, red for blocked, grey for what is
+  // open.
   if (s.sight) {
     const SightVerdict verdict = s.sight->answer.sight.verdict;
     const ImVec4 color = verdict == SightVerdict::visible   ? ImVec4(0.45f, 0.90f, 0.45f, 1)
@@ -254,6 +261,7 @@ void Panel::flightSection(ViewerSession& s) {
     for (std::size_t i = 0; i < deck.plan().keys.size(); ++i) {
       const Camera& key = deck.plan().keys[i];
       ImGui::PushID(int(i));
+      // A removal shifts the keys behind it, so the rest of the list waits for the next frame.
       if (ImGui::SmallButton("x")) {
         deck.removeKey(i);
         ImGui::PopID();
@@ -272,6 +280,8 @@ void Panel::flightSection(ViewerSession& s) {
     FlightPlan plan = deck.plan();
     double speed = plan.speed.value_or(0);
     const double diagonal = s.picker.box().diagonal();
+    // A plan has a duration or a speed. With a duration the slider shows it, and moving the slider replaces
+    // it.
     const std::string format = plan.duration ? fmt::format("for {:.1f} s", *plan.duration) : "%.1f m/s";
     if (slider("speed", speed, 1e-5 * diagonal, diagonal / 5, format.c_str(), true)) {
       plan.speed = speed;
@@ -284,6 +294,7 @@ void Panel::flightSection(ViewerSession& s) {
       deck.setPlan(plan);
     }
   }
+  // The fields start with the session's paths; from then on what is typed sets these.
   if (!hasSetFlightPath_) {
     flightPath_ = s.flightPath.string();
     framesFolder_ = s.framesFolder.string();

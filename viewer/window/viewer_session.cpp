@@ -108,6 +108,7 @@ void ViewerSession::apply(Action action) {
       break;
     }
     case Action::loadFlight: {
+      // Longitudes in the file may be a whole turn away from the model's.
       const Status loaded = deck.load(flightPath, model.georeference, LongitudeTurns(model));
       say(loaded ? fmt::format("{}: {} key frames", flightPath.string(), deck.plan().keys.size())
                  : loaded.error().describe());
@@ -154,6 +155,7 @@ void ViewerSession::apply(Action action) {
 
 const CurvedGround* ViewerSession::curvedGround() {
   if (!settings.isCurved) return nullptr;
+  // The ground is made at its first use. A CRS without an ellipsoid leaves it empty, and the map flat.
   if (!ground_) {
     Result<CurvedGround> made = CurvedGround::create(model);
     if (made)
@@ -174,6 +176,7 @@ void ViewerSession::click(Vec2 pixel) {
   const auto pick = ground ? picker.at(*ground, rig.camera(), pixel, settings.stretch)
                            : picker.at(rig.camera(), pixel, settings.stretch);
   if (!pick) return;
+  // A third click begins the next pair.
   if (picks.size() >= 2) picks.clear();
   picks.push_back(*pick);
   updateSight();
@@ -192,6 +195,7 @@ void ViewerSession::updateSight() {
 void ViewerSession::clearPicks() {
   picks.clear();
   sight.reset();
+  // The viewshed is seen from a pick, so it goes with them, finished or not.
   viewshed.cancel();
   overlay.reset();
   isOverlayNew = true;
@@ -213,6 +217,7 @@ void ViewerSession::goTo(const std::string& text, bool isLonLat) {
   const auto goal = places.read(text, isLonLat);
   if (!goal) return say(goal.error().describe());
   deck.stop();
+  // A place without a height is looked at in orbit, from a tenth of the box's diagonal but at most 2 km.
   if (!goal->height) {
     const double near = std::min(2000.0, picker.box().diagonal() / 10);
     rig.setMode(CameraMode::orbit);
@@ -226,6 +231,7 @@ void ViewerSession::goTo(const std::string& text, bool isLonLat) {
 
 std::vector<std::array<Vec3, 2>> frustumEdges(const CameraSpace& space, const Camera& camera, double depth,
                                               double stretch) {
+  // Rays leave from the eye as it is drawn, stretched; the corners return to heights as they are.
   Vec3 eye = space.position(camera);
   eye.z *= stretch;
   std::array<Vec3, 4> corners;
@@ -245,6 +251,7 @@ std::vector<std::array<Vec3, 2>> frustumEdges(const CameraSpace& space, const Ca
 
 double usualContourInterval(double heightRange) {
   if (!(heightRange > 0)) return 1;
+  // The leading digits become the nearest of 1, 2, 5 and 10.
   const double rough = heightRange / 12, power = std::pow(10, std::floor(std::log10(rough)));
   const double lead = rough / power;
   return power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
