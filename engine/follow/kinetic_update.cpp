@@ -55,6 +55,7 @@ auto IncrementalCut::KineticUpdate::run() -> End {
     refine();
     coarsen(0);
   } while (isSearchCutShort_ && !isOverBudget_ && !mustStop());
+  // What is left undone stays pending, and the next update begins with it.
   const bool isDone = leaving_.empty() && entering_.empty() && s_.pending.empty() && !isSearchCutShort_;
   for (const auto* left : {&leaving_, &entering_})
     for (const Change& change : *left) s_.pending.push_back(change.node);
@@ -71,6 +72,7 @@ bool IncrementalCut::KineticUpdate::mustStop() {
 void IncrementalCut::KineticUpdate::begin() {
   const KineticCriterion* const kinetic = criterion_.kinetic();
   if (!s_.hasCertificates) {
+    // The first update requests a certificate for every node that can change.
     s_.hasCertificates = true;
     for (const std::uint32_t t : s_.triangles()) {
       const NodeId remover = s_.mt.remover(TriangleId(t));
@@ -81,6 +83,7 @@ void IncrementalCut::KineticUpdate::begin() {
   } else {
     const auto moved = kinetic != nullptr && s_.lastCriterion ? kinetic->motionSince(*s_.lastCriterion)
                                                               : std::optional<Motion>();
+    // Without a bound on the motion every certificate is due.
     if (moved)
       s_.queue.advance(*moved);
     else
@@ -90,6 +93,7 @@ void IncrementalCut::KineticUpdate::begin() {
 }
 
 void IncrementalCut::KineticUpdate::search() {
+  // The first round runs even when little time is left, so that the search makes progress in every frame.
   const double enough = o_.deadline ? o_.deadline->millisecondsLeft() / 2 : 0;
   isSearchCutShort_ = false;
   for (bool isFirst = true; !s_.pending.empty() || s_.queue.dueCount() > 0; isFirst = false) {
@@ -123,6 +127,7 @@ void IncrementalCut::KineticUpdate::evaluateDue() {
   const auto evaluate = [&](std::size_t i) {
     verdicts[i].evaluate(criterion_, s_.queue.due(i), s_.queue.rate());
   };
+  // A few batches are not worth other threads.
   if (count < kBatchesAtOnce)
     for (std::size_t i = 0; i < count; ++i) evaluate(i);
   else
@@ -142,6 +147,7 @@ void IncrementalCut::KineticUpdate::settle(const Batch& batch, const Verdicts& v
     } else if (isIn) {
       leaving_.push_back({n, verdicts.units[i], 0, batch.balls[i], batch.errors[i]});
     } else {
+      // The ratio only orders nodes under a deadline; without one all of them enter.
       const double allowed = o_.deadline ? criterion_.allowedError(batch.balls[i]) : 0;
       entering_.push_back(
           {n, verdicts.units[i],

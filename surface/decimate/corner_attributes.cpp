@@ -42,6 +42,8 @@ void CornerAttributes::Records::average(std::span<const std::uint32_t> elements,
       values[a][elements[0] * n + k] = sum;
       if (k < 3) size += sum * sum;
     }
+    // The average of directions is shorter than they are, so it becomes a unit vector again unless they
+    // cancel out.
     const AttributeMeaning meaning = attributes[a]->meaning;
     if ((meaning != AttributeMeaning::normal && meaning != AttributeMeaning::tangent) || !(size > 0))
       continue;
@@ -55,6 +57,7 @@ Attribute CornerAttributes::Records::taken(const Attribute& attribute,
   Attribute result = emptyLike(attribute);
   const auto found = std::ranges::find(attributes, &attribute);
   const std::size_t n = attribute.components;
+  // What no contraction has averaged is copied as it is, without a detour through doubles.
   for (const std::uint32_t e : elements) {
     if (found != attributes.end() && isAveraged[e] != 0) {
       const auto& numbers = values[static_cast<std::size_t>(found - attributes.begin())];
@@ -79,6 +82,7 @@ CornerAttributes::CornerAttributes(const SurfaceMesh& mesh)
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
       numbersOf(*ofVertices_.attributes[a], v, ofVertices_.values[a]);
   if (!hasClasses_) return;
+  // Corners of one vertex with the same wedge and part form a class, which is averaged as a whole.
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> known;
   classOf_.reserve(3 * mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
@@ -110,6 +114,7 @@ bool CornerAttributes::isOnLine(const ContractionMesh& mesh, std::uint32_t v) co
 CornerAttributes::Continuations CornerAttributes::continuations(const ContractionMesh& mesh, std::uint32_t v,
                                                                 std::uint32_t kept) const {
   Continuations all;
+  // Triangles with both vertices show as which class of `kept` a class of v continues.
   for (const std::uint32_t t : mesh.trianglesOf(v)) {
     if (std::ranges::find(mesh.corners(t), kept) == mesh.corners(t).end()) continue;
     const std::uint32_t mine = classOf_[cornerAt(mesh, t, v)], there = classOf_[cornerAt(mesh, t, kept)];
@@ -129,6 +134,7 @@ std::uint32_t CornerAttributes::continued(const Continuations& all, std::uint32_
 
 bool CornerAttributes::mayJoin(const ContractionMesh& mesh, std::span<const std::uint32_t> vertices) const {
   if (!hasClasses_) return true;
+  // Each class around a vertex that goes must continue as exactly one class of the vertex that stays.
   for (const std::uint32_t v : vertices.subspan(1)) {
     const Continuations all = continuations(mesh, v, vertices[0]);
     for (const std::uint32_t t : mesh.trianglesOf(v))
@@ -157,6 +163,7 @@ void CornerAttributes::join(const ContractionMesh& mesh, std::span<const std::ui
   }
   for (const auto& [corner, to] : changes) classOf_[corner] = to;
   if (!moves) return;
+  // A class of the vertex that stays has only some of the others' classes, so its shares are scaled to 1.
   for (const auto& [to, from] : joined) {
     std::vector<std::uint32_t> elements = {to};
     std::vector<double> shares = {weights[0]};
@@ -190,6 +197,7 @@ SurfaceMesh CornerAttributes::take(const SurfaceMesh& source, const ContractionM
     vertexOf.push_back(v);
     result.positions.push_back(mesh.position(v));
   }
+  // Wedges are numbered as faces first use them, so classes that no face uses any more get no number.
   for (const std::uint32_t t : faceOf) {
     std::array<std::uint32_t, 3> corners = mesh.corners(t), wedges{};
     for (std::size_t c = 0; c < 3; ++c) {

@@ -249,6 +249,7 @@ class ObjReader final : public MeshTextReader {
           !readSecondIndex(corners_.normalCount(), corner.normal) || (p < end() && !text::isSpace(*p)))
         return corrupt(line, "is a face with a corner that is not of the form a/b/c");
       const auto known = static_cast<std::int64_t>(mesh().mesh.positions.size());
+      // A negative index counts back from the last vertex so far.
       if (index < 0) index += known + 1;
       if (index < 1 || index > std::int64_t(std::numeric_limits<std::uint32_t>::max()))
         return corrupt(line, "is a face with a vertex index out of range");
@@ -263,6 +264,8 @@ class ObjReader final : public MeshTextReader {
           namesMore || corner.texcoord != MeshAttributes::kNone || corner.normal != MeshAttributes::kNone;
       faceCorners_.push_back(corner);
     }
+    // A face with fewer than three corners is counted but gets no triangle; addFace() numbers it like the
+    // others.
     if (faceCorners_.size() < 3 && shortFaces_++ == 0) firstShortFace_ = faces().size() + 1;
     addFace(namesMore);
     at() = lineEnd();
@@ -277,6 +280,7 @@ class ObjReader final : public MeshTextReader {
     group_.takeFace(face);
     material_.takeFace(face);
     smoothing_.takeFace(face);
+    // The first corner that names more than a vertex gives wedges to all faces, those before it included.
     if (namesMore && !corners_.hasWedges()) corners_.begin(mesh().mesh);
     vertices_.clear();
     wedges_.clear();
@@ -293,6 +297,7 @@ class ObjReader final : public MeshTextReader {
     if (largestIndex_ > std::int64_t(read.positions.size()))
       return corrupt(largestIndexLine_,
                      fmt::format("names vertex {} of {}", largestIndex_, read.positions.size()));
+    // A mesh without content is valid only in a file that Arete has written.
     if (!isOurs() && read.positions.empty()) return failure(ErrorCode::corrupt, "holds no vertex", path());
     if (read.triangles.empty() && !unusable_.empty()) return refuseNumber(unusable_.begin()->second);
     if (!isOurs() && read.triangles.empty()) return unsupported("holds no face");

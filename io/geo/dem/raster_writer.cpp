@@ -41,6 +41,7 @@ CPLStringList creationOptions(GDALDriver& driver, const GeoTiffOptions& options)
   list.SetNameValue("BIGTIFF", "IF_SAFER");
   if (options.compression == GeoTiffOptions::Compression::none) return list;
   const char* known = driver.GetMetadataItem(GDAL_DMD_CREATIONOPTIONLIST);
+  // Not every build of GDAL has ZSTD; DEFLATE is always there.
   const bool zstd =
       options.compression == GeoTiffOptions::Compression::zstd && known && std::strstr(known, "ZSTD");
   list.SetNameValue("COMPRESS", zstd ? "ZSTD" : "DEFLATE");
@@ -60,6 +61,7 @@ Status describe(GDALDataset& dataset, const Georeference& georeference, const Ge
       return failure(ErrorCode::unreadable, "the geotransform cannot be written");
   }
   GDALRasterBand& band = *dataset.GetRasterBand(1);
+  // Whole numbers need a value of their own for NODATA, floats have NaN.
   band.SetNoDataValue(isWhole(options.sample) ? options.nodata : std::numeric_limits<double>::quiet_NaN());
   if (!georeference.verticalUnit.empty()) band.SetUnitType(georeference.verticalUnit.c_str());
   if (!options.description.empty()) band.SetDescription(options.description.c_str());
@@ -82,6 +84,7 @@ Status readBack(const std::string& path, GDALDataType type, std::span<const std:
                        ? fmt::format("cannot be read after it was written: {}", errors.firstFailure())
                        : "does not hold the values that were written to it");
   };
+  // The file is opened anew, so that what is compared comes from the file and not from a cache.
   const GdalDatasetPtr dataset(
       GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr, nullptr));
   if (!dataset || dataset->GetRasterCount() != 1) return unlike();
@@ -117,6 +120,7 @@ Status writeRows(GDALRasterBand& band, std::span<const double> values, std::size
       const double value = values[(std::size_t(row) + i / columns) * stride + i % columns];
       using Limits = std::numeric_limits<Sample>;
       if constexpr (Limits::is_integer) {
+        // A whole number cannot be NaN, so the raster's NODATA value takes its place.
         const double whole = std::isnan(value) ? nodata : value;
         if (!(whole >= 0 && whole <= double(Limits::max())))
           return failure(ErrorCode::invalidData,
@@ -149,6 +153,7 @@ Status writeTo(const std::string& path, std::uint32_t columns, std::uint32_t row
                             : options.sample == Sample::uint8   ? GDT_Byte
                                                                 : GDT_UInt16;
   const CPLStringList list = creationOptions(*driver, options);
+  // A DEM around the globe repeats its first column at the end; the file does not.
   const std::uint32_t written = georeference.repeatsFirstColumn && columns > 1 ? columns - 1 : columns;
   GdalDatasetPtr dataset(driver->Create(path.c_str(), int(written), int(rows), 1, type, list.List()));
   if (!dataset)
@@ -164,6 +169,7 @@ Status writeTo(const std::string& path, std::uint32_t columns, std::uint32_t row
             writeRows<Type>(band, values, columns, type, options.nodata, hashes, errors, context);
         !rowsWritten)
       return rowsWritten;
+    // Closing writes what is left; a failure there reaches only the error handler.
     dataset.reset();
     if (errors.anyFailure())
       return failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", errors.firstFailure()));

@@ -178,6 +178,7 @@ Result<DrapeReader> DrapeReader::open(const std::string& path, const TerrainMode
   s.placement = *placement;
   if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped", path);
 
+  // A stretched picture takes its range from the window over the terrain, not from all of its values.
   if (s.source.isStretched)
     for (const int b : s.source.colors) {
       const auto range = stretchOf(*s.source.dataset().GetRasterBand(b), s.placement.window);
@@ -190,11 +191,13 @@ Result<DrapeReader> DrapeReader::open(const std::string& path, const TerrainMode
          fmt::format("is read at a coarser resolution, {:.2f} times its pixel size, as {} x {} pixels: at "
                      "most {} are read",
                      s.placement.coarser, s.placement.columns, s.placement.rows, options.maxPixels)});
+    // The transformer and the turned picture belong to the source, so they go before it moves.
     way->reset();
     s.source.turned.reset();
     Result<DrapeSource> smaller = openDrapeOverview(path, std::move(s.source), s.placement.coarser);
     if (!smaller) return named(smaller.error());
     s.source = std::move(*smaller);
+    // These warnings repeat the first opening's and are dropped.
     Warnings said;
     s.source.turned = turnedOnto(s.source.dataset(), model, said);
     way = drapeTransformer(s.source.dataset(), model, said);
@@ -230,6 +233,7 @@ Status DrapeReader::read(std::uint32_t column, std::uint32_t row, std::uint32_t 
                          std::span<Pixel> pixels) try {
   State& s = *state_;
   const std::size_t count = std::size_t(width) * height, colors = s.source.colors.size();
+  // A band goes straight to its place among interleaved pixels, which are `step` bytes apart.
   const auto transfer = [&](std::size_t band, void* into, GDALDataType type, GSpacing step) -> Status {
     const GdalErrors errors;
     if (s.picture->GetRasterBand(int(band) + 1)
@@ -252,6 +256,7 @@ Status DrapeReader::read(std::uint32_t column, std::uint32_t row, std::uint32_t 
     }
   }
   ARETE_CHECK(transfer(colors, &pixels[0][3], GDT_Byte, sizeof(Pixel)));
+  // With one colour the picture is grey. Colours are premultiplied by alpha, which opaque pixels do not need.
   for (Pixel& p : pixels.first(count)) {
     if (colors == 1) p[1] = p[2] = p[0];
     if (p[3] == 255) continue;

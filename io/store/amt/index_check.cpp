@@ -51,6 +51,7 @@ class MtIndexCheck {
         slots_(static_cast<std::uint32_t>(a_.link.size())) {}
 
   Status run() {
+    // A check relies on those before it, so the first failure ends the run.
     using Step = Status (MtIndexCheck::*)() const;
     constexpr Step steps[] = {&MtIndexCheck::slotBegin,  &MtIndexCheck::rootTriangles, &MtIndexCheck::links,
                               &MtIndexCheck::hints,      &MtIndexCheck::removers,      &MtIndexCheck::floors,
@@ -112,6 +113,7 @@ class MtIndexCheck {
                               c[1], c[2], a_.rootVertices));
   }
 
+  /// A star's corners are older than its apex: vertices of the root, or apexes of earlier nodes.
   Status links() const {
     const auto isBad = [&](std::uint32_t n, std::uint32_t s) { return a_.link[s] >= a_.rootVertices + n; };
     const auto bad = firstBadNode(isBad);
@@ -123,11 +125,13 @@ class MtIndexCheck {
   }
 
   Status removers() const {
+    // A root triangle may be removed by any node; a triangle of a star only by a younger one.
     if (const auto bad = firstBad(roots_, [&](std::uint32_t t) {
           return a_.remover[t] != MultiTriangulation::kNone && a_.remover[t] >= nodes_;
         }))
       return refuse(amt_tag::kRemover,
                     fmt::format("triangle {} is removed by node {} of {}", *bad, a_.remover[*bad], nodes_));
+    // The last slot of a star may name its own node, which marks the star as open.
     const auto isBad = [&](std::uint32_t n, std::uint32_t s) {
       const std::uint32_t r = a_.remover[roots_ + s];
       if (r == MultiTriangulation::kNone) return false;
@@ -251,6 +255,7 @@ class MtIndexCheck {
     }
   }
 
+  /// Tests one node in full and words the problem. isSurelySound() makes it rare.
   std::optional<std::pair<AmtTag, std::string>> findParentProblem(std::uint32_t n) const {
     std::array<std::uint32_t, 3 * (kMaxHoleCorners - 2)> corners;
     auto end = corners.begin();
@@ -278,6 +283,7 @@ class MtIndexCheck {
   }
 
   Status hints() const {
+    // A hint is where the search for the owner of a slot begins: the node that owns exactly this slot.
     constexpr std::uint64_t kStep = MultiTriangulation::kSlotsPerHint;
     const auto bad = firstBad(a_.creatorHint.size(), [&](std::uint32_t i) {
       const std::uint32_t n = a_.creatorHint[i];
@@ -290,6 +296,7 @@ class MtIndexCheck {
   }
 
   Status nodeValues() const {
+    // Nodes are stored by bands, the largest errors first.
     if (const auto bad = firstBad(nodes_, [&](std::uint32_t n) {
           return n > 0 && MultiTriangulation::bandOf(a_.saturatedError[n]) >
                               MultiTriangulation::bandOf(a_.saturatedError[n - 1]);
@@ -313,6 +320,8 @@ class MtIndexCheck {
         }))
       return refuse(amt_tag::kBlockSphere, fmt::format("block {} has an invalid sphere", *bad));
     const auto findBad = [&](const auto& holds) -> std::optional<std::pair<std::uint64_t, std::uint32_t>> {
+      // A node is in two entries, of its cluster and of its cluster group; the message names the one that
+      // fails.
       const auto misses = [&](std::uint64_t entry, std::uint32_t n) { return !holds(a_, entry, n); };
       const auto bad = firstBad(nodes_, [&](std::uint32_t n) {
         const auto entries = blockEntries(nodes_, n);

@@ -101,6 +101,7 @@ std::vector<Float3> normalsOf(const TriangleMesh& mesh, std::span<const Float3> 
   for (const auto& t : mesh.triangles) {
     const Float3 &p = positions[t[0]], &q = positions[t[1]], &r = positions[t[2]];
     const auto from = [&](const Float3& to, std::size_t k) { return double{to[k]} - double{p[k]}; };
+    // The cross product weighs the normal of a face by its area.
     const Vec3 n{from(q, 1) * from(r, 2) - from(q, 2) * from(r, 1),
                  from(q, 2) * from(r, 0) - from(q, 0) * from(r, 2),
                  from(q, 0) * from(r, 1) - from(q, 1) * from(r, 0)};
@@ -109,6 +110,7 @@ std::vector<Float3> normalsOf(const TriangleMesh& mesh, std::span<const Float3> 
   std::vector<Float3> normals;
   normals.reserve(sums.size());
   for (const Vec3& s : sums) {
+    // A vertex without faces, or whose faces cancel out, points up: glTF requires unit vectors.
     const double length = std::hypot(s.x, s.y, s.z);
     if (length > 0 && std::isfinite(length))
       normals.push_back({static_cast<float>(s.x / length), static_cast<float>(s.y / length),
@@ -135,6 +137,7 @@ std::array<Float3, 2> boxOf(std::span<const Float3> positions) {
       low[k] = std::min(low[k], p[k]);
       high[k] = std::max(high[k], p[k]);
     }
+  // Adding 0 turns -0 into 0.
   for (std::size_t k = 0; k < 3; ++k) {
     low[k] += 0.0F;
     high[k] += 0.0F;
@@ -148,6 +151,7 @@ GltfContent terrainContent(const TriangleMesh& mesh, const FramedPositions& fram
   Json& document = content.document;
   document = {
       {"asset", {{"version", "2.0"}, {"generator", "Arete"}, {"extras", {{"arete", toJson(framed.frame)}}}}}};
+  // glTF has no empty accessors, so a mesh without triangles has no scene either.
   if (mesh.triangles.empty()) return content;
   const std::vector<Float3>& positions = framed.positions;
   BufferPlan plan;
@@ -175,6 +179,7 @@ GltfContent terrainContent(const TriangleMesh& mesh, const FramedPositions& fram
   document["bufferViews"] = std::move(plan.views);
   document["buffers"] = {{{"byteLength", plan.size}}};
   content.bufferSize = plan.size;
+  // The buffer follows the plan: positions, normals, errors, then indices.
   content.writeBuffer = [&mesh, &framed, &errors](ByteSink& sink) {
     return writeAll(sink, framed.positions) && writeAll(sink, normalsOf(mesh, framed.positions)) &&
            writeAll(sink, errors) && writeAll(sink, mesh.triangles);

@@ -39,9 +39,11 @@ bool Arrays::allocate(const AmtCounts& counts, std::uint64_t borders) {
   AmtFacts facts = this->facts();
   facts.counts = counts;
   mtColumns.clear();
+  // Columns of blocks are left out: model() derives them from the columns of nodes.
   for (const AmtMtColumn& column : amtMtColumns(facts))
     if (column.per != AmtPer::block) mtColumns.push_back({column, {}, amtCountOf(column.per, facts)});
   const std::size_t n = nodes, v = std::size_t{rootVertices} + n;
+  // What the model keeps and what only coding needs are in two arenas, so that the second can go as a whole.
   const bool hasMemory = stays.lay([&](const auto& array) {
     for (Column& column : mtColumns)
       array(column.memory, (column.elements + kReadable) * column.elementBytes());
@@ -54,6 +56,7 @@ bool Arrays::allocate(const AmtCounts& counts, std::uint64_t borders) {
   if (!hasMemory) return false;
   bindColumns();
   if (!hasPlan()) return true;
+  // Whole-numbered heights on a lattice have few errors on small triangles, so their codes come from a table.
   wholeErrors.assign((kLatticeErrorArea + 1) * 16, 0);
   for (unsigned area = 1; area <= kLatticeErrorArea; ++area)
     for (unsigned whole = 0; whole < 16; ++whole)
@@ -95,6 +98,8 @@ void Arrays::joinRoot() {
       const std::uint64_t p = rootTriangles[t][e], q = rootTriangles[t][(e + 1) % 3];
       sides.push_back({std::min(p, q) << 32 | std::max(p, q), 3 * t + e});
     }
+  // The sides of an edge become neighbours. Equal edges go by triangle, so the order does not depend on the
+  // sort.
   std::ranges::sort(
       sides, [](const Side& a, const Side& b) { return a.edge != b.edge ? a.edge < b.edge : a.at < b.at; });
   for (std::uint32_t t = 0; t < roots; ++t) border[t] = {rootTriangles[t], t, {kNone, kNone, kNone}};
@@ -104,11 +109,13 @@ void Arrays::joinRoot() {
     border[p / 3].across[p % 3] = q / 3;
     border[q / 3].across[q % 3] = p / 3;
   }
+  // A thread that sees the mark also sees the border that it names.
   for (std::uint32_t t = 0; t < roots; ++t)
     std::atomic_ref(remover[t]).store(kMarks | t, std::memory_order_release);
 }
 
 void Arrays::finish() {
+  // A mark that is left means that no node removes the triangle; marks on other triangles end in saturate().
   for (std::uint32_t t = 0; t < roots; ++t)
     if ((remover[t] & kMark) != 0) remover[t] = kNone;
   slotBegin[nodes] = slots;
@@ -117,6 +124,7 @@ void Arrays::finish() {
     for (std::uint32_t n = range.begin(); n < range.end(); ++n)
       for (std::uint32_t h = (slotBegin[n] + k - 1) / k; h * k < slotBegin[n + 1]; ++h) creatorHint[h] = n;
   });
+  // Triangles that stay are not coded one by one: they all have the same error and RMS.
   if (finestError == 0 && finestRms == 0) return;
   for (std::uint32_t t = 0; t < roots + slots; ++t)
     if (remover[t] == kNone) {
@@ -127,6 +135,7 @@ void Arrays::finish() {
 
 MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
   Arrays& from = *arrays;
+  // The arrays of coding go before the blocks are made, so that both are never in memory together.
   from.floatPlaces = {};
   from.doublePlaces = {};
   from.star = {};

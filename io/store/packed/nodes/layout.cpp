@@ -38,6 +38,7 @@ void Directory::number() {
       runs.push_back(&run);
     }
   }
+  // Nodes are numbered by bands, the largest errors first, and within a band by packets.
   std::ranges::stable_sort(runs, [](const Run* a, const Run* b) { return a->band > b->band; });
   std::uint32_t node = 0, slot = 0;
   for (Run* run : runs) {
@@ -74,6 +75,8 @@ std::vector<std::byte> toBytes(const Directory& directory) {
   for (const std::uint8_t c : directory.bandClass) out.plain(c);
   out.number(directory.packets.size());
   for (const Packet& packet : directory.packets) {
+    // A packet that depends on others depends on the first one too, which is left out; others are
+    // differences.
     const std::span dependsOn = std::span(packet.dependsOn).subspan(packet.dependsOn.empty() ? 0 : 1);
     out.number(dependsOn.size());
     std::uint32_t next = 1;
@@ -91,6 +94,7 @@ std::vector<std::byte> toBytes(const Directory& directory) {
     for (const Run& run : packet.runs) {
       out.number(run.band);
       out.number(run.nodes);
+      // A star has at least three slots.
       out.number(run.slots - 3 * run.nodes);
       out.number(run.listed);
     }
@@ -104,6 +108,7 @@ std::optional<Directory> directoryOf(std::span<const std::byte> bytes, std::stri
   NumberReader in(bytes);
   Directory directory;
   directory.isOfSurface = isOfSurface;
+  // The version is read first, so that a file of another version is refused as such and not as damaged.
   if (const auto version = in.plain<std::uint8_t>(); version != kPackedVersion) {
     if (!bytes.empty() && version < kPackedVersion)
       problem = "was packed by an older Arete; pack the model again";
