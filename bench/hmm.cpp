@@ -79,6 +79,7 @@ Result<Ended> runProgram(const std::vector<std::string>& words) {
 Result<HmmInput> writeHmmInput(const RasterHeightfield& field, const std::string& png) {
   const auto [low, high] = std::minmax_element(field.heights.begin(), field.heights.end());
   HmmInput input{png, 1};
+  // Whole heights within 65535 units become grey levels without rounding.
   bool isWhole = *high - *low <= kWhite;
   for (const double height : field.heights) {
     if (std::isnan(height))
@@ -100,6 +101,7 @@ Result<HmmInput> writeHmmInput(const RasterHeightfield& field, const std::string
   const int columns = int(field.columns), rows = int(field.rows);
   const auto close = [](GDALDataset* dataset) { GDALClose(dataset); };
   using Dataset = std::unique_ptr<GDALDataset, decltype(close)>;
+  // GDAL writes PNG only as a copy of another dataset, so the image is made in memory first.
   const Dataset image(memory->Create("", columns, rows, 1, GDT_UInt16, nullptr), close);
   const bool isFilled =
       image && image->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, columns, rows, levels.data(), columns, rows,
@@ -115,6 +117,7 @@ Result<HmmRun> runHmm(const std::string& hmm, const HmmInput& input, double tole
   if (access(hmm.c_str(), X_OK) != 0)
     return failure(ErrorCode::notFound, "there is no program that can be run", hmm);
   const Stopwatch watch;
+  // hmm takes heights and tolerances as parts of the range of its grey levels.
   ARETE_TRY(const Ended ended,
             runProgram({hmm, "-z", fmt::format("{}", kWhite * input.unit), "-e",
                         fmt::format("{}", tolerance / (kWhite * input.unit)), input.png, "/dev/null"}));

@@ -107,6 +107,7 @@ PointHeightfield makeDuplicates(std::uint32_t count, std::uint64_t seed) {
   PointHeightfield field = makeRandom(count, seed);
   field.source = sourceOf("duplicates");
   Random random(seed + 1);
+  // The first points stay as they are, so that there is a triangle.
   for (std::uint32_t i = 4; i < count; i += 3) {
     const std::uint32_t earlier = random.below(i);
     field.positions[i] = field.positions[earlier];
@@ -118,6 +119,7 @@ PointHeightfield makeDuplicates(std::uint32_t count, std::uint64_t seed) {
 PointHeightfield makeCollinear(std::uint32_t count, std::uint64_t seed) {
   PointHeightfield field = blank("collinear", count);
   for (std::uint32_t i = 0; i < count; ++i) {
+    // Whole numbers keep the points exactly on the line.
     const double x = 3.0 * i + 7, y = 5.0 * i - 2;
     add(field, x, y, hills(seed, x, y));
   }

@@ -91,6 +91,7 @@ class DemRun {
   bool hasFidelity() const { return source_.side <= kLargestInFull; }
 
   Status buildAll(const std::vector<GreedyBaseline>& baselines) {
+    // Some stages need a model but not its time, so a build may be needed and not measured.
     const bool isMeasured = plan_.wants("build");
     const bool isCompared = plan_.wants("triangles") && !baselines.empty();
     const bool needsDelaunay = isCompared || plan_.wants("file") || plan_.wants("cut") ||
@@ -113,6 +114,7 @@ class DemRun {
     const std::string delaunay = modelPath(HoleShape::delaunay),
                       fidelity = modelPath(HoleShape::dataDependent);
     std::vector<GreedyBaseline> baselines;
+    // Baselines are of real DEMs, which have no side.
     if (plan_.wants("triangles") && source_.side == 0) {
       ARETE_TRY(const auto all, readBaselines(plan_.baselines));
       for (const GreedyBaseline& b : all)
@@ -128,6 +130,7 @@ class DemRun {
     if (status && plan_.wants("file") && hasFidelity())
       status = add([&] { return fileStage(source_, HoleShape::dataDependent, fidelity, plan_); });
     if (source_.isScattered) return finished(status);
+    // All further stages are of rasters.
     if (status && plan_.wants("cut")) status = add([&] { return cutStage(source_, delaunay, plan_); });
     if (status && plan_.wants("follow")) status = add([&] { return followStage(source_, delaunay, plan_); });
     if (status && plan_.wants("height")) status = add([&] { return heightStage(source_, delaunay, plan_); });

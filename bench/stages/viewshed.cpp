@@ -140,6 +140,7 @@ Result<Figures> viewshedStage(const DemSource& source, const std::string& path, 
 
   const std::vector<ViewshedObserver> observers = observersOn(*grid, unit);
   const std::uint64_t cells = std::uint64_t{grid->columns()} * grid->rows();
+  // Rays take long, so only some of the rows have them.
   const auto rowStep = std::max(1u, std::uint32_t(cells / kRaysCells));
   std::uint64_t compared = 0, seenCells = 0;
   double raysSeconds = 0;
@@ -158,6 +159,7 @@ Result<Figures> viewshedStage(const DemSource& source, const std::string& path, 
         isSeen[c] = exact.at({double(c), double(row)}, grid->height(c, row))->cell == ViewshedCell::seen;
       raysSeconds += watch.seconds();
       for (std::uint32_t c = 0; c < grid->columns(); ++c) {
+        // NODATA has no verdict that could be compared.
         if (std::isnan(grid->height(c, row))) continue;
         ++compared;
         seenCells += isSeen[c];
@@ -178,6 +180,7 @@ Result<Figures> viewshedStage(const DemSource& source, const std::string& path, 
     add(c.name, "once", c.once, "s", Better::lower);
     add(c.name, "time", c.seconds / count, "s", Better::lower);
     add(c.name, "wrong cells", 100 * double(c.wrong) / double(compared), "%", Better::lower);
+    // The faster geometry of Embree's is the rival.
     const double all = c.once + c.seconds / count;
     if (c.name.starts_with("Embree") && (embreeSeconds == 0 || all < embreeSeconds)) embreeSeconds = all;
   }

@@ -44,6 +44,7 @@ bool isAmt(const std::string& path) {
 /// Writes a multitriangulation in the plain or the packed form.
 Status convertAmt(const ConvertArguments& arguments, Session& session) {
   const std::string& output = arguments.output.path;
+  // Options for meshes are refused one by one, because each sentence names another way.
   if (!arguments.output.format.empty())
     return failure(ErrorCode::usage, "is for meshes; an .amt is written as .amt",
                    fmt::format("--format {}", arguments.output.format));
@@ -68,6 +69,7 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
   ARETE_TRY(const TerrainModel model, terrain.read({}, session.context()));
   const AmtWriteOptions options{.isPacked = arguments.isPacked};
   ARETE_CHECK(writeAmt(output, model, session.context(), options));
+  // The size is only reported, so a failure to read it is not one of the command.
   std::error_code error;
   const auto size = std::filesystem::file_size(output, error);
   const std::uint64_t bytes = error ? 0 : size, samples = model.mt.vertexCount() + model.isolated.size();
@@ -99,6 +101,7 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
                                                       session.context());
   if (!converted) {
     Error error = converted.error();
+    // The library names the text of the CRS; on the command line it belongs to an option.
     if (error.code == ErrorCode::usage && error.culprit == arguments.crs)
       error.culprit = fmt::format("--crs {}", arguments.crs);
     return tl::unexpected(std::move(error));

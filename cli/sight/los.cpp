@@ -48,6 +48,7 @@ Status checkArguments(const LosArguments& a) {
   const auto usage = [](std::string sentence, std::string culprit = {}) {
     return failure(ErrorCode::usage, std::move(sentence), std::move(culprit));
   };
+  // The ends come from pairs, from two positions, or from one position and a file of points.
   const int ends = !a.from.empty() + !a.to.empty();
   if (!a.pairs.empty() && (ends > 0 || !a.points.empty()))
     return usage("cannot be combined with --from, --to or --points", "--pairs");
@@ -167,6 +168,7 @@ RequiredError wantedFor(const LosArguments& a, double maxError, const SightPairs
 }
 
 Status reportOne(const SightResults& results, Json json, Session& session) {
+  // A single line has no table, so its error is the command's.
   if (const Error* error = results.errorOf(0)) return tl::unexpected(*error);
   json.update(results.jsonOf(0));
   session.say(results.textOf(0));
@@ -198,6 +200,7 @@ Status reportMany(const LosArguments& a, const SightResults& results, Json json,
                         .inputs = &results.pairs.attributes,
                         .results = &columns,
                         .existing = a.existing};
+  // Every row is in the answer or in a .json file, never in both.
   if (a.output.empty() || isJson(a.output)) {
     Json all = Json::array();
     for (std::size_t i = 0; i < lines; ++i) all.push_back(results.jsonOf(i));
@@ -215,6 +218,7 @@ Status reportMany(const LosArguments& a, const SightResults& results, Json json,
                             counts.text()));
   }
   session.answer(json);
+  // The command fails if every row does; otherwise failed rows are a warning.
   if (counts.failed == lines)
     return failure(ErrorCode::invalidData, fmt::format("no line of sight has both ends: {}",
                                                        withOptionNames(*results.errorOf(0)).describe()));
@@ -292,6 +296,7 @@ void addLosCommand(CLI::App& app, Session& session) {
   command->add_option("--from", arguments->from, "Position of the observer, in the DEM's CRS")
       ->type_name("X,Y,H");
   command->add_option("--to", arguments->to, "Position of the target")->type_name("X,Y,H");
+  // The ends may be stated in several ways; checkArguments() refuses those that do not go together.
   command
       ->add_option(
           "--pairs", arguments->pairs,
@@ -332,6 +337,7 @@ void addLosCommand(CLI::App& app, Session& session) {
                                       {"embree", SightMethod::embree}}))
       ->type_name("METHOD");
   arguments->sight.addEarthTo(*command);
+  // A part of the zone needs a frequency, and a free radius needs clutter: neither means anything alone.
   const std::string radio = "Radio";
   CLI::Option* frequency =
       command

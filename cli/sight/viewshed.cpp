@@ -127,6 +127,7 @@ Result<std::vector<ViewshedSite>> sitesOf(std::span<const PlacedObserver> observ
   std::vector<ViewshedSite> sites;
   for (const PlacedObserver& observer : observers) {
     const auto height = demHeight(observer.position, heights);
+    // A typed observer is named by its position, one of a file by its row as well.
     if (!height && observer.culprit.empty()) return tl::unexpected(height.error());
     if (!height)
       return failure(height.error().code, height.error().message,
@@ -151,6 +152,7 @@ Picture pictureOfOne(Mode mode, const Viewshed& viewshed) {
     for (const ViewshedCell cell : viewshed.cells) picture.values.push_back(byteOf(cell));
     return picture;
   }
+  // Heights and horizons are floats, in which NaN is NODATA.
   picture.isHeight = mode == Mode::height;
   for (std::size_t i = 0; i < viewshed.cells.size(); ++i) {
     double value = viewshed.cells[i] == ViewshedCell::outside ? std::nan("") : double(viewshed.values[i]);
@@ -162,6 +164,7 @@ Picture pictureOfOne(Mode mode, const Viewshed& viewshed) {
 
 Picture pictureOfMany(Mode mode, const ViewshedOfMany& all) {
   Picture picture;
+  // Numbers of observers take 16 bits, of which the largest are for what has no number.
   picture.options = {
       .sample = mode == Mode::seen ? GeoTiffOptions::Sample::uint8 : GeoTiffOptions::Sample::uint16,
       .nodata = mode == Mode::seen ? double(byteOf(ViewshedCell::outside)) : 65535};

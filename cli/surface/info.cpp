@@ -82,6 +82,7 @@ Status sayAboutSurface(const AmtContainer& file, const std::string& at, std::siz
                    grouped(mt.rootVertexCount(), "vertex", "vertices"),
                    withShare(mt.largestError(), model.diagonal)));
   if (!model.displacement.isEmpty()) line("displacement", "coarse cuts are drawn nearer to the source");
+  // Older files do not bound lines, which is said only of models that may have any.
   if (model.boundsLines)
     line("lines", "seams and edges between parts, within the error of every cut");
   else if (model.mayHaveLines())
@@ -99,6 +100,7 @@ Status sayAboutSurface(const AmtContainer& file, const std::string& at, std::siz
   for (const CurvePoint& p : curve) {
     text += fmt::format("  {:>12.4g}  {:>7.3g} %  {:>13}  {:>13}\n", p.error, 100 * p.error / model.diagonal,
                         grouped(p.minimal), grouped(p.saturated));
+    // JSON has no infinity, so an infinite error is null.
     points.push_back(
         {{"maxError", std::isfinite(p.error) ? Json(p.error) : Json()},
          {"maxErrorPercent", std::isfinite(p.error) ? Json(100 * p.error / model.diagonal) : Json()},

@@ -35,6 +35,7 @@ namespace {
 
 Result<Camera> cameraOf(const ViewArguments& a, const TerrainModel& model, const GroundHeights& heights,
                         int width, int height) {
+  // A home view depends on the shape of the picture, so its size comes first.
   Camera picture;
   picture.widthPixels = width;
   picture.heightPixels = height;
@@ -68,6 +69,7 @@ Result<std::optional<Flight>> flightOf(const ViewArguments& a, const TerrainMode
     return std::optional<Flight>();
   }
   Result<Flight> flight = Flight::create(std::move(plan), space);
+  // A flight around the terrain comes from no file that the error could name.
   if (!flight && !a.viewpoint.path.empty())
     return failure(
         ErrorCode::invalidData, flight.error().message,
@@ -90,6 +92,7 @@ Status runView(ViewArguments a, Session& session) {
   settings.maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);
   const GroundHeights heights(model);
   ARETE_TRY(const Camera camera, cameraOf(a, model, heights, size.first, size.second));
+  // A camera below the ground may be meant, so it is allowed.
   if (const auto ground = heights.at(camera.xy); ground && camera.height < ground->height)
     session.warn(fmt::format("the camera stands {} under the ground",
                              withUnit(ground->height - camera.height, model.georeference.verticalUnit)));

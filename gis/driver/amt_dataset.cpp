@@ -43,6 +43,7 @@ GDALDataset* AmtDataset::open(GDALOpenInfo* info) {
   };
   const Result<DriverOptions> options = readOpenOptions(info->papszOpenOptions);
   if (!options) return refuse(options.error());
+  // The file is not mapped: the host program must not end if another one truncates it.
   Result<AmtContainer> container = openModelFile(info->pszFilename, {.isCopied = true});
   if (!container) return refuse(container.error());
   auto dataset = std::make_unique<AmtDataset>();
@@ -63,6 +64,7 @@ Status AmtDataset::openTerrain(AmtContainer container, const DriverOptions& opti
   cuts_ = std::make_shared<TerrainCuts>(std::move(*cuts));
   const TerrainModel& outline = cuts_->outline();
   ARETE_CHECK(takeCrs(outline.georeference.crsWkt));
+  // A raster without a geotransform is not placed; points always are, and so are pixels of a stated size.
   hasPosition_ = outline.georeference.hasGeoTransform || !outline.isRaster || options.cell;
   SetMetadataItem("SOURCE", fs::path(outline.source).filename().c_str());
   SetMetadataItem("TOLERANCE", CPLSPrintf("%.9g", options.tolerance));
@@ -77,6 +79,7 @@ Status AmtDataset::openTerrain(AmtContainer container, const DriverOptions& opti
     SetBand(1, band.release());
     SetMetadataItem("AREA_OR_POINT", "Area");
   }
+  // A cut of triangles is taken only when features are read; the layer keeps alive what it needs for that.
   if (wantsLayer)
     layer_ = std::make_unique<TriangleLayer>("triangles", crs_, [cuts = cuts_]() -> Result<PlacedTriangles> {
       ARETE_TRY(const TerrainCuts::Whole whole, cuts->take(cuts->tolerance()));

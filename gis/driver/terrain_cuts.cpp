@@ -34,6 +34,7 @@ Result<TerrainCuts> TerrainCuts::open(AmtContainer container, double tolerance,
   TerrainCuts cuts(std::move(file));
   cuts.outline_ = std::make_shared<const TerrainModel>(std::move(outline));
   cuts.tolerance_ = tolerance;
+  // Points have no pixels of their own, so their mean spacing makes the size.
   if (!cell && !cuts.outline_->isRaster) cell = cuts.spacingOfPoints();
   ARETE_TRY(PixelGrid grid, PixelGrid::of(*cuts.outline_, cell));
   cuts.grid_ = grid;
@@ -50,6 +51,7 @@ double TerrainCuts::spacingOfPoints() const {
 double TerrainCuts::errorOfOverview(int k) const {
   if (k <= 0) return tolerance_;
   const double pixels = double(grid_.columns) * double(grid_.rows) * std::ldexp(1.0, -2 * k);
+  // An overview of fewer pixels than nodes needs no more nodes than it has pixels.
   if (pixels >= double(file_.nodeCount())) return tolerance_;
   return std::max(tolerance_, file_.errorBeyond(static_cast<std::uint64_t>(std::max(1.0, pixels))));
 }
@@ -74,6 +76,7 @@ void TerrainCuts::addOnGrid(const FrontOf& front, const Box2& pixels, double col
   for (std::uint32_t v = 0; v < front.vertices.size(); ++v)
     places.push_back(grid_.pixelOf({at(v).x + columns, at(v).y}));
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  // Only corners of triangles that meet the pixels are taken.
   std::vector<std::uint32_t> cornerOf(places.size(), kNone);
   for (const auto& t : front.triangles) {
     const auto [xMin, xMax] = std::minmax({places[t[0]].x, places[t[1]].x, places[t[2]].x});
@@ -164,10 +167,12 @@ Status TerrainCuts::fillWithCut(const PixelWindow& window, double error, std::sp
   auto kept = std::ranges::find(kept_, error, &std::pair<double, TriangleBins>::first);
   if (kept == kept_.end()) {
     ARETE_TRY(const Whole whole, take(error));
+    // The cut that was made first gives room to a new one.
     if (kept_.size() == kMostKept) kept_.erase(kept_.begin());
     const Box2 pixels{-1, -1, grid_.columns + 1.0, grid_.rows + 1.0};
     GridTriangles all;
     addOnGrid({whole.model, whole.cut.vertices, whole.cut.triangles}, pixels, 0, all);
+    // A model around the globe is laid down once more, a whole turn away.
     if (turn() != 0) addOnGrid({whole.model, whole.cut.vertices, whole.cut.triangles}, pixels, -turn(), all);
     kept_.emplace_back(error, TriangleBins(std::move(all)));
     kept = kept_.end() - 1;
@@ -182,6 +187,7 @@ void TerrainCuts::addIsolated(const PixelWindow& window, std::span<double> heigh
   const auto rowAt = [](double pixel) {
     return static_cast<std::uint64_t>(std::max(0.0, std::floor(pixel)));
   };
+  // Isolated samples are sorted by number, so the rows of the window are one range of them.
   const auto begin = std::ranges::lower_bound(isolated, rowAt(window.top) * outline_->columns, {},
                                               [](const auto& one) { return std::uint64_t{one.sample}; });
   const std::uint64_t end = (rowAt(window.top + window.height) + 1) * outline_->columns;
@@ -201,6 +207,7 @@ void TerrainCuts::addIsolated(const PixelWindow& window, std::span<double> heigh
 }
 
 Status TerrainCuts::fill(const PixelWindow& window, double error, std::span<double> heights) try {
+  // Small windows are filled from tiles, which their neighbours share; a large one is read at once.
   const double samples = double(window.columns) * double(window.rows);
   const Status filled = error > 0 ? fillWithCut(window, error, heights)
                                   : fillWithFinest(window, heights, samples < 4.0 * kTile * kTile);

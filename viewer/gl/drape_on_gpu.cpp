@@ -50,6 +50,7 @@ void DrapeOnGpu::planLevels(std::uint32_t columns, std::uint32_t rows) {
   rows_ = rows;
   grid_.clear();
   layers_ = 0;
+  // A tile has a border of one texel on every side.
   const std::int32_t inner = std::int32_t(side_) - 2;
   for (int k = 0; k < int(kMostLevels); ++k) {
     Level level;
@@ -71,6 +72,7 @@ Result<DrapeOnGpu> DrapeOnGpu::load(const std::string& path, const TerrainModel&
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &mostSide);
   const std::uint64_t room = roomInBytes();
   DrapeReadOptions read = options.read;
+  // A picture for which the device has no room is read again, coarser, until it fits.
   for (;;) {
     ARETE_TRY(DrapeReader reader, DrapeReader::open(path, model, read, context));
     DrapeOnGpu drape;
@@ -81,6 +83,7 @@ Result<DrapeOnGpu> DrapeOnGpu::load(const std::string& path, const TerrainModel&
       drape.side_ = std::clamp<std::uint32_t>(options.tileSide, 4, std::uint32_t(mostSide));
       drape.planLevels(reader.columns(), reader.rows());
     } else {
+      // The smallest side is taken that needs at most half of the device's layers.
       constexpr std::uint32_t kSides[] = {256, 512, 1024, 2048};
       for (const std::uint32_t side : kSides) {
         drape.side_ = side;
@@ -90,6 +93,7 @@ Result<DrapeOnGpu> DrapeOnGpu::load(const std::string& path, const TerrainModel&
     }
     bool hasRoom = drape.layers_ <= std::uint32_t(mostLayers) && drape.bytes() <= room;
     if (hasRoom) {
+      // Older errors are cleared, so that the next one is about the storage.
       while (glGetError() != GL_NO_ERROR) {
       }
       drape.texture_ = makeTexture(GL_TEXTURE_2D_ARRAY);

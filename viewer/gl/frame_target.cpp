@@ -34,6 +34,7 @@ Result<FrameTarget> FrameTarget::create(int width, int height, int samples) {
   FrameTarget t;
   t.width_ = width;
   t.height_ = height;
+  // Fewer samples than stated only make edges less smooth, so the device's limit refuses nothing.
   t.samples_ = std::clamp(samples, 1, std::max(1, mostSamples));
   t.color_ = storage(GL_RGBA8, width, height, t.samples_);
   t.depth_ = storage(GL_DEPTH_COMPONENT32F, width, height, t.samples_);
@@ -54,6 +55,7 @@ Result<FrameTarget> FrameTarget::create(int width, int height, int samples) {
 void FrameTarget::begin() const {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glViewport(0, 0, width_, height_);
+  // Depth is reversed, 1 at the near plane and 0 far away, because floats are densest at 0.
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDepthMask(GL_TRUE);
   glClearColor(0, 0, 0, 1);
@@ -67,6 +69,7 @@ void FrameTarget::copyTo(GLuint framebuffer) const {
 }
 
 Image FrameTarget::image() const {
+  // Samples cannot be read as they are: the second framebuffer takes their averages.
   if (samples_ > 1) copyTo(resolvedFramebuffer_);
   std::vector<std::uint8_t> bytes(std::size_t(4) * std::size_t(width_) * std::size_t(height_));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -77,6 +80,7 @@ Image FrameTarget::image() const {
 
 Image imageFromBottomUp(int width, int height, std::span<const std::uint8_t> rgba) {
   Image image(width, height);
+  // OpenGL begins with the lowest row, a picture with the highest.
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const std::uint8_t* p = &rgba[4 * (std::size_t(height - 1 - y) * std::size_t(width) + std::size_t(x))];
@@ -91,6 +95,7 @@ std::vector<float> FrameTarget::depths(double drawnNear) const {
   glGetTextureImage(depth_, 0, GL_DEPTH_COMPONENT, GL_FLOAT, GLsizei(4 * read.size()), read.data());
   for (std::size_t y = 0; y < h; ++y)
     for (std::size_t x = 0; x < w; ++x) {
+      // The far plane is infinitely far: depth is near / distance, and 0 where nothing is drawn.
       const float d = read[(h - 1 - y) * w + x];
       depths[y * w + x] = d > 0 ? float(drawnNear / double(d)) : std::numeric_limits<float>::infinity();
     }

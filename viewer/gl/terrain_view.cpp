@@ -48,6 +48,7 @@ struct TerrainView::State {
       ARETE_TRY(MultiTriangulation curved, made->curvedMt(settings.stretch));
       wanted = std::move(curved);
     }
+    // The processor's front is of the vertices that were drawn so far, so it goes with them.
     processor.reset();
     std::string refusal = std::move(terrain.refusal);
     terrain = {};
@@ -69,6 +70,7 @@ Result<TerrainView> TerrainView::create(const TerrainModel& model, const Options
                                              .terrain = uploadTerrain(model.mt, nullptr, context),
                                              .painter = std::move(painter)});
   state->drawn = options.path;
+  // If the device cannot compute cuts, the processor takes over, and the refusal gives the reason.
   if (state->terrain.refusal.empty()) {
     Result<ComputeFront> device = ComputeFront::create(state->terrain, options.mostTriangles);
     if (device)
@@ -92,6 +94,7 @@ Result<FrameView> TerrainView::frameOf(const Camera& camera, const ViewSettings&
     frame.view = view;
     frame.earthRadius = ground->radius();
   } else {
+    // On a flat map the device multiplies heights when it draws, so only the eye is raised here.
     ARETE_TRY(View view, viewOf(camera, *state_->model));
     frame.view = view;
     frame.view.eye.z *= settings.stretch;
@@ -100,6 +103,7 @@ Result<FrameView> TerrainView::frameOf(const Camera& camera, const ViewSettings&
   frame.eyeGround = {ground.x, ground.y};
   frame.isMirrored = state_->model->isFlipped();
   frame.stretch = settings.stretch;
+  // The tolerance holds for the exaggerated terrain, so heights have the exaggerated scale.
   MetricFrame exaggerated = state_->model->mt.metric();
   exaggerated.scale.z *= settings.stretch;
   const MorphCamera morph({.view = frame.view, .pixels = settings.pixels, .moves = settings.isGeomorphed},
@@ -117,6 +121,7 @@ Result<FrameFigures> TerrainView::cut(const Camera& camera, const ViewSettings& 
   figures.pixels = settings.pixels;
   const Stopwatch watch;
   if (settings.path == CutPath::device && s.device) {
+    // Vertices that the device's cut would leave moved are put at rest before it.
     if (s.hasRises && (!settings.isGeomorphed || s.drawn == CutPath::processor)) {
       glClearNamedBufferData(s.terrain.rises, GL_R32F, GL_RED, GL_FLOAT, nullptr);
       glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
@@ -176,6 +181,7 @@ DrawnFront TerrainView::front() const {
 Status TerrainView::draw(const Camera& camera, const ViewSettings& settings) {
   State& s = *state_;
   ARETE_TRY(FrameView frame, frameOf(camera, settings));
+  // A change of the curvature makes new buffers without a front, so a whole cut is waited for.
   if (!s.isReadyFor(settings)) {
     ViewSettings now = settings;
     now.waits = true;
@@ -184,6 +190,7 @@ Status TerrainView::draw(const Camera& camera, const ViewSettings& settings) {
   s.painter.setFrame(frame);
   if (settings.look.coloring == Coloring::error && s.terrain.triangleErrors == 0)
     uploadErrors(s.terrain, s.model->mt);
+  // The query counts the terrain alone, so the sky is drawn after it.
   glBeginQuery(GL_ANY_SAMPLES_PASSED, s.anySample);
   s.painter.draw(s.terrain, front(), settings.look);
   glEndQuery(GL_ANY_SAMPLES_PASSED);

@@ -62,6 +62,7 @@ void drawMark(Canvas& canvas, Vec2 p, std::size_t shape, Rgb color, bool isOpen)
         {p.x, p.y - 1.3 * r}, {p.x + 1.3 * r, p.y}, {p.x, p.y + 1.3 * r}, {p.x - 1.3 * r, p.y}};
     canvas.fillPolygon(shape % 3 == 1 ? square : diamond, fill);
   };
+  // A rim of paper keeps full marks apart where they overlap.
   draw(radius + (isOpen ? 0 : 1.5), isOpen ? color : kPaper);
   draw(isOpen ? radius - 1.8 : radius, isOpen ? kPaper : color);
 }
@@ -83,6 +84,7 @@ void drawLegend(Canvas& canvas, std::span<const ChartSeries> series, const Rect&
     for (const bool right : {true, false}) {
       const Rect box = {right ? plot.right() - width - 16 : plot.left + 16,
                         low ? plot.bottom() - height - 16 : plot.top + 16, width, height};
+      // A margin keeps marks from touching the frame of the legend.
       const auto hidden = std::size_t(std::count_if(marks.begin(), marks.end(), [&](const Vec2& m) {
         return m.x > box.left - 20 && m.x < box.right() + 20 && m.y > box.top - 20 && m.y < box.bottom() + 20;
       }));

@@ -39,6 +39,7 @@ void SurfaceSession::setPicture(double widthPixels, double heightPixels) {
 }
 
 void SurfaceSession::step(const InputState& input) {
+  // A drag moves what is as far away as the orbit's middle, so the middle follows the pointer.
   const double unitsPerPixel = 2 * orbit_.orbit().radius *
                                std::tan(camera_.verticalFieldOfViewDegrees * std::numbers::pi / 360) /
                                camera_.heightPixels;
@@ -56,6 +57,7 @@ void SurfaceSession::home(HomeView view) {
 }
 
 void SurfaceSession::apply(Action action) {
+  // Actions for terrain alone, such as contours, do nothing here.
   switch (action) {
     case Action::nextHome: {
       const auto at = std::ranges::find(kHomeViews, homeView);

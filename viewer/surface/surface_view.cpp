@@ -74,6 +74,7 @@ struct SurfaceView::State {
     if (positions.empty()) positions = drawnPositions(*model, upright);
     for (std::size_t t = 0; t < front.ids.size(); ++t)
       for (std::size_t i = 0; i < 3; ++i) {
+        // A drawn vertex is a wedge where there are wedges; triangles that share one write the same place.
         const std::uint32_t v = front.triangles[t][i];
         const std::size_t drawn = model->hasWedges() ? model->wedgesOf[front.ids[t]][i] : front.vertices[v];
         const Vec3 p = upright.fromFile(places[v]);
@@ -115,6 +116,7 @@ Result<SurfaceFigures> SurfaceView::cut(const Camera& camera, const SurfaceViewS
   figures.triangles = static_cast<std::uint32_t>(s.cut.triangles().size());
   figures.isComplete = update.isComplete;
   figures.pixels = settings.pixels;
+  // A budget may end the cut early: the figure is then the worst error that is drawn.
   if (!update.isComplete)
     figures.pixels = std::max(settings.pixels, worstSeverity(mt, criterion, s.cut.front()));
   s.pixels = figures.pixels;
@@ -130,6 +132,7 @@ Status SurfaceView::draw(const Camera& camera, const SurfaceViewSettings& settin
   FrameView frame;
   frame.view = view;
   frame.pixels = s.pixels;
+  // A surface has no usual unit, so the near plane follows its size.
   frame.drawnNear = kNearestPlane * s.shape.box.diagonal();
   glBeginQuery(GL_ANY_SAMPLES_PASSED, s.anySample);
   s.painter.draw(s.surface, s.materials, {s.indices, s.errors, s.ranges}, frame, settings.look);

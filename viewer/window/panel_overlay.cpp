@@ -20,6 +20,7 @@ void drawMarks(const ViewerSession& s, double scale) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const float em = ImGui::GetFontSize();
   const auto at = [&](const Vec3& metric) -> std::optional<ImVec2> {
+    // ImGui places in points of the screen, the picture in pixels.
     const auto pixel = s.pixelOf(metric);
     if (!pixel) return std::nullopt;
     return ImVec2(float(pixel->x / scale), float(pixel->y / scale));
@@ -30,6 +31,7 @@ void drawMarks(const ViewerSession& s, double scale) {
     for (std::size_t i = 1; i < sight.points.size(); ++i) {
       const bool isBefore = i <= sight.pointsBefore;
       Vec3 from = sight.points[i - 1], to = sight.points[i];
+      // The step in which the obstruction lies ends there.
       if (sight.obstruction && i == sight.pointsBefore) to = *sight.obstruction;
       const auto a = at(from), b = at(to);
       if (!a || !b) continue;
@@ -51,6 +53,7 @@ void drawMarks(const ViewerSession& s, double scale) {
     list.AddCircleFilled(*foot, 0.25f * em, i == 0 ? IM_COL32(200, 30, 40, 255) : IM_COL32(30, 80, 200, 255));
     const std::string text = fmt::format("{}  {}", i == 0 ? "A" : "B", s.places.height(s.picks[i].height));
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    // A dark plate keeps the text readable on any terrain.
     const ImVec2 corner{foot->x + 0.7f * em, foot->y - 1.6f * em};
     list.AddRectFilled({corner.x - 0.3f * em, corner.y - 0.15f * em},
                        {corner.x + size.x + 0.3f * em, corner.y + size.y + 0.15f * em},
@@ -85,6 +88,7 @@ void drawHelp(ViewerSession& s) {
   }
   ImGui::Dummy({0, 0.4f * em});
   if (ImGui::BeginTable("keys", 4, kTable)) {
+    // The keys fill two pairs of columns, the first half on the left.
     const auto keys = keyBindings();
     const std::size_t half = (keys.size() + 1) / 2;
     for (std::size_t i = 0; i < half; ++i)

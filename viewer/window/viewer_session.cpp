@@ -195,7 +195,7 @@ void ViewerSession::updateSight() {
 void ViewerSession::clearPicks() {
   picks.clear();
   sight.reset();
-  // The viewshed is seen from a pick, so it goes with them, finished or not.
+  // The viewshed is seen from a pick, so it goes with the picks, finished or not.
   viewshed.cancel();
   overlay.reset();
   isOverlayNew = true;
