@@ -37,6 +37,7 @@ ViewError::ViewError(const Options& options, const MetricFrame& metric)
 double ViewError::allowedOnSurface(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
   const auto at = [&](std::size_t i) { return metric_.toMetric(mt.position(VertexId(corners[i]))); };
   const std::array<Vec3, 3> places{at(0), at(1), at(2)};
+  // On a surface an error has no direction, so the ball around the triangle grows by it on all sides.
   const EnclosingBall ball = EnclosingBall::around(places);
   const double radius = (ball.radius + mt.error(t)) * (1 + 1e-9);
   const Vec3 centre = frustum_.toView({ball.x, ball.y, ball.z});
@@ -54,6 +55,7 @@ double ViewError::allowedFor(const MultiTriangulation& mt, TriangleId t, const C
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
+  // A ball around the middle of the prism's box holds all corners of the prism.
   const Vec3 centre{(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
   double squared = 0;
   for (const Vec3& p : prism)
@@ -63,6 +65,7 @@ double ViewError::allowedFor(const MultiTriangulation& mt, TriangleId t, const C
 }
 
 bool ViewError::isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
+  // An exact triangle is fine enough from everywhere, which spares its prism.
   const double error = mt.error(t);
   return error == 0 || error <= allowedFor(mt, t, corners);
 }
@@ -75,6 +78,7 @@ double ViewError::severity(const MultiTriangulation& mt, TriangleId t, const Cor
 std::unique_ptr<const BoundedCriterion> ViewError::withSeverityLimit(double pixels) const {
   Options options = o_;
   options.pixels = pixels;
+  // The error outside of the view grows with the tolerance, so that the two keep their ratio.
   options.outsideError *= pixels / o_.pixels;
   return std::make_unique<ViewError>(options, metric_);
 }

@@ -118,6 +118,7 @@ Status IncrementalCut::apply(std::span<const CutStep> steps) try {
   s.steps.clear();
   for (const CutStep& step : copied) {
     const std::uint32_t n = step.node.index();
+    // A step fits if its node can enter, with all triangles of its floor in the front, or is a leaf.
     const bool fits =
         n < s.mt.nodeCount() &&
         (step.isRefinement
@@ -169,10 +170,12 @@ Status IncrementalCut::validate() const try {
   const State& s = *state_;
   const NodeSet set = nodes();
   const auto broken = [](std::string what) { return failure(ErrorCode::brokenPromise, std::move(what)); };
+  // A closed set stays as it is when it is closed.
   NodeSet closed = set;
   if (closeUpwards(s.mt, closed) != s.nodeCount() || closed != set)
     return broken("the incremental cut is not closed or miscounts its nodes");
   std::vector<std::uint32_t> counts(set.size(), 0);
+  // A member counts the triangles of its star that are refined, another node the missing ones of its floor.
   for (std::uint32_t n = 0; n < set.size(); ++n)
     for (const std::uint32_t t : s.mt.floor(NodeId(n))) {
       const NodeId parent = s.mt.creator(TriangleId(t));

@@ -52,6 +52,7 @@ MorphNode morphNode(const MultiTriangulation& mt, NodeId n) {
     best = corners, bestWeights = weights, bestLeast = least;
     if (least >= 0) break;
   }
+  // If rounding flattens every triangle of the floor, a corner stands for the place of the apex.
   if (bestLeast == -kInfinity) best = mt.corners(TriangleId(mt.floor(n)[0])), bestWeights = {1, 0, 0};
   double sum = 0;
   for (double& w : bestWeights) sum += w = std::max(w, 0.0);
@@ -77,6 +78,7 @@ MorphCamera::MorphCamera(const Options& options, const MetricFrame& metric)
     : frustum_(options.view),
       pixelsPerReach_(frustum_.pixelsPerUnit() * std::abs(metric.scale.z)),
       moves_(options.moves) {
+  // The cut and the vertices on their way share one tolerance.
   const double whole = options.pixels / (1 + options.pixels * kBend / frustum_.pixelsPerUnit());
   tolerance_.cut = moves_ ? options.cutShare * whole : whole;
   tolerance_.offset = whole - tolerance_.cut;
@@ -106,6 +108,7 @@ double MorphCamera::pixelsPerHeight(std::span<const Vec3> hull) const {
     inView.push_back(p);
   }
   if (!frustum_.mayMeet(inView)) return 0;
+  // A ball around the middle of the hull's box holds the hull.
   const Vec3 centre{(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
   double squared = 0;
   for (const Vec3& p : inView)

@@ -46,6 +46,7 @@ class GeomorphedSurface::State {
                             std::span(pixels_).subspan(range.begin(), range.size()));
     });
     MorphCamera camera = given;
+    // Under a budget the tolerance is what the cut really keeps: the smallest error of a member, in pixels.
     if (budgetBinds) {
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t i = 0; i < members_.size(); ++i) least = std::min(least, errors_[i] * pixels_[i]);
@@ -77,6 +78,7 @@ class GeomorphedSurface::State {
     bool haveLeft = false;
     for (const CutStep& step : cut.lastSteps()) {
       const std::uint32_t n = step.node.index();
+      // A node may enter and leave in the same update, so the cut decides and not the step.
       const bool isIn = cut.contains(step.node);
       if (isIn == isMember_[n]) continue;
       isMember_[n] = isIn;

@@ -37,6 +37,7 @@ MtRecorder::MtRecorder(std::uint32_t finestTriangles, std::uint32_t mostRemovals
 }
 
 RemovalId MtRecorder::beginBatch(BatchOrder order, std::span<const std::uint8_t> linkSizes) {
+  // All room of a batch is made here, so that its removals can be recorded in parallel.
   const std::lock_guard lock(growing_);
   const std::uint32_t first = removals_;
   const std::size_t count = linkSizes.size();
@@ -47,6 +48,7 @@ RemovalId MtRecorder::beginBatch(BatchOrder order, std::span<const std::uint8_t>
   vertex_.resize(removals_);
   saturated_.resize(removals_);
   sphere_.resize(removals_);
+  // A floor has two triangles fewer than its link has vertices.
   const std::size_t slots = slotBegin_[removals_], floorTriangles = slots - 2 * std::size_t(removals_);
   link_.resize(slots);
   ceiling_.resize(slots);
@@ -88,6 +90,7 @@ MultiTriangulation withVertices(const MultiTriangulation& mt, const VertexArrays
                                 std::shared_ptr<const void> owner) {
   MtArrays a = mt.arrays();
   a.vertices = vertices;
+  // The result shares the arrays of the MT and keeps them and the vertices alive.
   struct Both {
     MultiTriangulation mt;
     std::shared_ptr<const void> vertices;

@@ -97,6 +97,7 @@ VertexArrays placesOf(std::span<const Vec3> positions, std::span<const std::uint
 /// The order of the faces and of everything that is by face.
 void sortFaces(PreparedSurface& prepared, std::span<const std::uint32_t> order) {
   const auto sorted = [&](auto& array) {
+    // An array that the mesh does not have stays empty.
     if (array.empty()) return;
     auto copy = array;
     for (std::size_t i = 0; i < order.size(); ++i) copy[i] = array[order[i]];
@@ -136,6 +137,7 @@ class SurfaceBuild {
     const auto vertexCount = static_cast<std::uint32_t>(mesh.positions.size());
     const auto faceCount = static_cast<std::uint32_t>(mesh.triangles.size());
     const Vec3 &low = prepared_.boxLow, &high = prepared_.boxHigh;
+    // The largest coordinate bounds what rounding does to distances from the original surface.
     const double largest = std::max({std::abs(low.x), std::abs(low.y), std::abs(low.z), std::abs(high.x),
                                      std::abs(high.y), std::abs(high.z)});
     const OriginalSurface original{mesh.positions, mesh.triangles, largest};
@@ -158,11 +160,14 @@ class SurfaceBuild {
                        .unit = std::ldexp(1.0, -std::ilogb(prepared_.diagonal)),
                        .parts = {prepared_.mesh.hasWedges(), prepared_.partOf}};
     model_.boundsLines = state.parts.hasLines();
+    // A label is what a triangle inherits: a face of the source, and the wedges of its corners.
     state.labels.resize(faceCount);
     for (std::uint32_t f = 0; f < faceCount; ++f)
       state.labels.set(
           f, {f, prepared_.mesh.hasWedges() ? prepared_.mesh.wedges[f] : std::array<std::uint32_t, 3>{}});
     ARETE_TRY(const SurfaceRoot root, simplifySurface(state, isFixed, context_));
+    // What only the simplification needs goes before the model is put together, which lowers the peak of
+    // memory.
     state.pieces = {};
     live = {};
     state.records = {};
@@ -201,6 +206,7 @@ class SurfaceBuild {
       if (mesh.hasWedges()) model_.wedgesOf[t] = labels.wedges;
     };
     for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) put(t, root.labels[t]);
+    // Stars were labelled as vertices were removed; nodes have another order, so the vertex finds its labels.
     for (std::uint32_t n = 0; n < mt.nodeCount(); ++n) {
       const VertexId removed(order[mt.apex(NodeId(n)).index()]);
       const std::uint32_t from = state.firstStarLabel[removed];
@@ -223,6 +229,8 @@ class SurfaceBuild {
     model_.sourceFaces = model_.fileFaces = prepared_.sourceFaces;
     for (const std::uint32_t v : order) model_.vertexOf.push_back(prepared_.vertexOf[v]);
     MeshAttributes& a = model_.attributes;
+    // Attributes of vertices take the order of the model; all others keep the source's order and are numbered
+    // by it.
     for (const Attribute& attribute : mesh.vertexAttributes) {
       Attribute& sorted = a.vertexAttributes.emplace_back(emptyLike(attribute));
       for (const std::uint32_t v : order) sorted.append(attribute.element(v));

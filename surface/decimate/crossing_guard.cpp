@@ -43,12 +43,14 @@ Box3 CrossingGuard::boxOf(std::uint32_t t) const {
 }
 
 int CrossingGuard::levelOf(const Box3& box) {
+  // Cells are wider than the box, so a triangle is in at most two of them along each axis.
   const double side = box.longestSide();
   return side > 0 ? std::max(std::ilogb(side) + 1, -1000) : -1000;
 }
 
 CrossingGuard::Cell CrossingGuard::cellOf(const Vec3& p, int level) {
   const auto along = [&](double x) {
+    // The clamp lets far places share a cell, which costs time but loses no triangle.
     return static_cast<std::int64_t>(std::clamp(std::floor(std::ldexp(x, -level)), -0x1p60, 0x1p60));
   };
   return {along(p.x), along(p.y), along(p.z)};
@@ -77,6 +79,7 @@ bool CrossingGuard::forNear(const Box3& box, const Visit& visit) const {
     const Cell low = cellOf(box.low, level), high = cellOf(box.high, level);
     double cells = 1;
     for (std::size_t k = 0; k < 3; ++k) cells *= static_cast<double>(high[k] - low[k] + 1);
+    // If the box has more cells than the grid, it is cheaper to go through the grid's.
     if (cells > static_cast<double>(grid.cells.size())) {
       for (const auto& [cell, triangles] : grid.cells) {
         if (cell[0] < low[0] || cell[0] > high[0] || cell[1] < low[1] || cell[1] > high[1] ||

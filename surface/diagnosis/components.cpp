@@ -26,6 +26,7 @@ class TopologyPass {
         options_(options),
         result_(result),
         edges_(kept.triangles(), mesh.positions.size()) {
+    // Fans, components and orientation each need only the edges, so they are found side by side.
     parallelInvoke([&] { fans_.emplace(edges_); },
                    [&] {
                      components_.emplace(edges_);
@@ -57,6 +58,7 @@ class TopologyPass {
   }
 
   void countTriangles() {
+    // A triangle that is left out keeps a number beyond all components.
     result_.componentOf.assign(mesh_.triangles.size(), components_->count);
     for (std::uint32_t t = 0; t < kept_.triangles().size(); ++t) {
       const std::uint32_t c = components_->componentOf[t];

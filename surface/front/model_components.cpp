@@ -18,6 +18,7 @@ Cut finestFront(const SurfaceModel& model) {
 ModelComponents componentsOf(const SurfaceModel& model) {
   const MultiTriangulation& mt = model.mt;
   DisjointSets sets(mt.vertexCount());
+  // The finest triangulation has every vertex, so it decides what is connected.
   const Cut finest = finestFront(model);
   for (const auto& corners : finest.triangles) {
     sets.unite(finest.vertices[corners[0]], finest.vertices[corners[1]]);
@@ -47,6 +48,7 @@ DroppedComponents componentsBelow(const SurfaceModel& model, double leastDiagona
   for (const std::uint32_t component : components.ofVertex)
     dropped.isDropped.push_back(components.diagonals[component] < leastDiagonal);
   const Cut finest = finestFront(model);
+  // All corners of a triangle are in one component, so one of them decides.
   for (const auto& corners : finest.triangles)
     dropped.sourceFaces += dropped.isDropped[finest.vertices[corners[0]]] ? 1 : 0;
   for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t)
@@ -66,6 +68,7 @@ KeptCut withoutDropped(const MultiTriangulation& mt, const Cut& whole, const Dro
   }
   for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
     const auto& [a, b, c] = whole.triangles[t];
+    // If one corner is dropped, so are the others.
     if (vertexNumber[a] == MeshAttributes::kNone) {
       rest.numberOf.push_back(MeshAttributes::kNone);
       continue;

@@ -25,6 +25,7 @@ std::uint32_t Draft::copyVertex(std::uint32_t vertex) {
 
 void Draft::addTriangle(const Triangle& corners, std::uint32_t like) {
   mesh.triangles.push_back(corners);
+  // A part names the source of the whole, so that parts of parts name it too.
   triangleOf.push_back(like == RepairedMesh::kNone ? like : triangleOf[like]);
   isTurned.push_back(like == RepairedMesh::kNone ? std::uint8_t{0} : isTurned[like]);
 }
@@ -51,6 +52,7 @@ void Draft::removeTriangles(const std::vector<std::uint8_t>& isGone) {
 
 void Draft::removeUnusedVertices() {
   std::vector<std::uint32_t> number(mesh.positions.size(), RepairedMesh::kNone);
+  // A number of 0 marks a used vertex until it has its own.
   for (const Triangle& t : mesh.triangles)
     for (const std::uint32_t v : t) number[v] = 0;
   std::uint32_t kept = 0;

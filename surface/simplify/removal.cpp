@@ -60,6 +60,7 @@ void SurfaceRemover::dividePieces(const HoleTriangulation& floor) {
                               hole_.line()};
   divideStar(division_, replaced, [&](int i, const auto& take) {
     const SlotId slot = star.slot(i);
+    // A triangle without pieces is still the whole of its face.
     if (s_.pieces[slot].isEmpty())
       take(Piece{s_.labelsOf(slot).face, 0, wholeFace()});
     else
@@ -73,6 +74,7 @@ void SurfaceRemover::record(RemovalId removal, int floorSize) {
     ceiling_[i] = s_.mesh.triangles[star.slot(i)].recorderId;
     creator_[i] = s_.mesh.triangles[star.slot(i)].creator;
   }
+  // The sphere of the node holds the link and the apex.
   for (int i = 0; i < star.linkSize; ++i) metric_[i] = s_.metric.toMetric(hole_.corner(i));
   metric_[star.linkSize] = s_.metric.toMetric(hole_.apex());
   for (int f = 0; f < floorSize; ++f)

@@ -71,6 +71,7 @@ PointErrorLaw::CellRange PointErrorLaw::cellsOf(Vec2 a, Vec2 b, std::int64_t row
     const double t = std::clamp((y - a.y) / (b.y - a.y), 0.0, 1.0);
     return a.x + t * (b.x - a.x);
   };
+  // An edge that is not level meets the row between its places on the lower and the upper line of the strip.
   double from = a.x, to = b.x;
   if (a.y != b.y) {
     from = xAt(bottom);
@@ -91,6 +92,7 @@ void PointErrorLaw::forCells(Vec2 a, Vec2 b, const Visit& visit) const {
 PointErrorLaw::Lists PointErrorLaw::listEdges() const {
   Lists lists;
   lists.begin.assign(cellOf(0, rows_) + 1, 0);
+  // The edges are visited twice, to count them in each cell and to list them.
   const auto forEach = [&](const auto& visit) {
     for (std::uint32_t e = 0; e < edges_.size(); ++e)
       forCells(planOf(position(edges_[e][0])), planOf(position(edges_[e][1])),
@@ -121,6 +123,7 @@ bool PointErrorLaw::holdsAtPoints(const StoredErrors& stored,
   const Vec2 pa = planOf(a), pb = planOf(b), pc = planOf(c);
   const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y, riseB = b.z - a.z,
                riseC = c.z - a.z;
+  // The magnitudes of the terms bound the rounding of the area, however small the area is.
   const double terms = std::abs(bx * cy) + std::abs(by * cx), area = bx * cy - by * cx;
   const bool isLevel = riseB == 0 && riseC == 0;
   for (std::int64_t row = rowOf(std::min({a.y, b.y, c.y})), last = rowOf(std::max({a.y, b.y, c.y}));
@@ -134,6 +137,7 @@ bool PointErrorLaw::holdsAtPoints(const StoredErrors& stored,
     if (cells.first > cells.last) continue;
     for (const std::uint32_t point : pointsOf_.of(cellOf(cells.first, row), cellOf(cells.last, row) + 1)) {
       const Vec3 p = position(point);
+      // Orientations are exact, so points on an edge count as inside.
       const Vec2 at = planOf(p);
       if (planOrientation(pa, pb, at) < 0 || planOrientation(pb, pc, at) < 0 ||
           planOrientation(pc, pa, at) < 0)

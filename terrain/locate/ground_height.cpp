@@ -42,6 +42,7 @@ struct Visit {
 }  // namespace
 
 double GroundHeights::margin(const TerrainModel& model) {
+  // The margin covers rounding: a small part of a sample's step, and the last bits of the largest coordinate.
   constexpr double kPart = 1e-9, kLastBits = 0x1p-50;
   if (model.isRaster) {
     const auto& g = model.georeference.geoTransform;
@@ -63,6 +64,7 @@ GroundHeights::GroundHeights(const TerrainModel& model)
 
 std::optional<GroundHeight> GroundHeights::inPlan(Vec2 p, OutwardScale::Code allowed) const {
   const auto belows = model_.mt.column(kBelow), aboves = model_.mt.column(kAbove);
+  // Coarse triangles may cover NODATA where rims are simplified, so only the finest ones decide.
   const bool mayStop = model_.options.rimTolerance == 0;
   std::optional<LocatedTriangle> t = locator_.inRoot(p);
   for (std::uint32_t steps = 0; t; ++steps) {
@@ -97,6 +99,7 @@ Result<std::vector<std::optional<GroundHeight>>> GroundHeights::at(std::span<con
   std::vector<Visit> order(positions.size());
   SharedProgress progress(context, "heights", positions.size());
   context.report("heights", 0);
+  // Only the visits follow the curve; answers stay in the order of the positions.
   withThreads(context, [&] {
     parallelFor(std::size_t{0}, positions.size(), [&](std::size_t i) {
       order[i] = {mortonKey(model_.toPlan(positions[i]), locator_.roots().bounds()),

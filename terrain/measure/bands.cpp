@@ -50,6 +50,7 @@ Status checkInputs(const Inputs& in, const Status& heightfield, std::size_t samp
 }
 
 double raisedTolerance(const MeasureOptions& options, Vec2 roundingPixels) {
+  // Rounded coordinates may be further off than the tolerance, which then grows with them, within a limit.
   const double rounding = 2 * std::max(std::abs(roundingPixels.x), std::abs(roundingPixels.y));
   if (!(rounding > options.planTolerancePixels)) return options.planTolerancePixels;
   return std::max(options.planTolerancePixels, std::min(rounding, kMostPlanTolerance));
@@ -68,6 +69,7 @@ TriangleBands sortIntoBands(const TriangleMesh& mesh, std::span<const Vec2> plan
   const auto bandsOf = [&](std::uint32_t t) {
     const auto& v = mesh.triangles[t];
     const auto [low, high] = std::minmax({plan[v[0]].y, plan[v[1]].y, plan[v[2]].y});
+    // Twice the tolerance on either side is on the safe side for every sample that the triangle may cover.
     const double first = std::floor((low - 2 * tolerance) / rowHeight);
     const double last = std::floor((high + 2 * tolerance) / rowHeight);
     if (last < 0 || first >= static_cast<double>(rows)) return BandRange{};
@@ -78,6 +80,7 @@ TriangleBands sortIntoBands(const TriangleMesh& mesh, std::span<const Vec2> plan
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
   std::vector<bool> isLeftOut(count);
   PlanTriangle triangle;
+  // The first pass counts the triangles of each band, the second lists them.
   for (std::uint32_t t = 0; t < count; ++t) {
     const bool hasArea = setTriangle(triangle, mesh, plan, t, tolerance);
     result.areaPixels += triangle.area2 / 2;
@@ -143,6 +146,7 @@ void BandTotals::add(const BandTotals& later) {
   if (!(c.errorBeyondRounding <= counts.errorBeyondRounding))
     counts.errorBeyondRounding = c.errorBeyondRounding;
   if (c.worst) {
+    // If errors are equal, the sample with the smallest number stays.
     const bool larger = !counts.worst || c.maxAbsError > counts.maxAbsError;
     const bool earlier =
         counts.worst && c.maxAbsError == counts.maxAbsError && c.worst->sample < counts.worst->sample;

@@ -83,6 +83,7 @@ class PointMeasurement {
         isExact_(in.options.planRounding == Vec2{}) {}
 
   Result<MeasureReport> run() {
+    // Rows and columns of buckets have to fit 64-bit integers.
     if (!(scale_.width < 1e18 && scale_.height < 1e18))
       return failure(ErrorCode::invalidData, "the points lie too far apart to be measured", points_.source);
     sortPoints();
@@ -111,6 +112,7 @@ class PointMeasurement {
     bucketColumns_ = static_cast<std::int64_t>(scale_.width / kBucketSide) + 1;
     bucketRows_ = static_cast<std::int64_t>(scale_.height / kBucketSide) + 1;
     bucketBegin_.assign(static_cast<std::size_t>(bucketColumns_ * bucketRows_) + 1, 0);
+    // A counting sort keeps the points of a bucket in their order, so that results never vary.
     for (const Vec2& p : points_.positions) ++bucketBegin_[bucketOf(scale_.toPlan(p.x, p.y)) + 1];
     std::partial_sum(bucketBegin_.begin(), bucketBegin_.end(), bucketBegin_.begin());
     std::vector<std::uint64_t> next(bucketBegin_.begin(), bucketBegin_.end() - 1);
@@ -125,6 +127,7 @@ class PointMeasurement {
   }
 
   BandTotals scanBand(std::size_t band) {
+    // The points of a band are one range of the sorted points, so bands share no output.
     const std::int64_t firstRow = static_cast<std::int64_t>(band) * bucketRowsPerBand_;
     const std::int64_t endRow = std::min(firstRow + bucketRowsPerBand_, bucketRows_);
     const std::uint64_t firstPoint = bucketBegin_[firstRow * bucketColumns_];

@@ -96,6 +96,7 @@ Contact PlanTriangle::contact(double x, double y, double tolerance) const {
     return result;
   }
 
+  // The point is in the frame: the nearest corner decides whether the triangle fills its angle there.
   int nearest = 0;
   double nearestSquared = squaredDistance(corner[0], x, y);
   for (int i = 1; i < 3; ++i)
@@ -112,6 +113,7 @@ Contact PlanTriangle::contact(double x, double y, double tolerance) const {
     result.covers = true;
     result.z = heightFromWeights(w[1], w[2]);
   } else {
+    // The nearest of the sides that the point is beyond gives the height.
     double best = tolerance * tolerance;
     for (int i = 0; i < 3; ++i) {
       if (w[i] >= 0) continue;

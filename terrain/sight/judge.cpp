@@ -34,6 +34,7 @@ SightJudge::SightJudge(const SightLine& line, const SightOptions& options)
 }
 
 void SightJudge::setLimit() {
+  // If the clearance is not wanted, only an obstruction can still change the answer.
   if (!options_.wantsClearance) {
     limit_ = -line_.tolerance();
     return;
@@ -51,6 +52,7 @@ void SightJudge::hint(double s, double z) {
 void SightJudge::take(double s0, double z0, double s1, double z1, double lower, double higher) {
   const SightLine::Least found = line_.least(s0, z0, s1, z1);
   const double terrain = s1 > s0 ? z0 + (z1 - z0) * ((found.distance - s0) / (s1 - s0)) : z0;
+  // Terrain within a tolerance gives the clearance two bounds: least_ if it is higher, most_ if it is lower.
   least_ = std::min(least_, found.clearance - higher);
   if (found.clearance + lower < most_) {
     most_ = found.clearance + lower;
@@ -58,6 +60,7 @@ void SightJudge::take(double s0, double z0, double s1, double z1, double lower, 
     leastTerrain_ = terrain;
   }
   if (!obstruction_ && found.clearance - higher < -line_.tolerance()) {
+    // An obstruction is certain only if even the lowest possible terrain reaches over the line.
     if (found.clearance + lower < -line_.tolerance()) {
       const double s = firstUnder(line_, s0, z0 - lower, s1, z1 - lower, found.distance);
       const double t = s1 > s0 ? (s - s0) / (s1 - s0) : 0;
@@ -89,6 +92,7 @@ SightAnswer SightJudge::answer(std::uint64_t visited) const {
   answer.obstruction = obstruction_;
   answer.isObstructionLatest = isObstructionLatest_;
   if (options_.wantsClearance && most_ < kNone) {
+    // The stated clearance is the middle of its bounds.
     answer.clearance = least_ / 2 + most_ / 2;
     answer.clearanceWithin = (most_ - least_) / 2;
     answer.least = {leastAt_, line_.planAt(leastAt_), leastTerrain_, line_.height(leastAt_)};

@@ -19,6 +19,8 @@ MtCrossing::MtCrossing(const TriangleLocator& locator, const SightLeg& leg)
 MtCrossing::Projected MtCrossing::project(std::uint32_t vertex) const {
   const Vec2 p = locator_.planPosition(VertexId(vertex));
   const double x = p.x - leg_.x, y = p.y - leg_.y;
+  // The sign of `side` says on which side the vertex lies; `along` is 0 at the beginning of the leg and 1 at
+  // its end.
   return {leg_.dx * y - leg_.dy * x, (leg_.dx * x + leg_.dy * y) * perLength_,
           locator_.mt().vertices().height(VertexId(vertex))};
 }
@@ -38,6 +40,7 @@ void MtCrossing::add(std::uint32_t triangle, const Projected& a, const Projected
     }
   };
   const auto cross = [&meet](const Projected& p, const Projected& q) {
+    // A vertex on the leg counts by itself, so that no crossing is lost between two edges.
     if (p.side == 0) meet(p.along, p.z);
     if (!((p.side < 0 && q.side > 0) || (p.side > 0 && q.side < 0))) return;
     const double f = p.side / (p.side - q.side);

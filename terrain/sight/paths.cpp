@@ -130,6 +130,7 @@ Result<SightPathAnswer> answerPath(const SightPath& path, const SightEarth& eart
   answer.azimuthDegrees = track.azimuthDegrees;
   const double unit = line.heightUnitMetres(), from = path.fromHeight * unit, to = path.toHeight * unit;
   constexpr double kDegrees = 180 / std::numbers::pi;
+  // If both ends are at one place, one of them is straight above the other.
   if (line.length() > 0) {
     answer.elevationDegrees =
         std::atan(sightTangent(track.groundCurvature, from, line.length(), to)) * kDegrees;
@@ -138,6 +139,7 @@ Result<SightPathAnswer> answerPath(const SightPath& path, const SightEarth& eart
   }
   const bool hasClutter = static_cast<bool>(options.clutter.height);
   Profile profile;
+  // Only clutter and Fresnel zones need the whole profile; an engine answers without it.
   if (hasClutter || options.frequencyMegahertz > 0) profile = profiles.along(track);
   if (hasClutter) profile = withClutter(profile, options.clutter);
   answer.sight = hasClutter ? judged(line, profile, profiles.heights(), options.sight)
@@ -154,6 +156,7 @@ Result<std::vector<Result<SightPathAnswer>>> answerPaths(std::span<const SightPa
                                                          const Profiles& profiles,
                                                          const SightPathOptions& options,
                                                          const RunContext& context) try {
+  // Every answer has its place beforehand, so the order of the tasks does not matter.
   std::vector<Result<SightPathAnswer>> answers(paths.size(), SightPathAnswer{});
   SharedProgress progress(context, "lines of sight", paths.size());
   context.report("lines of sight", 0);

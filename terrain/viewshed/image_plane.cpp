@@ -142,6 +142,7 @@ void ImagePlane::draw(const ViewshedSector& sector, int x, int low, int high, in
   if (sector.sign < 0)
     for (auto* values : {&line.mapX, &line.mapY, &line.twiceDrop})
       std::reverse(values->begin(), values->end());
+  // The sign bit of a steepness marks a sample with a missing neighbour.
   const float* steep = steepness_->data() + first;
   for (std::size_t i = 0; i < count; ++i) {
     const Curved b = curved(line.mapX[i], line.mapY[i], line.twiceDrop[i]);
@@ -160,6 +161,7 @@ ImagePlane::Sample ImagePlane::sample(const ViewshedSector& sector, int x, int y
   const Vec2 o = observer(sector);
   const std::size_t at = index(sector, x, y);
   const double z = task_.grid.row(0)[at];
+  // Without a map, coordinates on the plane are differences of sample numbers.
   if (map_ == nullptr) return {{x - o.x, y - o.y}, z + lift_ - h0_, 0, false};
   const int column = sector.line(sector.isAlongRows ? x : y), row = sector.line(sector.isAlongRows ? y : x);
   double mapX, mapY, twiceDrop;
@@ -188,6 +190,7 @@ double ImagePlane::target(const ImageLine& line, std::size_t i, double above) co
 }
 
 Vec2 ImagePlane::ground(const ViewshedSector& sector, const ImageLine& line, std::size_t i) const {
+  // The steps turn either kind of coordinates into metres.
   double x, y;
   if (map_ != nullptr) {
     x = line.mapX[i];
