@@ -118,6 +118,7 @@ PictureSource::PictureSource(const MeshAttributes& mesh, fs::path folder)
     if (name.empty()) name = "picture";
     // A name may have a dot and no extension: "Wood 1.5 m".
     if (mimeTypeOf({}, name, {}) != type) name += extensionOf(type);
+    // Some file systems ignore case, so names that differ only in it get numbers.
     int number = 0;
     while (!taken.insert(text::lowered(numbered(name, number))).second) ++number;
     names_.push_back(numbered(name, number));
@@ -155,6 +156,7 @@ PicturePlacer::PicturePlacer(const PictureSource& source, fs::path mesh)
 Result<std::string> PicturePlacer::place(const std::string& picture) {
   if (const auto known = placed_.find(picture); known != placed_.end()) return known->second;
   const bool isEmbedded = picture.starts_with('#');
+  // A picture that cannot be copied keeps its path; an embedded one has none.
   const auto leave = [&](std::string_view reason) {
     warnings_.push_back(
         {WarningCode::omitted, fmt::format("the picture {}, which {}", text::quotedToken(picture), reason)});

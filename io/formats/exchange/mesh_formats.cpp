@@ -33,6 +33,7 @@ namespace arete {
 
 namespace {
 
+// The traits decide what is converted before a mesh is written, and what is named as lost.
 constexpr MeshFormatTraits kPly = {.isExact = true,
                                    .holdsCrs = true,
                                    .holdsVerticalUnit = true,
@@ -180,6 +181,7 @@ std::string writableMeshExtensions() {
 }
 
 Result<MeshFormat> meshFormatOf(const std::filesystem::path& path, std::string_view name) try {
+  // A stated name takes the place of the extension.
   const std::string extension =
       text::lowered(name.empty() ? path.extension().string() : fmt::format(".{}", name));
   for (const MeshFormat& format : kFormats)
@@ -201,6 +203,7 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path, std::string_v
 
 bool isMeshFile(const std::filesystem::path& path) {
   const Result<MeshFormat> format = meshFormatOf(path);
+  // A GeoPackage may hold other things than a mesh, so its content decides.
   return format && format->read && (!format->holds.sharesFile || holdsSurfaces(path));
 }
 
@@ -226,6 +229,7 @@ Result<MeshWriteReport> writeMesh(MeshRef mesh, const std::filesystem::path& pat
   if (format.holds.sharesFile && isNoFile(path))
     return failure(ErrorCode::unsupported, "is not a file, and a GeoPackage is a database that needs one",
                    path.string());
+  // The mesh and the files that it names are renamed together, or none of them is.
   OutputGroup together;
   Result<MeshWriteReport> report = writeFitted(format, mesh, path, options, context);
   if (!report) return report;

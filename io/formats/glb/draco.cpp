@@ -140,6 +140,7 @@ class Answer {
 std::optional<DracoAttribute> attributeOf(Answer& answer, std::uint64_t points) {
   const auto id = answer.number(), components = answer.number(), type = answer.number(),
              normalized = answer.number(), size = answer.number();
+  // The numbers are read in turn, so the last one is there only if all are.
   if (!size || *id > 0x7FFFFFFF || *components == 0 || *components > 255 ||
       *type > static_cast<std::uint64_t>(ScalarType::float64))
     return std::nullopt;
@@ -161,6 +162,7 @@ std::optional<DracoMesh> meshOf(std::string_view bytes) {
   if (!points || !indices || *points > 0xFFFFFFFF || *indices % 3 != 0 || *indices > bytes.size())
     return std::nullopt;
   mesh.points = *points;
+  // The list is taken before memory is allocated, so its length is at most the answer's.
   const auto list = answer.take(*indices * sizeof(std::uint32_t));
   if (!list) return std::nullopt;
   mesh.indices.resize(*indices);

@@ -30,6 +30,7 @@ std::string textOf(const nlohmann::json& object, const char* key, const char* fa
 }  // namespace
 
 std::uint64_t GltfViews::reservable() const {
+  // What compressed data may take grows with the file, so that a small one cannot exhaust memory.
   const std::uint64_t most =
       std::max(kReservableAtLeast, kReservablePerByte * (fileBytes_ + buffers_.bytesBeside()));
   return most - std::min(most, reserved_);
@@ -61,6 +62,7 @@ Result<GltfViews::View> GltfViews::decompressed(const GltfDocument& document, st
   ARETE_TRY(std::string decoded,
             decodeMeshopt(bytes.substr(*offset, *length), *count, *stride,
                           textOf(compression, "mode", "ATTRIBUTES"), textOf(compression, "filter", "NONE")));
+  // Several accessors may share a view, so its bytes are kept.
   const auto kept =
       decompressed_.emplace(number, std::make_shared<const std::string>(std::move(decoded))).first;
   return View{*kept->second, 0, kept->second};
@@ -76,6 +78,7 @@ Result<GltfViews::View> GltfViews::view(const GltfDocument& document, std::uint6
   for (const auto* value : {&bufferNumber, &offset, &length, &stride})
     if (!*value) return corrupt(fmt::format("bufferView {}: {}", number, value->error().message));
 
+  // The extension has two names with the same members.
   const nlohmann::json* compression = extensionOf(view, "EXT_meshopt_compression");
   if (compression == nullptr) compression = extensionOf(view, "KHR_meshopt_compression");
   Error decoding;

@@ -100,6 +100,7 @@ void ObjCorners::addNormal(const std::array<double, 3>& numbers) {
 
 void ObjCorners::begin(SurfaceMesh& mesh) {
   hasWedges_ = true;
+  // The faces before name vertices alone, and their wedges say no more.
   mesh.wedges.reserve(mesh.triangles.capacity());
   for (const auto& triangle : mesh.triangles) {
     std::array<std::uint32_t, 3> wedges;
@@ -118,6 +119,7 @@ void ObjCorners::grow(std::size_t slots) {
 }
 
 std::uint32_t ObjCorners::wedgeOf(const Corner& corner) {
+  // The table is at most half full.
   if (2 * (corners_.size() + 1) > slots_.size()) grow(std::max(kFewestSlots, 2 * slots_.size()));
   std::size_t slot = hashOf(corner) & (slots_.size() - 1);
   for (; slots_[slot] != ObjCorners::kNone; slot = (slot + 1) & (slots_.size() - 1))
@@ -130,6 +132,7 @@ std::uint32_t ObjCorners::wedgeOf(const Corner& corner) {
 void ObjCorners::finish(MeshFile& file) {
   SurfaceMesh& mesh = file.mesh;
   Named texcoords("texture coordinates", texcoords_), normals("normals", normals_);
+  // So far wedges have the indices of the file; now corners of equal values become one.
   std::vector<Corner> given = std::exchange(corners_, {});
   slots_.clear();
   for (Corner& corner : given)
@@ -152,6 +155,7 @@ void ObjCorners::finish(MeshFile& file) {
                                 const std::vector<double>& numbers, std::uint32_t Corner::*index) {
     std::vector<double> ofWedges;
     ofWedges.reserve(corners_.size() * static_cast<std::size_t>(components));
+    // A corner that names no index has zeros.
     for (const Corner& corner : corners_)
       for (int i = 0; i < components; ++i)
         ofWedges.push_back(corner.*index == ObjCorners::kNone

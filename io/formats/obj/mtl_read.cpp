@@ -122,6 +122,7 @@ class MtlReader {
       takeLine(trimmed(text.substr(0, end)));
       text.remove_prefix(std::min(end + 1, text.size()));
     }
+    // The end of the file ends the last material.
     endMaterial();
     if (strays_ > 0)
       result_.warnings.push_back(
@@ -159,6 +160,7 @@ class MtlReader {
       ++strays_;
       return;
     }
+    // What a material has a member for is taken; every other statement is kept as text, to be written again.
     if ((keyword == "Kd" && takeBaseColor(rest)) || (keyword == "d" && takeNumber(rest, dissolve_)) ||
         (keyword == "Tr" && takeNumber(rest, transparency_)))
       return;

@@ -129,6 +129,7 @@ class MtlWriter {
     } else {
       result_.text += GltfStatements(material, losses_).text();
     }
+    // A role may occur several times; all but the first have numbers in their keys.
     std::map<std::string, int> uses;
     for (const TextureUse& use : material.textures)
       ARETE_CHECK(writeTexture(material, use, uses[use.role]++));
@@ -157,6 +158,7 @@ class MtlWriter {
       losses_.add("samplers and transforms of textures", material.name);
     ARETE_TRY(const std::string path, path_(use.picture));
     if (path.empty()) return {};
+    // A bump map of the material's own replaces the one that a normal texture would be written as.
     const bool hasBump =
         std::ranges::any_of(material.textures, [](const TextureUse& other) { return isBump(other.role); });
     for (const auto& [keyword, between] : statements) {
@@ -167,6 +169,7 @@ class MtlWriter {
   }
 
   void nameLosses(const Material& material) {
+    // MTL has no alpha mode: "d" and "map_d" imply one.
     const bool hasAlphaMap = std::ranges::any_of(
         material.textures, [](const TextureUse& use) { return text::lowered(use.role) == "map_d"; });
     const std::string implied = material.baseColor[3] < 1 || hasAlphaMap ? "BLEND" : "OPAQUE";

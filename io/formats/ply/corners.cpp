@@ -51,6 +51,7 @@ void PlyCorners::take(List& list, std::size_t corners, std::uint64_t face) {
   Attribute& attribute = list.attribute;
   const std::size_t length = list.values.size() / sizeOf(attribute.type);
   std::size_t missing = 0;  // bytes of corners without values
+  // The first list that divides evenly among the corners decides how many components there are.
   if (attribute.components == 0 && length > 0 && length % corners == 0 &&
       length / corners <= kMostComponents) {
     attribute.components = static_cast<std::uint8_t>(length / corners);
@@ -64,6 +65,7 @@ void PlyCorners::take(List& list, std::size_t corners, std::uint64_t face) {
     if (attribute.components == 0) return;
     missing = corners * attribute.elementBytes();
   }
+  // Faces without values are filled with zeros, within a limit, so that a small file cannot take all memory.
   fill_ += missing;
   if (fill_ > mostFill_) {
     list.isDropped = true;
@@ -100,6 +102,7 @@ void PlyCorners::join(SurfaceMesh& mesh, Warnings& warnings) {
     return std::string_view(reinterpret_cast<const char*>(list.attribute.values.data()) + corner * size,
                             size);
   };
+  // The table is at most half full.
   std::vector<std::uint32_t> table(std::bit_ceil(vertexOf_.size() * 2 + 1), MeshAttributes::kNone);
   std::vector<std::uint32_t> wedgeOf(vertexOf_.size());
   std::uint32_t wedges = 0;
@@ -127,6 +130,7 @@ void PlyCorners::join(SurfaceMesh& mesh, Warnings& warnings) {
     }
     wedgeOf[corner] = table[slot];
   }
+  // So far the triangles name corners; from here on they name wedges.
   for (auto& triangle : mesh.wedges)
     for (std::uint32_t& corner : triangle) corner = wedgeOf[corner];
   mesh.wedgeCount = wedges;

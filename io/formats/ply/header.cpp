@@ -81,6 +81,7 @@ Result<PlyHeader> parsePlyHeader(std::string_view file, const std::string& path)
   const std::size_t firstEnd = file.find_first_of("\r\n");
   if (firstEnd == std::string_view::npos)
     return failure(ErrorCode::corrupt, "the header ends in its first line", path);
+  // The end of the first line decides how all lines of the header end.
   const std::string_view lineEnd =
       file.substr(firstEnd).starts_with("\r\n") ? "\r\n" : file.substr(firstEnd, 1);
 
@@ -101,6 +102,7 @@ Result<PlyHeader> parsePlyHeader(std::string_view file, const std::string& path)
     const std::vector<std::string_view> words = wordsOf(line);
     if (words.empty() || words[0] == "obj_info") continue;
     if (words[0] == "comment") {
+      // One blank separates the text; further ones belong to it.
       const auto offset = static_cast<std::size_t>(words[0].data() + words[0].size() - line.data());
       std::string_view text = line.substr(offset);
       if (!text.empty()) text.remove_prefix(1);

@@ -236,6 +236,7 @@ std::size_t PlyScheme::count(PlyRole::Kind kind) const {
 
 void giveMeaning(Attribute& attribute) {
   attribute.meaning = meaningOf(attribute.name, attribute.components);
+  // A type that cannot have the meaning leaves plain numbers.
   if (!canMean(attribute.meaning, attribute.type) && !attribute.isNormalized)
     attribute.meaning = AttributeMeaning::other;
   if (attribute.meaning != AttributeMeaning::color) return;
@@ -247,6 +248,7 @@ PlyScheme vertexScheme(const PlyElement& element, const std::vector<PlyNote>& no
   SchemeMaker maker(element, notes);
   for (std::size_t p = 0; p < element.properties.size(); ++p) {
     const PlyProperty& property = element.properties[p];
+    // Coordinates are single numbers with names of one letter.
     if (property.isList || property.name.size() != 1) continue;
     if (property.name == "x") maker.take(p, Kind::x);
     if (property.name == "y") maker.take(p, Kind::y);
@@ -262,6 +264,7 @@ PlyScheme faceScheme(const PlyElement& element, const std::vector<PlyNote>& note
                      bool withAttributes) {
   SchemeMaker maker(element, notes);
   bool hasNumber = false, hasError = false;
+  // A second error or texture number stays an attribute like any other.
   for (std::size_t p = 0; p < element.properties.size(); ++p) {
     const PlyProperty& property = element.properties[p];
     if (property.isList && (property.name == "vertex_indices" || property.name == "vertex_index"))

@@ -31,6 +31,7 @@ class BinaryStlReader {
     if (count_ == 0 && !isOurs_) return failure(ErrorCode::unsupported, "holds no triangle", path_);
     if (count_ > kMostStlTriangles)
       return failure(ErrorCode::unsupported, "holds more triangles than an index can name", path_);
+    // A file of ours may state an origin that its coordinates are relative to.
     const Vec3 origin = result_.frame.origin.value_or(Vec3{});
     StlTriangles triangles;
     triangles.reserve(count_);
@@ -54,6 +55,7 @@ class BinaryStlReader {
                          fmt::format("triangle {} of {} has a coordinate that is not finite", t, count_),
                          path_);
       triangles.add(corners, origin, vectorAt(0));
+      // Most files have zeros there and get no list; the first other word starts one, behind zeros.
       if (word == 0 && words.empty()) continue;
       words.resize(t);
       words.push_back(word);
@@ -70,6 +72,7 @@ class BinaryStlReader {
     result_.frame.coordinates = "float32";
     std::string_view header = file_.substr(0, kStlHeaderSize);
     if (header.starts_with(kStlObjectKey)) {
+      // The name of the object is padded with blanks or zeros.
       header.remove_prefix(kStlObjectKey.size());
       while (!header.empty() && (header.back() == ' ' || header.back() == '\0')) header.remove_suffix(1);
       isOurs_ = true;

@@ -89,6 +89,7 @@ Result<double> readNumberText(std::string_view text) try {
 
 Result<StatedHeight> readHeightText(std::string_view text) try {
   std::string_view height = text::withoutSpaces(text);
+  // The word is taken away first; what is left has to be a number.
   const HeightKind kind = takeKind(height);
   const auto value = finiteNumber(height);
   if (!value)
@@ -143,6 +144,7 @@ Result<double> demHeight(const PositionArgument& position, const GroundHeights& 
                      culprit);
     return ground->height + position.height;
   }
+  // The two kinds of heights differ by a geoid, which is not known here, so neither is converted.
   const bool isDemEllipsoidal = heights.model().georeference.verticalDatum == "ellipsoid";
   if (isDemEllipsoidal != (position.kind == HeightKind::ellipsoidal))
     return failure(

@@ -28,6 +28,8 @@ struct UnitName {
   double metres;
 };
 
+// These are the spellings in files. The two feet differ by two millionths, and only their names tell them
+// apart.
 constexpr std::array kUnitNames = {
     UnitName{"m", 1},
     UnitName{"metre", 1},
@@ -70,6 +72,7 @@ std::string nameOf(const OGRSpatialReference& crs) {
 }
 
 void describeVertical(const OGRSpatialReference& crs, Georeference& georeference) {
+  // A compound CRS has a vertical part; the third axis of any other CRS is the height above the ellipsoid.
   if (crs.IsCompound()) {
     if (const char* name = crs.GetAttrValue("VERT_CS")) georeference.verticalDatum = name;
     const char* unit = nullptr;

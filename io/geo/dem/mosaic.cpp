@@ -295,6 +295,7 @@ struct DemMosaic::Parts {
       const double* from = strip.data() + std::size_t(row - begin) * part.columns;
       double* to = heights.data() + std::size_t(row - firstRow) * columns + std::size_t(part.column);
       for (std::uint32_t c = 0; c < part.columns; ++c) {
+        // NODATA hides nothing: an earlier height stays where the later file has none.
         if (std::isnan(from[c])) continue;
         if (!std::isnan(to[c]) && to[c] != from[c]) {
           ++different;
@@ -345,6 +346,7 @@ std::uint32_t DemMosaic::stripRows() const {
 Status DemMosaic::read(std::uint32_t firstRow, std::uint32_t rowCount, std::span<double> heights,
                        const RunContext& context) {
   Parts& all = *parts_;
+  // A single file has nothing to be merged with and is read straight into the result.
   if (all.parts.size() == 1) {
     Status status = all.parts.front().file->read(firstRow, rowCount, heights);
     if (!status && status.error().culprit.empty()) status.error().culprit = all.parts.front().path;

@@ -215,6 +215,7 @@ void TransformerCloser::operator()(void* transformer) const {
 
 Result<TransformerPtr> drapeTransformer(GDALDataset& picture, const TerrainModel& model, Warnings& warnings) {
   std::array<double, 6> transform{};
+  // Without a geotransform, ground control points place the picture.
   const bool hasTransform = picture.GetGeoTransform(transform.data()) == CE_None;
   if (!hasTransform && picture.GetGCPCount() == 0)
     return failure(ErrorCode::invalidData,
@@ -235,6 +236,7 @@ Result<TransformerPtr> drapeTransformer(GDALDataset& picture, const TerrainModel
   } else {
     ARETE_TRY(const auto way, CrsTransform::between(wktOf(*own), dem));
     ARETE_TRY(auto target, crsFromText(dem));
+    // Heights have no part in where a picture lies.
     target.StripVertical();
     if (!way.isIdentity()) options.SetNameValue("DST_SRS", wktOf(target).c_str());
   }
@@ -261,6 +263,7 @@ Result<DrapePlacement> placeDrape(GDALDataset& picture, void* transformer, const
   const auto own = ownGrid(way, size.x, size.y);
   auto sized = own ? onOwnGrid(*own, box, size) : onNewGrid(way, model, terrain, box, size);
   if (!sized) return extents.apart();
+  // Control points give no grid that could be kept, so their picture is warped.
   std::array<double, 6> ignored{};
   if (picture.GetGeoTransform(ignored.data()) != CE_None) sized->placement.isWarped = true;
   if (sized->wide * sized->high > double(maxPixels)) makeCoarser(*sized, double(maxPixels));

@@ -37,6 +37,7 @@ Result<CrsTransform> transformation(const OGRSpatialReference* own, const std::s
 }
 
 Status addPoint(const OGRPoint& point, const CrsTransform& toTarget, std::vector<Vec2>& positions) {
+  // An empty point has no position and is passed over.
   if (point.IsEmpty()) return {};
   const auto p = toTarget({point.getX(), point.getY()});
   if (!p || !std::isfinite(p->x) || !std::isfinite(p->y))
@@ -65,6 +66,7 @@ Result<PlanPoints> readFrom(const std::string& path, const std::string& targetCr
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
   if (looksLikePointText(path)) {
     ARETE_TRY(auto rows, readPointText(path, {}, read.warnings, context, PointTextColumns::plan));
+    // Text names its CRS by an SRID; without one its coordinates are the DEM's.
     if (rows.srid != 0) {
       ARETE_TRY(const auto crs, crsFromText(fmt::format("EPSG:{}", rows.srid)));
       ARETE_TRY(const auto toTarget, transformation(&crs, targetCrs, read.warnings));

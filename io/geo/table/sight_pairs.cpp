@@ -169,6 +169,7 @@ class PairReader {
 
   Status readGeometry(const OGRFeature& feature, std::array<SightSite, 2>& row) const {
     const OGRGeometry* geometry = feature.GetGeometryRef();
+    // A collection of one geometry counts as that geometry.
     while (geometry && !geometry->IsEmpty() &&
            OGR_GT_IsSubClassOf(wkbFlatten(geometry->getGeometryType()), wkbGeometryCollection) &&
            geometry->toGeometryCollection()->getNumGeometries() == 1)
@@ -186,6 +187,7 @@ class PairReader {
                      fmt::format("feature {} of the layer '{}' is a {}, not a line{}", feature.GetFID(),
                                  layer_.GetName(), geometry->getGeometryName(),
                                  type == wkbPoint ? ", and there are no columns azimuth and range" : ""));
+    // A line of sight is straight, so vertices between the ends do not count.
     geometry->toCurve()->StartPoint(&ends[0]);
     geometry->toCurve()->EndPoint(&ends[1]);
     for (int end = 0; end < 2; ++end) row[end].stated = {ends[end].getX(), ends[end].getY()};
@@ -207,6 +209,7 @@ void setPositions(SightPairs& pairs, const PairReader& reader, const CrsTransfor
     std::vector<Vec2> positions;
     for (const auto& row : pairs.rows) positions.push_back(row[end].stated);
     toDem.apply(positions);
+    // An end that is not stated stays so, whatever the transform makes of it.
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const bool isStated = std::isfinite(pairs.rows[i][end].stated.x + pairs.rows[i][end].stated.y);
       pairs.rows[i][end].xy = isStated ? positions[i] : Vec2{kNotStated, kNotStated};
@@ -219,6 +222,7 @@ void setPositions(SightPairs& pairs, const PairReader& reader, const CrsTransfor
   for (std::size_t i = 0; i < pairs.rows.size(); ++i) {
     const auto& [azimuth, range] = reader.directions()[i];
     SightSite &from = pairs.rows[i][0], &to = pairs.rows[i][1];
+    // A second end that is stated comes before a direction.
     if (std::isfinite(to.stated.x) || !std::isfinite(azimuth + range) || !std::isfinite(from.xy.x)) continue;
     to.xy = inDirection(from.xy, azimuth, range);
     if (back)

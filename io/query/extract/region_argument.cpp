@@ -58,6 +58,7 @@ Result<std::optional<std::vector<Vec2>>> readBox(const RegionText& region, const
   if (box->size() != 4)
     return failure(ErrorCode::usage,
                    fmt::format("a box has four numbers, xmin,ymin,xmax,ymax, not {}", box->size()));
+  // The axes of the box decide whether it may cross the meridian where longitudes jump.
   Georeference axes = dem;
   if (!region.crs.empty()) {
     ARETE_TRY(const auto crs, crsFromUser(region.crs));
@@ -82,6 +83,7 @@ Result<RegionArgument> readFile(const RegionText& region, const std::string& dem
                          {.crs = region.crs, .takesLines = hasDistance, .takesPoints = hasDistance}, context);
   if (!read) {
     Error error = read.error();
+    // A second reading finds out whether the file holds lines or points, and the sentence says so.
     if (!hasDistance && (error.code == ErrorCode::unsupported || error.code == ErrorCode::invalidData))
       if (const auto lines =
               readRegion(text, demCrs, {.crs = region.crs, .takesLines = true, .takesPoints = true}, context);
@@ -102,6 +104,7 @@ Result<RegionArgument> readFile(const RegionText& region, const std::string& dem
                                   : "has no CRS and the DEM has one, so the two cannot be brought together; "
                                     "`region-crs` states it");
   RegionShape shape{.rings = std::move(read->rings), .lines = std::move(read->lines)};
+  // A point is a line of one vertex, and the distance extends it.
   for (const Vec2& point : read->points) shape.lines.push_back({point});
   return RegionArgument{std::move(shape), std::move(read->warnings)};
 }
@@ -118,6 +121,7 @@ Result<RegionArgument> readAndPlace(const RegionText& text, const Georeference& 
     region = std::move(*read);
   }
   region.shape.distance = text.distance;
+  // With a CRS the distance is on the ground; without one it is in units of the plan and stays as it is.
   if (text.distance > 0 && !dem.crsWkt.empty()) {
     ARETE_TRY(auto extended, extendedOnGround(region.shape, dem, region.warnings, context));
     region.shape = std::move(extended);

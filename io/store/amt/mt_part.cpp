@@ -165,6 +165,7 @@ class SubsetCopy {
     to.floor.resize(slots_ - 2 * nodes);
     to.creatorHint.resize((std::size_t{slots_} + MultiTriangulation::kSlotsPerHint - 1) /
                           MultiTriangulation::kSlotsPerHint);
+    // Columns that hold no ids are copied as they are.
     to.copied = copiedColumnsOf(a_);
     for (CopiedColumn& copy : to.copied)
       copy.resize(copy.column.per == AmtPer::triangle ? ids
@@ -173,6 +174,7 @@ class SubsetCopy {
   }
 
   void copyRoot() {
+    // The root is in every subset, with the same numbers.
     for (std::uint32_t t = 0; t < roots_; ++t)
       copyRemover(t, t, MultiTriangulation::kNone, MultiTriangulation::kNone);
     copyElements(AmtPer::triangle, 0, 0, roots_);
@@ -202,6 +204,7 @@ class SubsetCopy {
       to.floor[begin - 2 * rank + i] = triangleOf(a_.floor[floor + i]);
     copyElements(AmtPer::node, n, rank, 1);
     copyElements(AmtPer::vertex, std::size_t{a_.rootVertices} + n, std::size_t{a_.rootVertices} + rank, 1);
+    // A hint names the node that owns every kSlotsPerHint-th slot.
     const std::uint64_t end = std::uint64_t{begin} + slots.size;
     for (std::uint64_t hint = (std::uint64_t{begin} + MultiTriangulation::kSlotsPerHint - 1) /
                               MultiTriangulation::kSlotsPerHint;

@@ -51,6 +51,7 @@ Result<PackedModel> packModel(const SurfaceModel& source, int positionBits, cons
   metadata.scale = packed->scale;
   metadata.model.positionError += packed->moved;
   const PackedMt& bytes = packed->bytes;
+  // The bytes are unpacked again, so that the model is put in order around exactly what a reader will have.
   const Result<MultiTriangulation> mt =
       unpackSurfaceMt(metadata, bytes.directory, bytes.tables, bytes.nodes, context);
   if (!mt) return refuse(mt.error());
@@ -92,6 +93,7 @@ class Writing {
       if (both.error().code == ErrorCode::interrupted) return file_.chunks().interrupted();
       return failure(both.error().code, both.error().message, path_);
     }
+    // Displacements belong to exact places, and these have moved.
     if (both->packed.moved > 0 && !source_.displacement.isEmpty())
       return file_.chunks().refuse(
           "has displacements of places that rounding moves: they are found again first");

@@ -57,6 +57,7 @@ std::uint64_t amtCountOf(AmtPer per, const AmtFacts& facts) {
 }
 
 std::string_view toString(AmtPer per) {
+  // The names follow the order of the enumerators.
   constexpr std::array<std::string_view, 14> kNames = {
       "root triangle",   "node",         "node and end", "slot",   "triangle",
       "floor triangle",  "block",        "hint",         "vertex", "finest triangle",
@@ -76,6 +77,7 @@ std::vector<AmtMtColumn> amtMtColumns(const AmtFacts& facts) {
 }
 
 std::vector<AmtMtColumn> amtMtColumns(const MtArrays& a) {
+  // The vertices show what kind of model the arrays are of.
   AmtFacts facts;
   facts.kind = a.vertices.hasPlan() ? ModelKind::terrain : ModelKind::surface;
   facts.isLattice = a.vertices.isLattice();

@@ -79,6 +79,7 @@ std::vector<std::string> GltfLeftOut::sentences(const Json& document) const {
   };
   add(pointsAndLines, "primitive of points or lines", "primitives of points or lines");
   add(withoutPositions, "primitive without positions", "primitives without positions");
+  // A skin explains joints and weights, so these are named only without one.
   if (skinnedNodes == 1)
     all.emplace_back("the skin of 1 node is left out: its mesh stands where the node places it");
   else if (skinnedNodes > 1)
