@@ -46,13 +46,6 @@ std::string accuracyOf(const FrameFigures& figures) {
   return fmt::format("within {:.3g} pixel{}", figures.pixels, figures.pixels == 1 ? "" : "s");
 }
 
-/// Frames that an earlier flight left behind those of this one.
-bool hasFramesBehind(const std::string& folder, std::size_t frames) {
-  std::error_code ignored;
-  return std::filesystem::exists(std::filesystem::path(folder) / fmt::format("frame_{:05}.png", frames),
-                                 ignored);
-}
-
 /// The nodes around the eye, whose pixels nothing bounds, are in every cut of the device.
 bool exceedsBudget(const ViewArguments& a, const FrameFigures& figures) {
   return a.detail.maxTriangles > 0 && figures.triangles > static_cast<std::uint64_t>(a.detail.maxTriangles);
@@ -60,8 +53,15 @@ bool exceedsBudget(const ViewArguments& a, const FrameFigures& figures) {
 
 }  // namespace
 
+void warnOfFramesBehind(const std::string& folder, std::size_t frames, const Session& session) {
+  std::error_code ignored;
+  if (std::filesystem::exists(std::filesystem::path(folder) / fmt::format("frame_{:05}.png", frames),
+                              ignored))
+    session.warn(fmt::format("{} has frames of an earlier, longer flight behind these", folder));
+}
+
 /// Files beside the frames: none of the inputs, none of each other, none of the frames.
-Status checkPictureOutputs(const ViewArguments& a, const TerrainModel& model) {
+Status checkPictureOutputs(const ViewArguments& a, const std::vector<std::string>& inputs) {
   namespace fs = std::filesystem;
   std::vector<std::string> outputs;
   for (const auto& [option, path] : {std::pair{"--screenshot", a.pictures.screenshot},
@@ -75,10 +75,7 @@ Status checkPictureOutputs(const ViewArguments& a, const TerrainModel& model) {
     const bool isFrame = !a.pictures.frames.empty() && file.filename().string().starts_with("frame_") &&
                          file.extension() == ".png" && fs::equivalent(folder, a.pictures.frames, ignored);
     if (isFrame) outputs.push_back(path);
-    if (Status ok =
-            checkOutput(option, path, {a.model, a.viewpoint.path, a.appearance.drape, model.source}, outputs);
-        !ok)
-      return ok;
+    ARETE_CHECK(checkOutput(option, path, inputs, outputs));
     outputs.push_back(path);
   }
   return {};
@@ -140,8 +137,7 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, const GroundHeight
     session.warn(fmt::format("--max-triangles {}: the coarsest {} of {} of {} more", a.detail.maxTriangles,
                              agreeing(frames.size(), "cut", "cuts"), large,
                              grouped(frames.size(), "frame has", "frames have")));
-  if (hasFramesBehind(a.pictures.frames, frames.size()))
-    session.warn(fmt::format("{} has frames of an earlier, longer flight behind these", a.pictures.frames));
+  warnOfFramesBehind(a.pictures.frames, frames.size(), session);
   // The figures list every frame; they go to a file of their own only if one is named.
   for (const FilmFrame& frame : frames) {
     Json entry = {{"file", frame.file}, {"seconds", frame.seconds}, {"camera", jsonOf(frame.camera)}};

@@ -14,9 +14,12 @@ namespace arete {
 /// Checks the names of the files that are written beside the frames: none is an input, another output, or a
 /// frame.
 ///
-/// @param model the terrain that is drawn, whose source must not be overwritten.
+/// @param inputs files that must not be overwritten.
 /// Errors: usage, naming the option; those of checkOutput().
-Status checkPictureOutputs(const ViewArguments& arguments, const TerrainModel& model);
+Status checkPictureOutputs(const ViewArguments& arguments, const std::vector<std::string>& inputs);
+
+/// Warns of frames in the folder that an earlier, longer film left behind the ones that were drawn.
+void warnOfFramesBehind(const std::string& folder, std::size_t frames, const Session& session);
 
 /// Draws one picture and writes it; adds "screenshot" to the JSON answer.
 ///

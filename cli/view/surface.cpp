@@ -13,6 +13,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/surface/camera.h"
+#include "cli/view/pictures.h"
 #include "io/files/file_writer.h"
 #include "io/store/amt/surface_file.h"
 #include "viewer/headless/headless.h"
@@ -132,6 +133,7 @@ class SurfacePictures {
       file.write(json.dump(1) + "\n");
       ARETE_CHECK(file.finish());
     }
+    warnOfFramesBehind(a_.pictures.frames, count, session_);
     session_.say(fmt::format("{}: {}, {} in the mean\n", a_.pictures.frames,
                              grouped(count, "frame", "frames"),
                              grouped(triangles / count, "triangle", "triangles")));
@@ -158,19 +160,6 @@ class SurfacePictures {
   Session& session_;
 };
 
-// Each output is compared with the model and with the outputs before it, so that none destroys another.
-Status checkOutputs(const ViewArguments& a) {
-  std::vector<std::string> outputs;
-  for (const auto& [option, path] : {std::pair{"--screenshot", &a.pictures.screenshot},
-                                     {"--film", &a.pictures.film},
-                                     {"--figures", &a.pictures.figures}}) {
-    if (path->empty()) continue;
-    ARETE_CHECK(checkOutput(option, *path, {a.model}, outputs));
-    outputs.push_back(*path);
-  }
-  return {};
-}
-
 }  // namespace
 
 Status viewSurface(ViewArguments a, const AmtContainer& file, Session& session) {
@@ -179,7 +168,7 @@ Status viewSurface(ViewArguments a, const AmtContainer& file, Session& session) 
   if (a.viewpoint.isRound && a.pictures.frames.empty())
     return failure(ErrorCode::usage, "requires --frames, where the file is of a surface", "--round");
   ARETE_TRY(const auto size, a.pictures.size());
-  ARETE_CHECK(checkOutputs(a));
+  ARETE_CHECK(checkPictureOutputs(a, {a.model}));
   ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(file, AmtVerify::all, session.context()));
   ARETE_CHECK(a.detail.findBudget(model.mt.finestTriangleCount()));
   settings.maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);

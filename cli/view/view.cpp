@@ -106,7 +106,7 @@ Status runView(ViewArguments a, Session& session) {
     std::error_code failed;  // drawFilm() says why; the film may lie in it
     std::filesystem::create_directories(a.pictures.frames, failed);
   }
-  ARETE_CHECK(checkPictureOutputs(a, model));
+  ARETE_CHECK(checkPictureOutputs(a, {a.model, a.viewpoint.path, a.appearance.drape, model.source}));
 
   const auto layDrape = [&](TerrainView& view) -> Status {
     ARETE_CHECK(view.setDrape(a.appearance.drape, drapeOptions, session.context()));

@@ -18,27 +18,37 @@ namespace arete::python {
 
 namespace py = pybind11;
 
+namespace {
+
+/// Paths need not be UTF-8: what is not is shown as U+FFFD, so that the error itself arrives.
+py::str asText(const std::string& text) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));
+}
+
+}  // namespace
+
 void raise(const Error& error) {
-  const std::string text = withoutQueries(error.describe());
+  const py::str text = asText(withoutQueries(error.describe()));
   // Python's own class is raised where one fits; other errors are a RuntimeError.
   switch (error.code) {
     case ErrorCode::usage:
-      PyErr_SetString(PyExc_ValueError, text.c_str());
+      PyErr_SetObject(PyExc_ValueError, text.ptr());
       break;
     case ErrorCode::notFound:
-      PyErr_SetString(PyExc_FileNotFoundError, text.c_str());
+      PyErr_SetObject(PyExc_FileNotFoundError, text.ptr());
       break;
     case ErrorCode::unreadable:
-      PyErr_SetString(PyExc_OSError, text.c_str());
+      PyErr_SetObject(PyExc_OSError, text.ptr());
       break;
     case ErrorCode::outOfMemory:
-      PyErr_SetString(PyExc_MemoryError, text.c_str());
+      PyErr_SetObject(PyExc_MemoryError, text.ptr());
       break;
     case ErrorCode::interrupted:
-      PyErr_SetString(PyExc_KeyboardInterrupt, text.c_str());
+      PyErr_SetObject(PyExc_KeyboardInterrupt, text.ptr());
       break;
     default:
-      PyErr_SetString(PyExc_RuntimeError, text.c_str());
+      PyErr_SetObject(PyExc_RuntimeError, text.ptr());
   }
   throw py::error_already_set();
 }
@@ -50,7 +60,7 @@ void warn(const Warnings& warnings) {
   using namespace py::literals;
   // A stack level of 2 names the line that called this module.
   for (const Warning& warning : warnings)
-    warnPython(category(withoutQueries(warning.sentence), nameOf(warning.code)), "stacklevel"_a = 2);
+    warnPython(category(asText(withoutQueries(warning.sentence)), nameOf(warning.code)), "stacklevel"_a = 2);
 }
 
 Error inPython(Error error) {

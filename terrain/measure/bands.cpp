@@ -22,6 +22,12 @@ namespace arete::measuring {
 
 namespace {
 
+/// The larger of two numbers, and NaN as soon as one of them is: a promise must not hold by what cannot be
+/// compared.
+double largerOrNan(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::max(a, b);
+}
+
 constexpr double kForgivenUlps = 4;
 
 /// The first and the last band that a triangle reaches; last < first where it reaches none.
@@ -129,7 +135,7 @@ void BandTotals::addBeyondRounding(const MeasuredSample& sample, const std::arra
   for (const Vec3& c : corner) height = std::max(height, std::abs(c.z));
   const double ulp = std::nextafter(height, std::numeric_limits<double>::infinity()) - height;
   const double beyond = error - kForgivenUlps * ulp;
-  if (!(beyond <= counts.errorBeyondRounding)) counts.errorBeyondRounding = beyond;  // also if it is NaN
+  counts.errorBeyondRounding = largerOrNan(counts.errorBeyondRounding, beyond);
 }
 
 void BandTotals::add(const BandTotals& later) {
@@ -143,8 +149,7 @@ void BandTotals::add(const BandTotals& later) {
   counts.overlapped += c.overlapped;
   counts.nodataCovered += c.nodataCovered;
   counts.domainAreaPixels += c.domainAreaPixels;
-  if (!(c.errorBeyondRounding <= counts.errorBeyondRounding))
-    counts.errorBeyondRounding = c.errorBeyondRounding;
+  counts.errorBeyondRounding = largerOrNan(counts.errorBeyondRounding, c.errorBeyondRounding);
   if (c.worst) {
     // If errors are equal, the sample with the smallest number stays.
     const bool larger = !counts.worst || c.maxAbsError > counts.maxAbsError;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 namespace arete {
@@ -31,6 +32,10 @@ Result<FrameTarget> FrameTarget::create(int width, int height, int samples) {
                    fmt::format("this device draws pictures of 1 x 1 to {} x {} pixels, not {} x {}", most,
                                most, width, height),
                    "picture");
+  // The device hands its bytes over with their number as an int.
+  if (std::int64_t{4} * width * height > std::numeric_limits<GLsizei>::max())
+    return failure(ErrorCode::usage,
+                   fmt::format("a picture of {} x {} pixels takes more than 2 GB", width, height), "picture");
   FrameTarget t;
   t.width_ = width;
   t.height_ = height;

@@ -110,12 +110,12 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
   p.highest_ = (high - p.metric_.origin.z) * p.metric_.scale.z;
   // The sun and the aspects refer to east and north on the ground: where a camera at the middle looks.
   const Vec2 middle = model.toSource({p.metric_.origin.x, p.metric_.origin.y});
-  const auto axis = [&](double azimuth) -> Vec2 {
+  const auto axis = [&](double azimuth, const Vec2& onAFlatMap) {
     const Result<View> view = viewOf({.xy = middle, .azimuthDegrees = azimuth}, model);
-    return view ? Vec2{view->forward.x, view->forward.y} : Vec2{0, 1};
+    return view ? Vec2{view->forward.x, view->forward.y} : onAFlatMap;
   };
-  p.east_ = axis(90);
-  p.north_ = axis(0);
+  p.east_ = axis(90, {1, 0});
+  p.north_ = axis(0, {0, 1});
 
   std::array<std::array<std::uint8_t, 4>, 256> tints;
   for (std::size_t i = 0; i < tints.size(); ++i) {

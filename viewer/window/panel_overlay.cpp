@@ -28,17 +28,13 @@ void drawMarks(const ViewerSession& s, double scale) {
   if (s.sight) {
     const SightPicture& sight = *s.sight;
     const SightVerdict verdict = sight.answer.sight.verdict;
-    for (std::size_t i = 1; i < sight.points.size(); ++i) {
-      const bool isBefore = i <= sight.pointsBefore;
-      Vec3 from = sight.points[i - 1], to = sight.points[i];
-      // The step in which the obstruction lies ends there.
-      if (sight.obstruction && i == sight.pointsBefore) to = *sight.obstruction;
-      const auto a = at(from), b = at(to);
+    for (const SightPiece& piece : piecesOf(sight)) {
+      const auto a = at(piece.from), b = at(piece.to);
       if (!a || !b) continue;
       const ImU32 color = verdict == SightVerdict::visible   ? kVisible
-                          : verdict == SightVerdict::blocked ? (isBefore ? kBlocked : kBehind)
+                          : verdict == SightVerdict::blocked ? (piece.isBefore ? kBlocked : kBehind)
                                                              : kUnknown;
-      list.AddLine(*a, *b, color, (isBefore ? 0.18f : 0.13f) * em);
+      list.AddLine(*a, *b, color, (piece.isBefore ? 0.18f : 0.13f) * em);
     }
     if (const auto cross = sight.obstruction ? at(*sight.obstruction) : std::nullopt) {
       const float r = 0.45f * em;

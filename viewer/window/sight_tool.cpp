@@ -37,6 +37,20 @@ std::string_view verdictText(const SightAnswer& answer) {
 
 }  // namespace
 
+std::vector<SightPiece> piecesOf(const SightPicture& picture) {
+  std::vector<SightPiece> pieces;
+  for (std::size_t i = 1; i < picture.points.size(); ++i) {
+    const Vec3 from = picture.points[i - 1], to = picture.points[i];
+    if (picture.obstruction && i == picture.pointsBefore) {
+      pieces.push_back({from, *picture.obstruction, true});
+      pieces.push_back({*picture.obstruction, to, false});
+    } else {
+      pieces.push_back({from, to, i <= picture.pointsBefore});
+    }
+  }
+  return pieces;
+}
+
 SightTool::SightTool(const TerrainModel& model, const Profiles& profiles)
     : model_(model), profiles_(profiles), space_(model) {
   if (!model.georeference.crsWkt.empty() && CrsLonLat::of(model.georeference)) {

@@ -20,6 +20,14 @@ struct SightPicture {
   std::vector<std::string> text;    ///< lines of the description
 };
 
+/// A piece of the line that has one colour.
+struct SightPiece {
+  Vec3 from, to;
+  bool isBefore;  ///< the obstruction; all pieces are, without one
+};
+/// The pieces of the line, divided at the obstruction.
+std::vector<SightPiece> piecesOf(const SightPicture& picture);
+
 /// Answers lines of sight between picks at full resolution, over the ellipsoid of the DEM's CRS where it has
 /// one, with the usual refraction (docs/topics/visibility.md). Keeps references; thread-safe.
 class SightTool {

@@ -51,13 +51,13 @@ std::vector<LineEnd> linesOf(const ViewerSession& s) {
   std::vector<LineEnd> lines;
   if (s.sight) {
     const SightVerdict verdict = s.sight->answer.sight.verdict;
-    for (std::size_t i = 1; i < s.sight->points.size(); ++i) {
-      const bool isBefore = i <= s.sight->pointsBefore;
-      addLine(lines, s.sight->points[i - 1], s.sight->points[i],
-              verdict == SightVerdict::visible   ? std::array<std::uint8_t, 4>{60, 235, 60, 255}
-              : verdict == SightVerdict::blocked ? (isBefore ? std::array<std::uint8_t, 4>{255, 50, 40, 255}
-                                                             : std::array<std::uint8_t, 4>{150, 40, 40, 255})
-                                                 : std::array<std::uint8_t, 4>{190, 190, 190, 255});
+    for (const SightPiece& piece : piecesOf(*s.sight)) {
+      addLine(lines, piece.from, piece.to,
+              verdict == SightVerdict::visible ? std::array<std::uint8_t, 4>{60, 235, 60, 255}
+              : verdict == SightVerdict::blocked
+                  ? (piece.isBefore ? std::array<std::uint8_t, 4>{255, 50, 40, 255}
+                                    : std::array<std::uint8_t, 4>{150, 40, 40, 255})
+                  : std::array<std::uint8_t, 4>{190, 190, 190, 255});
     }
   }
   // The way of the flight, key by key.

@@ -95,11 +95,14 @@ void describeVertical(const OGRSpatialReference& crs, Georeference& georeference
 /// The beginning of a text, on one line.
 std::string shortened(const std::string& text) {
   constexpr std::size_t kMost = 60;
-  std::string line = text.substr(0, kMost);
+  std::size_t length = std::min(kMost, text.size());
+  // A character of several bytes is not torn: the cut goes before its first byte.
+  while (length > 0 && length < text.size() && (static_cast<unsigned char>(text[length]) & 0xC0) == 0x80)
+    --length;
+  std::string line = text.substr(0, length);
   std::ranges::replace_if(
       line, [](unsigned char c) { return c < 32; }, ' ');
-  while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0xC0) == 0x80) line.pop_back();
-  return line.size() < text.size() ? line + "..." : line;
+  return length < text.size() ? line + "..." : line;
 }
 
 Result<OGRSpatialReference> parsedCrs(const std::string& text, CSLConstList limitations) {

@@ -90,6 +90,19 @@ TEST(Gathered, KeepsTheLargestErrorAndCountsTurns) {
   EXPECT_FALSE(gathered.isCovered(2));
 }
 
+TEST(BandTotals, KeepAnErrorThatIsNoNumberWhateverComesAfter) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const std::size_t place : {0u, 1u, 2u}) {
+    BandTotals all;
+    for (std::size_t i = 0; i < 3; ++i) {
+      BandTotals band;
+      band.counts.errorBeyondRounding = i == place ? nan : double(i);
+      all.add(band);
+    }
+    EXPECT_TRUE(std::isnan(all.counts.errorBeyondRounding)) << place;
+  }
+}
+
 TEST(BandTotals, OfBandsAddUpToThoseOfAllSamplesInAnyOrder) {
   std::mt19937 random(4);
   std::vector<MeasuredSample> samples;

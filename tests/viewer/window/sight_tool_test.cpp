@@ -65,6 +65,14 @@ TEST_F(SightTools, MarkTheFirstObstructionOnTheLine) {
     EXPECT_NEAR(o.z, a.z + part * (b.z - a.z), 1e-6 * std::abs(b.x - a.x))
         << "over a plane the line is straight";
     EXPECT_EQ(picture->text[0], "blocked");
+    // The pieces follow each other without a gap, and their kind changes at the obstruction.
+    const std::vector<SightPiece> pieces = piecesOf(*picture);
+    EXPECT_EQ(pieces.front().from, a);
+    EXPECT_EQ(pieces.back().to, b);
+    for (std::size_t i = 1; i < pieces.size(); ++i) {
+      EXPECT_EQ(pieces[i].from, pieces[i - 1].to);
+      EXPECT_EQ(pieces[i].isBefore != pieces[i - 1].isBefore, pieces[i].from == o);
+    }
   }
   EXPECT_GT(blocked, 0);
 }

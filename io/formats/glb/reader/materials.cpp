@@ -49,8 +49,11 @@ class MaterialReader {
     if (list == document_.json().end() || !list->is_array()) return;
     for (const Json& material : *list) result.materials.push_back(readMaterial(material));
     const auto images = document_.json().find("images");
-    if (images != document_.json().end() && images->is_array() && images->size() > pictures_.size())
-      unusedImages = images->size() - pictures_.size();
+    if (images == document_.json().end() || !images->is_array()) return;
+    unusedImages = images->size();
+    // Materials may name images that are not there.
+    for (const auto& [image, picture] : pictures_)
+      if (image < images->size()) --unusedImages;
   }
 
   GltfMaterials result;

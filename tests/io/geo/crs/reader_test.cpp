@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "io/files/text/utf8.h"
 #include "io/io_fixture.h"
 
 namespace arete {
@@ -34,6 +35,22 @@ TEST(CrsReader, RefusesWhatIsNotACrsAndNamesIt) {
     EXPECT_EQ(stated.error().code, ErrorCode::usage) << text;
     EXPECT_EQ(stated.error().culprit, text);
   }
+}
+
+TEST(CrsReader, QuotesNoTornCharacter) {
+  for (const std::string end : {"\u00e9", "\u6c34", "\U0001F5FB"})
+    for (std::size_t before = 50; before < 64; ++before) {
+      const std::string text = std::string(before, 'a') + end;
+      for (const std::string behind : {"", "bb"}) {
+        const auto crs = crsFromText(text + behind);
+        ASSERT_FALSE(crs);
+        EXPECT_TRUE(text::isUtf8(crs.error().message)) << crs.error().message;
+        // A text that is quoted as a whole has all of its last character.
+        if (text.size() + behind.size() <= 60) {
+          EXPECT_NE(crs.error().message.find(text + behind + "'"), std::string::npos) << crs.error().message;
+        }
+      }
+    }
 }
 
 TEST(CrsReader, OpensAFileForAPersonOnly) {
