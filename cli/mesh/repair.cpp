@@ -151,7 +151,8 @@ std::string mendedText(const MeshInput& input, const std::optional<Welded>& weld
   if (repaired.counts.isNothing() && !(welded && welded->isOfRounding)) text += "  nothing to mend\n";
   if (repaired.openHoles > 0)
     text += fmt::format(
-        "  left open: {}, as {} would have an edge that exists, lie upon the surface or cross it\n",
+        "  left open: {}, as {} would have an edge that exists, lie upon the surface or cross it, or would "
+        "follow sides that turn against each other\n",
         grouped(repaired.openHoles, "hole", "holes"),
         agreeing(repaired.openHoles, "its filling", "their fillings"));
   if (repaired.crossingParts > 0)

@@ -64,7 +64,7 @@ struct RepairedMesh {
   std::vector<std::uint32_t> triangleOf;
   RepairCounts counts;
   /// Borders of at most RepairOptions::mostHoleEdges edges that stay open: each filling would have an edge or
-  /// a triangle that exists, lie upon the surface or cross it.
+  /// a triangle that exists, lie upon the surface or cross it, or its sides turn against each other.
   std::uint64_t openHoles = 0;
   /// Closed parts that cross each other, so that none is a cavity of the other: they are turned together, as
   /// the largest needs it.

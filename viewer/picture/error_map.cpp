@@ -165,10 +165,11 @@ struct Plan {
 Result<Plan> plan(const RasterHeightfield& errors, const ErrorMapOptions& options) {
   const Statistics s = statisticsOf(errors.heights);
   if (s.count == 0)
-    return failure(ErrorCode::invalidData, "There is no error to draw: no sample has one.", errors.source);
+    return failure(ErrorCode::invalidData, "has no error to draw: no sample has one", errors.source);
   if (!(options.limit >= 0)) {
     return failure(ErrorCode::invalidData,
-                   fmt::format("The colours cannot run to {}; a limit is positive.", options.limit));
+                   fmt::format("the colours cannot run to {}: a limit is 0 (as far as the errors) or more",
+                               options.limit));
   }
   const double largest = std::max(std::abs(s.low), std::abs(s.high));
   const double limit = options.limit > 0 ? options.limit : largest > 0 ? roundUpNice(largest) : 1;

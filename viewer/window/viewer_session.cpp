@@ -155,13 +155,16 @@ void ViewerSession::apply(Action action) {
 
 const CurvedGround* ViewerSession::curvedGround() {
   if (!settings.isCurved) return nullptr;
-  // The ground is made at its first use. A CRS without an ellipsoid leaves it empty, and the map flat.
+  // The ground is made at its first use. A CRS without an ellipsoid leaves the map flat, and that is said
+  // once.
   if (!ground_) {
     Result<CurvedGround> made = CurvedGround::create(model);
-    if (made)
+    if (made) {
       ground_ = std::move(*made);
-    else
+    } else {
+      settings.isCurved = false;
       say(made.error().describe());
+    }
   }
   return ground_ ? &*ground_ : nullptr;
 }
