@@ -40,7 +40,8 @@ bool Arrays::allocate(const AmtCounts& counts, std::uint64_t borders) {
   facts.counts = counts;
   mtColumns.clear();
   for (const AmtMtColumn& column : amtMtColumns(facts))
-    if (column.per != AmtPer::block) mtColumns.push_back({column, {}, amtCountOf(column.per, facts)});
+    if (column.per != AmtPer::block && column.coding != AmtCoding::dropped)
+      mtColumns.push_back({column, {}, amtCountOf(column.per, facts)});
   const std::size_t n = nodes, v = std::size_t{rootVertices} + n;
   const bool hasMemory = stays.lay([&](const auto& array) {
     for (Column& column : mtColumns)
