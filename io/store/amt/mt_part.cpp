@@ -61,11 +61,11 @@ struct PrefixArrays {
 struct CopiedColumn {
   AmtMtColumn column;
   std::span<const std::byte> from;
+  std::size_t size;  // of an element
   UninitializedVector<std::byte> to = {};
 
-  void resize(std::size_t elements) { to.resize(elements * column.elementBytes()); }
+  void resize(std::size_t elements) { to.resize(elements * size); }
   void copy(std::size_t begin, std::size_t at, std::size_t elements) {
-    const std::size_t size = column.elementBytes();
     std::memcpy(to.data() + at * size, from.data() + begin * size, elements * size);
   }
 };
@@ -76,7 +76,7 @@ std::vector<CopiedColumn> copiedColumnsOf(const MtArrays& a) {
   for (const AmtMtColumn& column : amtMtColumns(a))
     if (column.coding != AmtCoding::walked &&
         (column.per == AmtPer::triangle || column.per == AmtPer::vertex || column.per == AmtPer::node))
-      columns.push_back({column, column.mt.bytes(a)});
+      columns.push_back({column, column.mt.bytes(a), column.elementBytes()});
   return columns;
 }
 
