@@ -190,7 +190,7 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
   facts.curve = std::move(curve);
   sayFacts(arguments, model, facts, session);
   Json answer = factsJson(arguments, model, facts);
-  answer["columns"] = columnsJson(file.container());
+  ARETE_TRY(answer["columns"], columnsJson(file.container()));
   session.answer(answer);
   return {};
 }

@@ -61,29 +61,41 @@ struct PrefixArrays {
 struct CopiedColumn {
   AmtMtColumn column;
   std::span<const std::byte> from;
+  std::size_t size;  // of an element
   UninitializedVector<std::byte> to = {};
 
-  void resize(std::size_t elements) { to.resize(elements * column.elementBytes()); }
+  void resize(std::size_t elements) { to.resize(elements * size); }
   void copy(std::size_t begin, std::size_t at, std::size_t elements) {
-    const std::size_t size = column.elementBytes();
     std::memcpy(to.data() + at * size, from.data() + begin * size, elements * size);
   }
 };
 
-/// The columns of an MT that say nothing of other elements.
-std::vector<CopiedColumn> copiedColumnsOf(const MtArrays& a) {
+/// Columns that have an element for the same things.
+struct CopiedColumns {
   std::vector<CopiedColumn> columns;
-  for (const AmtMtColumn& column : amtMtColumns(a))
-    if (column.coding != AmtCoding::walked &&
-        (column.per == AmtPer::triangle || column.per == AmtPer::vertex || column.per == AmtPer::node))
-      columns.push_back({column, column.mt.bytes(a)});
-  return columns;
-}
+
+  /// The columns of an MT that say nothing of other elements.
+  static CopiedColumns of(const MtArrays& a, AmtPer per, std::size_t elements) {
+    CopiedColumns copied;
+    for (const AmtMtColumn& column : amtMtColumns(a))
+      if (column.coding != AmtCoding::walked && column.per == per) {
+        copied.columns.push_back({column, column.mt.bytes(a), column.elementBytes()});
+        copied.columns.back().resize(elements);
+      }
+    return copied;
+  }
+  void copy(std::size_t from, std::size_t at, std::size_t count) {
+    for (CopiedColumn& column : columns) column.copy(from, at, count);
+  }
+  void putInto(MtArrays& a) const {
+    for (const CopiedColumn& copied : columns) copied.column.mt.put(a, copied.to);
+  }
+};
 
 struct SubsetArrays {
   MultiTriangulation whole;  // whose root it shares
   UninitializedVector<std::uint32_t> slotBegin, link, remover, floor, creatorHint;
-  std::vector<CopiedColumn> copied;
+  CopiedColumns ofTriangles, ofNodes, ofVertices;
   NodeBlocks blocks;
 
   MultiTriangulation model(std::shared_ptr<const void> owner) {
@@ -93,7 +105,7 @@ struct SubsetArrays {
     a.remover = remover;
     a.floor = floor;
     a.creatorHint = creatorHint;
-    for (const CopiedColumn& copy : copied) copy.column.mt.put(a, copy.to);
+    for (const CopiedColumns* copied : {&ofTriangles, &ofNodes, &ofVertices}) copied->putInto(a);
     blocks = makeNodeBlocks(a.saturatedError, a.sphere);
     a.blockError = blocks.error;
     a.blockSphere = blocks.sphere;
@@ -166,19 +178,17 @@ class SubsetCopy {
     to.creatorHint.resize((std::size_t{slots_} + MultiTriangulation::kSlotsPerHint - 1) /
                           MultiTriangulation::kSlotsPerHint);
     // Columns that hold no ids are copied as they are.
-    to.copied = copiedColumnsOf(a_);
-    for (CopiedColumn& copy : to.copied)
-      copy.resize(copy.column.per == AmtPer::triangle ? ids
-                  : copy.column.per == AmtPer::node   ? nodes
-                                                      : a_.rootVertices + nodes);
+    to.ofTriangles = CopiedColumns::of(a_, AmtPer::triangle, ids);
+    to.ofNodes = CopiedColumns::of(a_, AmtPer::node, nodes);
+    to.ofVertices = CopiedColumns::of(a_, AmtPer::vertex, a_.rootVertices + nodes);
   }
 
   void copyRoot() {
     // The root is in every subset, with the same numbers.
     for (std::uint32_t t = 0; t < roots_; ++t)
       copyRemover(t, t, MultiTriangulation::kNone, MultiTriangulation::kNone);
-    copyElements(AmtPer::triangle, 0, 0, roots_);
-    copyElements(AmtPer::vertex, 0, 0, a_.rootVertices);
+    to_->ofTriangles.copy(0, 0, roots_);
+    to_->ofVertices.copy(0, 0, a_.rootVertices);
   }
 
   void beginSlots(std::size_t word) {
@@ -197,13 +207,12 @@ class SubsetCopy {
       to.link[begin + i] = vertexOf(a_.link[slots.begin + i]);
       copyRemover(roots_ + slots.begin + i, roots_ + begin + i, n, rank);
     }
-    copyElements(AmtPer::triangle, std::size_t{roots_} + slots.begin, std::size_t{roots_} + begin,
-                 slots.size);
+    to.ofTriangles.copy(std::size_t{roots_} + slots.begin, std::size_t{roots_} + begin, slots.size);
     const std::uint32_t floor = slots.begin - 2 * n;
     for (std::uint32_t i = 0; i < slots.size - 2; ++i)
       to.floor[begin - 2 * rank + i] = triangleOf(a_.floor[floor + i]);
-    copyElements(AmtPer::node, n, rank, 1);
-    copyElements(AmtPer::vertex, std::size_t{a_.rootVertices} + n, std::size_t{a_.rootVertices} + rank, 1);
+    to.ofNodes.copy(n, rank, 1);
+    to.ofVertices.copy(std::size_t{a_.rootVertices} + n, std::size_t{a_.rootVertices} + rank, 1);
     // A hint names the node that owns every kSlotsPerHint-th slot.
     const std::uint64_t end = std::uint64_t{begin} + slots.size;
     for (std::uint64_t hint = (std::uint64_t{begin} + MultiTriangulation::kSlotsPerHint - 1) /
@@ -212,12 +221,7 @@ class SubsetCopy {
       to.creatorHint[hint] = rank;
   }
 
-  void copyElements(AmtPer per, std::size_t from, std::size_t at, std::size_t count) {
-    for (CopiedColumn& copy : to_->copied)
-      if (copy.column.per == per) copy.copy(from, at, count);
-  }
-
-  /// That of a triangle of node `creator`, whose new number is `rank`.
+  /// The remover of a triangle of node `creator`, whose new number is `rank`.
   void copyRemover(std::uint32_t from, std::uint32_t t, std::uint32_t creator, std::uint32_t rank) {
     const std::uint32_t r = a_.remover[from];
     std::uint32_t remover = MultiTriangulation::kNone;

@@ -1,24 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
+// Files of both kinds: each makes what no array of its model is, and the schema is written (model_writer.h).
 // The arrays must have the sizes that the reader requires (amtShapeOf()), so that what is written can be
 // opened.
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/base/caught_failure.h"
 #include "io/store/amt/file.h"
+#include "io/store/amt/finest_triangles.h"
 #include "io/store/amt/model_writer.h"
+#include "io/store/amt/surface_file.h"
 #include "io/store/format/metadata.h"
+#include "io/store/format/surface_metadata.h"
 #include "io/store/packed/packed.h"
+#include "io/store/packed/surface/displacement_bytes.h"
+#include "io/store/packed/surface/source_numbers.h"
+#include "surface/model/renumbered.h"
 
 namespace arete {
 namespace {
 
-/// Writes one file.
-class AmtWriting {
+/// Writes one file of terrain.
+class TerrainWriting {
  public:
-  AmtWriting(const std::string& path, const TerrainModel& model, const RunContext& context)
+  TerrainWriting(const std::string& path, const TerrainModel& model, const RunContext& context)
       : path_(path), model_(model), context_(context), file_(path, context) {}
 
   Status run(const AmtWriteOptions& options) {
@@ -62,13 +70,135 @@ class AmtWriting {
   std::vector<double> isolatedHeights_;
 };
 
+struct PackedModel {
+  PackedSurfaceMt packed;
+  SurfaceModel model;  ///< in the order of the packed MT: as a reader has it
+};
+
+/// Packs the MT, and takes the model in the order of the packed MT. Displacements stay as they are.
+Result<PackedModel> packModel(const SurfaceModel& source, int positionBits, const RunContext& context) {
+  const auto refuse = [](Error error) {
+    if (error.code != ErrorCode::interrupted) error.message = "the model cannot be packed: " + error.message;
+    return tl::unexpected(std::move(error));
+  };
+  Result<PackedSurfaceMt> packed = packSurfaceMt(source.mt, {positionBits}, context);
+  if (!packed) return refuse(packed.error());
+  SurfaceMetadata metadata = amtMetadataOf(source, {});
+  metadata.hasDoubles = packed->hasDoubles;
+  metadata.positionStep = packed->step;
+  metadata.scale = packed->scale;
+  metadata.model.positionError += packed->moved;
+  const PackedMt& bytes = packed->bytes;
+  const Result<MultiTriangulation> mt =
+      unpackSurfaceMt(metadata, bytes.directory, bytes.tables, bytes.nodes, context);
+  if (!mt) return refuse(mt.error());
+  SurfaceModel model = renumbered(source, *mt, packed->order.vertexOf, packed->order.triangleOf);
+  model.positionError += packed->moved;
+  packed->order = {};
+  return PackedModel{std::move(*packed), std::move(model)};
+}
+
+/// Writes one file of a surface.
+class SurfaceWriting {
+ public:
+  SurfaceWriting(const std::string& path, const SurfaceModel& model, const RunContext& context)
+      : path_(path), source_(model), context_(context), file_(path, context) {}
+
+  Status run(const SurfaceWriteOptions& options) {
+    if (const Status valid = model().validate(); !valid) return file_.chunks().refuse(valid.error().message);
+    if (options.isPacked) ARETE_CHECK(pack(options.positionBits));
+    SurfaceMetadata metadata =
+        amtMetadataOf(model(), options.writer.empty() ? "Arete " ARETE_VERSION : options.writer);
+    metadata.positionStep = packed_.step;
+    ARETE_CHECK(file_.describe(metadata));
+    AmtFacts facts = amtFactsOf(metadata);
+    facts.isPacked = options.isPacked;
+    facts.hasDisplacement = !model().displacement.isEmpty();
+    if (options.isPacked)
+      makePackedNumbers();
+    else if (!facts.hasAllFaces)
+      makeFinestFaces();
+    makeLooks();
+    return file_.write(model(), facts);
+  }
+
+ private:
+  const SurfaceModel& model() const { return packedModel_ ? *packedModel_ : source_; }
+
+  Status pack(int positionBits) {
+    Result<PackedModel> both = packModel(source_, positionBits, context_);
+    if (!both) {
+      if (both.error().code == ErrorCode::interrupted) return file_.chunks().interrupted();
+      return failure(both.error().code, both.error().message, path_);
+    }
+    if (both->packed.moved > 0 && !source_.displacement.isEmpty())
+      return file_.chunks().refuse(
+          "has displacements of places that rounding moves: they are found again first");
+    packed_ = std::move(both->packed);
+    packedModel_ = std::move(both->model);
+    makePacked(packed_.bytes, file_);
+    return {};
+  }
+
+  void makePackedNumbers() {
+    numbers_ = packed::packSourceNumbers(model());
+    file_.make(amt_tag::kPackedNumbers, bytesOf(numbers_));
+    if (model().displacement.isEmpty()) return;
+    displacement_ = packed::packDisplacement(model().mt, model().displacement);
+    file_.make(amt_tag::kPackedDisplacement, bytesOf(displacement_));
+  }
+
+  /// Coarse triangles inherit the faces of fine ones.
+  void makeFinestFaces() {
+    forFinest(model().mt, [&](std::uint32_t t) { finestFaces_.push_back(model().faceOf[t]); });
+    file_.make(amt_tag::kFaceNumbers, bytesOf(finestFaces_));
+  }
+
+  void makeLooks() {
+    looks_ = toLooksJson(model());
+    values_ = attributeBytesOf(model());
+    for (const EmbeddedPicture& picture : model().attributes.pictures)
+      pictures_.insert(pictures_.end(), picture.bytes.begin(), picture.bytes.end());
+    file_.make(amt_tag::kLooks, bytesOf(looks_));
+    file_.make(amt_tag::kAttributes, bytesOf(values_));
+    file_.make(amt_tag::kPictures, bytesOf(pictures_));
+  }
+
+  const std::string& path_;
+  const SurfaceModel& source_;
+  std::optional<SurfaceModel> packedModel_;  // in the order of the packed nodes
+  const RunContext& context_;
+  AmtModelWriter<SurfaceModel> file_;
+  std::string looks_;  // this and the next: what the chunks point to, beside the model
+  PackedSurfaceMt packed_;
+  std::vector<std::byte> numbers_, displacement_;
+  std::vector<std::uint32_t> finestFaces_;
+  std::vector<std::byte> values_, pictures_;
+};
+
 }  // namespace
 
 Status writeAmt(const std::string& path, const TerrainModel& model, const RunContext& context,
                 const AmtWriteOptions& options) try {
-  return AmtWriting(path, model, context).run(options);
+  return TerrainWriting(path, model, context).run(options);
 } catch (...) {
   return caughtFailure(path);
+}
+
+Status writeSurfaceAmt(const std::string& path, const SurfaceModel& model, const RunContext& context,
+                       const SurfaceWriteOptions& options) try {
+  return SurfaceWriting(path, model, context).run(options);
+} catch (...) {
+  return caughtFailure(path);
+}
+
+Result<SurfaceModel> roundSurface(const SurfaceModel& model, int positionBits,
+                                  const RunContext& context) try {
+  ARETE_TRY(PackedModel both, packModel(model, positionBits, context));
+  if (both.packed.moved > 0) both.model.displacement = {};
+  return std::move(both.model);
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

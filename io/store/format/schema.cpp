@@ -83,7 +83,11 @@ std::vector<AmtMtColumn> amtMtColumns(const MtArrays& a) {
   facts.isLattice = a.vertices.isLattice();
   facts.heights = a.vertices.encoding.type;
   facts.hasDoubles = !a.vertices.places64.empty();
-  return amtMtColumns(facts);
+  std::vector<AmtMtColumn> columns = amtMtColumns(facts);
+  std::erase_if(columns, [&](const AmtMtColumn& column) {
+    return column.need == AmtNeed::whereFound && column.mt.bytes(a).empty();
+  });
+  return columns;
 }
 
 const AmtColumn* findAmtColumn(const AmtTag& tag) {

@@ -186,7 +186,8 @@ inline constexpr std::uint32_t kAmtVersionOf =
 struct AmtMtColumn : AmtColumn {
   AmtPlaceIn<MtArrays> mt;
 };
-/// Those that the MT of such a file has, in its order; those that an MT in memory has. O(rows).
+/// Those that the MT of such a file has, in its order; those that an MT in memory has, of which the ones that
+/// a file need not have are left out where they are empty. O(rows).
 std::vector<AmtMtColumn> amtMtColumns(const AmtFacts& facts);
 std::vector<AmtMtColumn> amtMtColumns(const MtArrays& arrays);
 

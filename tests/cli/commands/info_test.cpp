@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,32 @@ TEST_F(InfoCommand, CountsWhatTheBuildHasCounted) {
   const std::string dump = info.dump();
   for (const char* key : {"triangles", "finestTriangles", "rootTriangles"})
     EXPECT_NE(dump.find(built[key].dump()), std::string::npos) << key << " " << dump;
+}
+
+TEST_F(InfoCommand, ListsTheColumnsOfTheFile) {
+  makeRaster("dem.tif", "fractal", 20, 20);
+  for (const bool isPacked : {false, true}) {
+    std::vector<std::string> words = {"build", "dem.tif", "-o", "dem.amt", "-q"};
+    if (isPacked) words.push_back("--packed");
+    ASSERT_EQ(run(words).code, 0);
+    const Json info = run({"info", "dem.amt", "--json"}).json();
+    std::map<std::string, Json> byTag;
+    std::uint64_t bytes = 0;
+    for (const Json& column : info["columns"]) {
+      byTag[column["tag"]] = column;
+      bytes += column["bytes"].get<std::uint64_t>();
+    }
+    EXPECT_LT(bytes, info["bytes"].get<std::uint64_t>());
+    if (!isPacked) {
+      EXPECT_EQ(byTag.at("BLOW")["per"], "triangle");
+      EXPECT_EQ(byTag.at("BLOW")["coding"], "outward");
+      EXPECT_EQ(byTag.at("HGHT")["per"], "vertex");
+      EXPECT_EQ(byTag.at("PSUM")["per"], "segment");
+    } else {
+      EXPECT_EQ(byTag.count("BLOW"), 0u);
+      EXPECT_EQ(byTag.at("PNOD")["coding"], "packed");
+    }
+  }
 }
 
 TEST_F(InfoCommand, RefusesTwoWaysToStateACurve) {

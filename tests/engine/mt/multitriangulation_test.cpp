@@ -28,6 +28,26 @@ TEST(MultiTriangulation, FindsTheCreatorOfEveryTriangle) {
   }
 }
 
+TEST(MultiTriangulation, AnswersForOneElementAsItsArraysDo) {
+  for (const FamilyModel& m : familyModels()) {
+    const MultiTriangulation& mt = m.model.mt;
+    const MtArrays& a = mt.arrays();
+    EXPECT_EQ(mt.scale().base(), a.scale.base());
+    EXPECT_EQ(mt.metric().scale.z, a.metric.scale.z);
+    EXPECT_EQ(mt.rootTriangles().data(), a.rootTriangles.data());
+    EXPECT_EQ(mt.slotTotal(), a.link.size());
+    for (std::uint32_t t = 0; t < mt.triangleIdCount(); ++t) {
+      ASSERT_EQ(mt.errorCode(TriangleId(t)), a.error[t]) << m.name;
+      ASSERT_EQ(mt.decoded(kBelow, TriangleId(t)), a.scale.decode(mt.column(kBelow)[t])) << m.name;
+    }
+    for (std::uint32_t n = 0; n < mt.nodeCount(); ++n) {
+      ASSERT_EQ(mt.firstSlot(NodeId(n)), a.slotBegin[n]) << m.name;
+      ASSERT_EQ(mt.saturatedCode(NodeId(n)), a.saturatedError[n]) << m.name;
+      ASSERT_EQ(&mt.sphere(NodeId(n)), &a.sphere[n]) << m.name;
+    }
+  }
+}
+
 TEST(MultiTriangulation, HasTheCornersOfAStarAroundItsApex) {
   for (const FamilyModel& m : familyModels()) {
     const MultiTriangulation& mt = m.model.mt;

@@ -41,7 +41,8 @@ bool Arrays::allocate(const AmtCounts& counts, std::uint64_t borders) {
   mtColumns.clear();
   // Columns of blocks are left out: model() derives them from the columns of nodes.
   for (const AmtMtColumn& column : amtMtColumns(facts))
-    if (column.per != AmtPer::block) mtColumns.push_back({column, {}, amtCountOf(column.per, facts)});
+    if (column.per != AmtPer::block && column.coding != AmtCoding::dropped)
+      mtColumns.push_back({column, {}, amtCountOf(column.per, facts)});
   const std::size_t n = nodes, v = std::size_t{rootVertices} + n;
   // What the model keeps and what only coding needs are in two arenas, so that the second can go as a whole.
   const bool hasMemory = stays.lay([&](const auto& array) {

@@ -132,6 +132,13 @@ TEST(Schema, KnowsTheTagsOfBothKindsAndNoOther) {
   EXPECT_EQ(findAmtColumn(AmtTag{'W', 'H', 'A', 'T'}), nullptr);
 }
 
+TEST(Schema, NamesWhatAColumnIsPerAndHowItIsPacked) {
+  EXPECT_EQ(toString(AmtPer::rootTriangle), "root triangle");
+  EXPECT_EQ(toString(AmtPer::any), "any");
+  EXPECT_EQ(toString(AmtCoding::raw), "raw");
+  EXPECT_EQ(toString(AmtCoding::packed), "packed");
+}
+
 TEST(Schema, NeedsTheVersionOfItsNewestColumn) {
   EXPECT_EQ(kAmtVersionOf<TerrainModel>, 2u);
   EXPECT_EQ(kAmtVersionOf<SurfaceModel>, 3u);
