@@ -104,13 +104,13 @@ class VirtualText : public ::testing::Test {
         write("options.vrt", vrtOf(sourceOf("/vsicurl?use_head=no&amp;url=" + encoded))),
         write("zip.vrt", vrtOf(sourceOf("/vsizip//vsicurl/" + zip + "/a.tif"))),
         write("braces.vrt", vrtOf(sourceOf("/vsizip/{/vsicurl/" + zip + "}/a.tif"))),
-        write("odd.extension", vrtOf(sourceOf("/vsicurl/" + address))),
+        write("odd.tif", vrtOf(sourceOf("/vsicurl/" + address))),
         write("warped.vrt", warpedOf("/vsicurl/" + address)),
         "vrt:///vsicurl/" + address + "?bands=1"};
     write("inner/inner.vrt", vrtOf(sourceOf(address)));
-    write("inner/inner.txt.xml", vrtOf(sourceOf("/vsicurl/" + address)));
+    write("inner/inner.img", vrtOf(sourceOf("/vsicurl/" + address)));
     paths.push_back(write("nested.vrt", vrtOf(sourceOf("inner/inner.vrt", true))));
-    paths.push_back(write("odd.vrt", vrtOf(sourceOf("inner/inner.txt.xml", true))));
+    paths.push_back(write("odd.vrt", vrtOf(sourceOf("inner/inner.img", true))));
     paths.push_back(write("whole.vrt", vrtOf(sourceOf(folder_.file("inner/inner.vrt")))));
     paths.push_back(write("twice.vrt", vrtOf(sourceOf("nested.vrt", true))));
     paths.push_back(write("text.vrt", vrtOf(sourceOf(escaped(vrtOf(sourceOf(address)))))));
@@ -286,6 +286,18 @@ TEST_F(VirtualText, WithoutAnAddressIsOpenedUnderItsOwnName) {
   const std::string itself = folder_.write("itself.vrt", vrtOf(sourceOf("itself.vrt", true)));
   for (const std::string& path : {inner, outer, crs, itself, folder_.file("a.tif"), folder_.file("none.vrt")})
     EXPECT_EQ(servedDatasetPath(path), path);
+}
+
+// Twelve files, each of which names the next one a hundred times, and the last one the first.
+TEST_F(VirtualText, LooksIntoEachFileOnce) {
+  for (int i = 0; i < 12; ++i) {
+    std::string sources;
+    for (int k = 0; k < 100; ++k) sources += sourceOf(fmt::format("{}.vrt", (i + 1) % 12), true);
+    folder_.write(fmt::format("{}.vrt", i), vrtOf(sources));
+  }
+  EXPECT_EQ(servedDatasetPath(folder_.file("0.vrt")), folder_.file("0.vrt"));
+  folder_.write("11.vrt", vrtOf(sourceOf("0.vrt", true) + sourceOf("http://127.0.0.1:9/a.tif")));
+  EXPECT_EQ(servedDatasetPath(folder_.file("0.vrt")), servedName() + "/" + folder_.file("0.vrt"));
 }
 
 TEST_F(VirtualText, OfALayerNamesAddressesToo) {
