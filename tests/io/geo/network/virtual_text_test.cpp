@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -275,6 +276,29 @@ TEST_F(VirtualText, InAnArchiveOnAServerNamesAddressesOfOtherServers) {
       EXPECT_EQ(read.has_value(), !isShort) << path << (read ? "" : read.error().describe());
     }
   }
+}
+
+TEST_F(VirtualText, IsReadAnewAfterAFailureAndAfterAChange) {
+  std::atomic<bool> lies = true, isChanged = false;
+  const std::string later = std::string(tile_).replace(tile_.size() - 400, 4, std::string(4, '\0'));
+  const HttpServer server(files_, [&](const std::string&, int number) {
+    HttpFault fault;
+    fault.isShort = lies && number > 1;
+    if (isChanged) fault.tag = "\"two\"", fault.content = later;
+    return fault;
+  });
+  const std::string tile = "/vsicurl/" + server.address("a.tif");
+  folder_.write("inner.vrt", vrtOf(sourceOf(tile)));
+  const std::string outer = folder_.write("outer.vrt", vrtOf(sourceOf("inner.vrt", true)));
+  EXPECT_FALSE(readDem(outer));
+  lies = false;
+  const auto first = readDem(outer);
+  ASSERT_TRUE(first) << first.error().describe();
+  isChanged = true;
+  const auto second = readDem(outer);
+  ASSERT_TRUE(second) << second.error().describe();
+  EXPECT_NE(std::get<RasterHeightfield>(second->heightfield).sourceChecksum,
+            std::get<RasterHeightfield>(first->heightfield).sourceChecksum);
 }
 
 TEST_F(VirtualText, WithoutAnAddressIsOpenedUnderItsOwnName) {
