@@ -181,7 +181,7 @@ std::string freeName() {
 
 std::string installServedFiles() {
   if (!CPLHTTPEnabled()) return {};
-  const std::string name = freeName();
+  std::string name = freeName();
   // GDAL keeps the pointers to the prefixes, as long as the process lives.
   static const std::string& ofNames = *new std::string(name + "/");
   static std::string& ofOptions = *new std::string(name + "?");
