@@ -202,6 +202,10 @@ void removeNetwork() {
       replaced.insert(VSIFileManager::GetHandler(*prefix));
       VSIFileManager::InstallHandler(*prefix, new NoFiles);
     }
+  // GDAL does not list this form of an address, which has the handler of "/vsicurl/".
+  if (constexpr const char* kWithOptions = "/vsicurl?";
+      VSIFileManager::GetHandler(kWithOptions) != VSIFileManager::GetHandler(""))
+    VSIFileManager::InstallHandler(kWithOptions, new NoFiles);
   replaced.erase(VSIFileManager::GetHandler(""));  // of files
   for (char** prefix = prefixes; prefix && *prefix; ++prefix)
     replaced.erase(VSIFileManager::GetHandler(*prefix));

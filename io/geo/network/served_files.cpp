@@ -181,11 +181,10 @@ std::string freeName() {
 
 std::string installServedFiles() {
   if (!CPLHTTPEnabled()) return {};
-  const std::string name = freeName();
-  // GDAL keeps the pointers to the prefixes.
-  static std::string ofNames, ofOptions;
-  ofNames = name + "/";
-  ofOptions = name + "?";
+  std::string name = freeName();
+  // GDAL keeps the pointers to the prefixes, as long as the process lives.
+  static const std::string& ofNames = *new std::string(name + "/");
+  static std::string& ofOptions = *new std::string(name + "?");
   VSIFilesystemPluginCallbacksStruct* callbacks = VSIAllocFilesystemPluginCallbacksStruct();
   callbacks->open = openHandle;
   callbacks->stat = statHandle;
@@ -204,9 +203,10 @@ std::string installServedFiles() {
 }  // namespace
 
 const std::string& servedName() {
-  static const std::string nothing;
+  // Not destroyed at the end of the process, where files may still be closed.
+  static const std::string& nothing = *new std::string();
   if (areServedFilesForbidden) return nothing;
-  static const std::string name = installServedFiles();
+  static const std::string& name = *new std::string(installServedFiles());
   return name;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Which elements name files is a list, since other ones may have addresses as well (of a CRS, of a note in
-// the metadata). A name may be the text of another VRT. A file that a VRT names is looked into, unless its
-// extension says that its format names no others: a mosaic may have thousands of these.
+// the metadata). A name may be the text of another VRT. Each file that a VRT names is looked into once: the
+// first bytes of a file, not its extension, make it a VRT, and files may name one another in circles.
 #include "io/geo/network/virtual_text.h"
 
 #include <cpl_conv.h>
@@ -13,12 +13,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <map>
 #include <memory>
+#include <span>
 #include <utility>
-#include <vector>
 
-#include "io/files/text_scan.h"
 #include "io/geo/network/network_path.h"
 #include "io/geo/network/served_files.h"
 
@@ -26,8 +25,7 @@ namespace arete {
 namespace {
 
 constexpr std::size_t kHeadBytes = 1024;  // in which GDAL looks as well
-constexpr std::uint64_t kMostTextBytes = std::uint64_t(1) << 28;
-constexpr int kDeepestTexts = 8;
+constexpr int kDeepestTexts = 64;
 
 struct TreeCloser {
   void operator()(CPLXMLNode* tree) const { CPLDestroyXMLNode(tree); }
@@ -40,13 +38,6 @@ bool isVirtualText(std::string_view head) {
   return head.find("<VRTDataset") != head.npos || head.find("<OGRVRTDataSource") != head.npos;
 }
 
-bool namesNoOthers(const std::string& path) {
-  constexpr std::array<std::string_view, 26> kExtensions = {
-      "tif", "tiff", "hgt", "asc", "img", "nc", "jp2", "png", "jpg", "jpeg", "dt0", "dt1", "dt2",
-      "flt", "bil",  "dem", "grd", "hdf", "h5", "adf", "shp", "csv", "gpkg", "gml", "zip", "geojson"};
-  return std::ranges::find(kExtensions, text::lowerExtension(path)) != kExtensions.end();
-}
-
 bool namesFile(const CPLXMLNode& element) {
   constexpr std::array<const char*, 7> kNames = {"SourceFilename", "SourceDataset", "SrcDataSource",
                                                  "DEMPath",        "X_DATASET",     "Y_DATASET",
@@ -57,13 +48,19 @@ bool namesFile(const CPLXMLNode& element) {
          std::ranges::any_of(kNames, [&](const char* known) { return EQUAL(name, known); });
 }
 
+/// What is known of files while one VRT is looked into.
+struct Known {
+  std::map<std::string, bool> leadsToAddress;  ///< false also while the file is looked into
+  int depth = 0;
+};
+
 /// The name of a file under our prefix, if it is a VRT that leads to an address; otherwise its own.
-std::string servedFile(const std::string& path, int depth);
+std::string servedFile(const std::string& path, Known& known);
 
 /// The names in one VRT.
 class VirtualText {
  public:
-  VirtualText(std::string path, int depth) : path_(std::move(path)), depth_(depth) {}
+  VirtualText(std::string path, Known& known) : path_(std::move(path)), known_(known) {}
 
   /// @return Nothing if no name leads to an address.
   std::optional<std::string> served(const std::string& text) {
@@ -97,7 +94,7 @@ class VirtualText {
       content->pszValue = CPLStrdup(other.c_str());
     };
     if (isVirtualText(name)) {
-      if (const auto inner = VirtualText("", depth_ + 1).served(name)) {
+      if (const auto inner = VirtualText("", known_).served(name)) {
         leadsToAddress_ = true;
         set(*inner);
       }
@@ -114,7 +111,7 @@ class VirtualText {
     // A name that begins otherwise ("NETCDF:...") is GDAL's to understand.
     if (isRelative && name.find(':') != name.npos) return;
     const std::string whole = isRelative ? CPLProjectRelativeFilename(folder().c_str(), name.c_str()) : name;
-    const std::string served = depth_ < kDeepestTexts ? servedFile(whole, depth_ + 1) : whole;
+    const std::string served = servedFile(whole, known_);
     if (served != whole) leadsToAddress_ = true;
     if (!isRelative && served == whole) return;
     set(served);
@@ -132,30 +129,42 @@ class VirtualText {
   }
 
   std::string path_;
-  int depth_;
+  Known& known_;
   bool leadsToAddress_ = false;
 };
 
-std::string servedFile(const std::string& path, int depth) {
-  if (servedName().empty() || path.starts_with(servedName()) || path.starts_with("/vsistdin") ||
-      namesNoOthers(path))
-    return path;
+/// The text of a file that is a VRT; empty for others.
+std::string virtualTextOf(const std::string& path) {
   VSIStatBufL status;
   if (VSIStatExL(path.c_str(), &status, VSI_STAT_EXISTS_FLAG | VSI_STAT_NATURE_FLAG) != 0 ||
       !VSI_ISREG(status.st_mode))
-    return path;  // opening a pipe may block
+    return {};  // opening a pipe may block
   const std::unique_ptr<VSILFILE, VirtualFileCloser> file(VSIFOpenL(path.c_str(), "rb"));
-  if (!file) return path;
+  if (!file) return {};
   std::string text(kHeadBytes, ' ');
   text.resize(VSIFReadL(text.data(), 1, text.size(), file.get()));
-  if (!isVirtualText(text)) return path;
+  if (!isVirtualText(text)) return {};
   VSIFSeekL(file.get(), 0, SEEK_END);
-  const std::uint64_t size = VSIFTellL(file.get());
-  if (size > kMostTextBytes) return path;
+  text.resize(std::size_t(VSIFTellL(file.get())));
   VSIFSeekL(file.get(), 0, SEEK_SET);
-  text.resize(std::size_t(size));
   text.resize(VSIFReadL(text.data(), 1, text.size(), file.get()));
-  return VirtualText(path, depth).served(text) ? servedName() + "/" + path : path;
+  return text;
+}
+
+std::string servedFile(const std::string& path, Known& known) {
+  if (servedName().empty() || path.starts_with(servedName()) || path.starts_with("/vsistdin")) return path;
+  const std::string served = servedName() + "/" + path;
+  if (const auto found = known.leadsToAddress.find(path); found != known.leadsToAddress.end())
+    return found->second ? served : path;
+  if (known.depth >= kDeepestTexts) return path;
+  known.leadsToAddress[path] = false;
+  const std::string text = virtualTextOf(path);
+  if (text.empty()) return path;
+  ++known.depth;
+  const bool leads = VirtualText(path, known).served(text).has_value();
+  --known.depth;
+  known.leadsToAddress[path] = leads;
+  return leads ? served : path;
 }
 
 }  // namespace
@@ -165,21 +174,23 @@ std::optional<std::string> servedVirtualText(const ByteSource& source, const std
   const auto read = [&] {
     return source.read(0, std::as_writable_bytes(std::span(text.data(), text.size()))).has_value();
   };
-  if (!read() || !isVirtualText(text) || source.size() > kMostTextBytes) return std::nullopt;
+  if (!read() || !isVirtualText(text)) return std::nullopt;
   text.resize(std::size_t(source.size()));
   if (!read()) return std::nullopt;
-  return VirtualText(path, 0).served(text);
+  Known known;
+  return VirtualText(path, known).served(text);
 }
 
 std::string servedDatasetPath(const std::string& path) {
   constexpr std::string_view kVirtual = "vrt://";
   const std::string served = servedPath(path);
+  Known known;
   if (isVirtualText(served))  // the text itself, not the name of a file
-    return VirtualText("", 0).served(served).value_or(served);
-  if (!served.starts_with(kVirtual)) return servedFile(served, 0);
+    return VirtualText("", known).served(served).value_or(served);
+  if (!served.starts_with(kVirtual)) return servedFile(served, known);
   const std::size_t options = std::min(served.find('?'), served.size());
   const std::string file = served.substr(kVirtual.size(), options - kVirtual.size());
-  return std::string(kVirtual) + servedFile(file, 0) + served.substr(options);
+  return std::string(kVirtual) + servedFile(file, known) + served.substr(options);
 }
 
 }  // namespace arete

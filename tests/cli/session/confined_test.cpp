@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include "cli/arguments_fixture.h"
+#include "io/http_server.h"
 
 namespace arete::cli_test {
 namespace {
@@ -62,12 +63,31 @@ TEST_F(Confined, FilesThatNameOthersAreRefused) {
         "<GDAL_WMS><Service name=\"TMS\"><ServerUrl>http://127.0.0.1:9/${z}</ServerUrl></Service>"
         "</GDAL_WMS>");
   EXPECT_EQ(build("a.vrt", false).code, 0) << "GDAL can";
-  for (const char* name : {"a.vrt", "ogr.vrt", "wms.xml", "http://127.0.0.1:9/a.tif",
-                           "/vsicurl/http://127.0.0.1:9/a.tif", "/vsis3/bucket/a.tif"}) {
+  for (const char* name :
+       {"a.vrt", "ogr.vrt", "wms.xml", "http://127.0.0.1:9/a.tif", "/vsicurl/http://127.0.0.1:9/a.tif",
+        "/vsiarete/http://127.0.0.1:9/a.tif", "/vsiarete/a.vrt", "/vsis3/bucket/a.tif"}) {
     const Outcome outcome = build(name);
     EXPECT_EQ(outcome.code, 3) << name << outcome.err;
     EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
   }
+  // The sentence has the address alone: options may hold a secret.
+  const Outcome withOptions = build("/vsicurl?cookie=5ecret&url=http%3A%2F%2F127.0.0.1%3A9%2Fa.tif");
+  EXPECT_EQ(withOptions.code, 3) << withOptions.err;
+  EXPECT_NE(withOptions.err.find("http://127.0.0.1:9/a.tif"), std::string::npos) << withOptions.err;
+  EXPECT_EQ(withOptions.err.find("5ecret"), std::string::npos) << withOptions.err;
+}
+
+TEST_F(Confined, NoFormOfAnAddressMakesAConnection) {
+  test::HttpServer server({{"a.tif", read("dem.tif")}}, {});
+  const std::string address = server.address("a.tif");
+  std::string encoded = address;
+  for (std::size_t at = 0; (at = encoded.find_first_of(":/", at)) != encoded.npos; at += 3)
+    encoded.replace(at, 1, encoded[at] == ':' ? "%3A" : "%2F");
+  for (const std::string& name :
+       {address, "/vsicurl?url=" + encoded, "/vsiarete?url=" + encoded, "vrt:///vsicurl/" + address})
+    EXPECT_EQ(build(name).code, 3) << name;
+  EXPECT_EQ(server.requests("a.tif"), 0);
+  EXPECT_EQ(build(address, false).code, 0);
 }
 
 TEST_F(Confined, LinksLeadNowhereElse) {

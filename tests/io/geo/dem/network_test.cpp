@@ -185,6 +185,29 @@ TEST_F(Network, NeverTakesTooFewBytesOrThoseOfAnotherFile) {
   }
 }
 
+TEST_F(Network, ReadsTheFilesBesideItsOwnAndTellsAFailureFromAMissingOne) {
+  std::map<std::string, std::string> files = files_;
+  files["a.tif.aux.xml"] =
+      "<PAMDataset><PAMRasterBand band=\"1\"><NoDataValue>5</NoDataValue></PAMRasterBand></PAMDataset>";
+  CPLSetConfigOption("GDAL_HTTP_MAX_RETRY", "1");
+  for (const int status : {0, 403, 404, 500}) {
+    const HttpServer server(files, [&](const std::string& name, int) {
+      HttpFault fault;
+      if (name == "a.tif.aux.xml") fault.status = status;
+      return fault;
+    });
+    const auto read = readDem(server.address("a.tif"));
+    ASSERT_EQ(read.has_value(), status != 500) << (read ? "" : read.error().describe());
+    if (!read) {
+      EXPECT_TRUE(contains(read.error().message, "a.tif.aux.xml: the server answers 500"))
+          << read.error().describe();
+      continue;
+    }
+    const auto& heights = std::get<RasterHeightfield>(read->heightfield).heights;
+    EXPECT_EQ(std::isnan(heights[5]), status == 0) << status;
+  }
+}
+
 TEST_F(Network, EndsSoonAfterTheSignal) {
   for (const int from : {1, 2}) {
     HttpServer server(files_, [&](const std::string&, int number) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -104,13 +105,13 @@ class VirtualText : public ::testing::Test {
         write("options.vrt", vrtOf(sourceOf("/vsicurl?use_head=no&amp;url=" + encoded))),
         write("zip.vrt", vrtOf(sourceOf("/vsizip//vsicurl/" + zip + "/a.tif"))),
         write("braces.vrt", vrtOf(sourceOf("/vsizip/{/vsicurl/" + zip + "}/a.tif"))),
-        write("odd.extension", vrtOf(sourceOf("/vsicurl/" + address))),
+        write("odd.tif", vrtOf(sourceOf("/vsicurl/" + address))),
         write("warped.vrt", warpedOf("/vsicurl/" + address)),
         "vrt:///vsicurl/" + address + "?bands=1"};
     write("inner/inner.vrt", vrtOf(sourceOf(address)));
-    write("inner/inner.txt.xml", vrtOf(sourceOf("/vsicurl/" + address)));
+    write("inner/inner.img", vrtOf(sourceOf("/vsicurl/" + address)));
     paths.push_back(write("nested.vrt", vrtOf(sourceOf("inner/inner.vrt", true))));
-    paths.push_back(write("odd.vrt", vrtOf(sourceOf("inner/inner.txt.xml", true))));
+    paths.push_back(write("odd.vrt", vrtOf(sourceOf("inner/inner.img", true))));
     paths.push_back(write("whole.vrt", vrtOf(sourceOf(folder_.file("inner/inner.vrt")))));
     paths.push_back(write("twice.vrt", vrtOf(sourceOf("nested.vrt", true))));
     paths.push_back(write("text.vrt", vrtOf(sourceOf(escaped(vrtOf(sourceOf(address)))))));
@@ -277,6 +278,29 @@ TEST_F(VirtualText, InAnArchiveOnAServerNamesAddressesOfOtherServers) {
   }
 }
 
+TEST_F(VirtualText, IsReadAnewAfterAFailureAndAfterAChange) {
+  std::atomic<bool> lies = true, isChanged = false;
+  const std::string later = std::string(tile_).replace(tile_.size() - 400, 4, std::string(4, '\0'));
+  const HttpServer server(files_, [&](const std::string&, int number) {
+    HttpFault fault;
+    fault.isShort = lies && number > 1;
+    if (isChanged) fault.tag = "\"two\"", fault.content = later;
+    return fault;
+  });
+  const std::string tile = "/vsicurl/" + server.address("a.tif");
+  folder_.write("inner.vrt", vrtOf(sourceOf(tile)));
+  const std::string outer = folder_.write("outer.vrt", vrtOf(sourceOf("inner.vrt", true)));
+  EXPECT_FALSE(readDem(outer));
+  lies = false;
+  const auto first = readDem(outer);
+  ASSERT_TRUE(first) << first.error().describe();
+  isChanged = true;
+  const auto second = readDem(outer);
+  ASSERT_TRUE(second) << second.error().describe();
+  EXPECT_NE(std::get<RasterHeightfield>(second->heightfield).sourceChecksum,
+            std::get<RasterHeightfield>(first->heightfield).sourceChecksum);
+}
+
 TEST_F(VirtualText, WithoutAnAddressIsOpenedUnderItsOwnName) {
   folder_.write("a.tif", tile_);
   const std::string inner = folder_.write("inner.vrt", vrtOf(sourceOf("a.tif", true)));
@@ -286,6 +310,18 @@ TEST_F(VirtualText, WithoutAnAddressIsOpenedUnderItsOwnName) {
   const std::string itself = folder_.write("itself.vrt", vrtOf(sourceOf("itself.vrt", true)));
   for (const std::string& path : {inner, outer, crs, itself, folder_.file("a.tif"), folder_.file("none.vrt")})
     EXPECT_EQ(servedDatasetPath(path), path);
+}
+
+// Twelve files, each of which names the next one a hundred times, and the last one the first.
+TEST_F(VirtualText, LooksIntoEachFileOnce) {
+  for (int i = 0; i < 12; ++i) {
+    std::string sources;
+    for (int k = 0; k < 100; ++k) sources += sourceOf(fmt::format("{}.vrt", (i + 1) % 12), true);
+    folder_.write(fmt::format("{}.vrt", i), vrtOf(sources));
+  }
+  EXPECT_EQ(servedDatasetPath(folder_.file("0.vrt")), folder_.file("0.vrt"));
+  folder_.write("11.vrt", vrtOf(sourceOf("0.vrt", true) + sourceOf("http://127.0.0.1:9/a.tif")));
+  EXPECT_EQ(servedDatasetPath(folder_.file("0.vrt")), servedName() + "/" + folder_.file("0.vrt"));
 }
 
 TEST_F(VirtualText, OfALayerNamesAddressesToo) {
