@@ -13,6 +13,5 @@ from ._surface import Surface
 def open(path: PathLike, progress: Progress = None) -> Union[Model, Surface]:  # noqa: A001
     """Opens an .amt file: a Model of terrain or a Surface."""
     name = os.path.abspath(os.fspath(path))
-    if _arete.is_surface(name):
-        return Surface(_arete.open_surface(name, progress), name)
-    return Model(_arete.open_terrain(name, progress), name)
+    model = _arete.open_model(name, progress)
+    return Surface(model, name) if isinstance(model, _arete.Surface) else Model(model, name)

@@ -10,16 +10,16 @@
 #include <span>
 #include <string_view>
 #include <utility>
+#include <variant>
 
-#include "io/query/extract/model_file.h"
+#include "io/query/extract/model.h"
 #include "io/query/surface/build_model.h"
 #include "io/query/surface/region.h"
 #include "io/query/surface/write_model.h"
-#include "io/store/amt/container.h"
-#include "io/store/amt/surface_file.h"
 #include "measure/mesh_distance.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
+#include "python/bindings/terrain.h"
 #include "python/bindings/tin.h"
 #include "surface/front/front.h"
 #include "surface/region/closed_mesh_region.h"
@@ -29,6 +29,7 @@ namespace {
 
 namespace py = pybind11;
 using SurfacePtr = std::shared_ptr<SurfaceModel>;
+using AnyModel = std::variant<std::shared_ptr<Terrain>, SurfacePtr>;
 
 /// A region of space that Python keeps.
 struct RegionOfSpace {
@@ -183,18 +184,13 @@ void defineSurface(py::module_& module) {
                                         bool keepsBorders, const py::object& progress) {
     return buildArrays(vertices, triangles, optionsOf(isDisplaced, keepsBorders), progress);
   });
-  module.def("is_surface", [](const std::string& path) {
-    const Result<AmtContainer> container = openModelFile(path, {.isCopied = true});
-    if (!container) raise(container.error());
-    return container->isOfSurface();
-  });
-  module.def("open_surface", [](const std::string& path, const py::object& progress) {
-    return std::make_shared<SurfaceModel>(
-        call(progress, [&](const RunContext& context) -> Result<SurfaceModel> {
-          // Not mapped: another program may truncate the file while this one goes on.
-          ARETE_TRY(const AmtContainer container, openModelFile(path, {.isCopied = true}));
-          return loadSurfaceAmt(container, AmtVerify::all, context);
-        }));
+  module.def("open_model", [](const std::string& path, const py::object& progress) -> AnyModel {
+    // Not mapped: another program may truncate the file while this one goes on.
+    Model model = call(
+        progress, [&](const RunContext& context) { return openModel(path, {.isCopied = true}, context); });
+    if (auto* const terrain = std::get_if<TerrainModel>(&model))
+      return std::make_shared<Terrain>(std::move(*terrain));
+    return std::make_shared<SurfaceModel>(std::get<SurfaceModel>(std::move(model)));
   });
 }
 

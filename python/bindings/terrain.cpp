@@ -16,7 +16,6 @@
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/position_argument.h"
 #include "io/geo/dem/dem_reader.h"
-#include "io/query/extract/model_file.h"
 #include "io/query/extract/region_argument.h"
 #include "io/store/amt/file.h"
 #include "python/bindings/array_file.h"
@@ -286,14 +285,6 @@ void defineTerrain(py::module_& module) {
                                const std::string& crs, const std::string& shape, std::size_t features,
                                const py::object& progress) {
     return buildArray(heights, transform, crs, {shape, features}, progress);
-  });
-  module.def("open_terrain", [](const std::string& path, const py::object& progress) {
-    return std::make_shared<Terrain>(
-        // Not mapped: another program may truncate the file while this one goes on.
-        call(progress, [&](const RunContext& context) -> Result<TerrainModel> {
-          ARETE_TRY(const AmtFile file, openTerrainFile(path, {.isCopied = true}));
-          return file.read({}, context);
-        }));
   });
 }
 

@@ -28,8 +28,8 @@
 #include "engine/criteria/view_error.h"
 #include "engine/cut/cut.h"
 #include "io/formats/exchange/mesh_formats.h"
-#include "io/query/request/criterion.h"
 #include "io/query/extract/view_footprint.h"
+#include "io/query/request/criterion.h"
 
 namespace arete {
 namespace {
@@ -58,11 +58,16 @@ CutRequest readFor(const ExtractRequest& request) {
   return criterion;
 }
 
+/// Terrain is refined worst first unless another order is stated.
+bool isWorstFirst(const CutRequest& request) {
+  return request.order == CutOrder::usual || request.order == CutOrder::worst;
+}
+
 /// Whether the request is a budget of triangles and nothing else, worst first.
 bool isBudgetAlone(const ExtractRequest& request) {
   const CutRequest& c = request.criterion;
   return c.maxTriangles && !c.maxError && !c.camera && !c.focus && !request.region &&
-         !c.deadlineMilliseconds && c.method == CutMethod::minimal && c.order == CutOrder::worst &&
+         !c.deadlineMilliseconds && c.method == CutMethod::minimal && isWorstFirst(c) &&
          c.fit == CutFit::none;
 }
 
@@ -104,8 +109,8 @@ Result<PartAndCut> readForBudget(const AmtFile& file, const CutRequest& requeste
 /// first.
 bool isViewAlone(const ExtractRequest& request) {
   const CutRequest& c = request.criterion;
-  const bool isWorstFirst = c.method == CutMethod::minimal && c.order == CutOrder::worst;
-  return c.camera && (!c.maxTriangles || isWorstFirst) && !c.deadlineMilliseconds;
+  const bool isMinimalWorstFirst = c.method == CutMethod::minimal && isWorstFirst(c);
+  return c.camera && (!c.maxTriangles || isMinimalWorstFirst) && !c.deadlineMilliseconds;
 }
 
 /// Whether a cut of a part is that of the whole, apart from the effect of spheres (dependsOnSpheres()).
@@ -131,8 +136,8 @@ double refinedTriangles(const TerrainModel& part, const Criterion& criterion, co
   return cut ? static_cast<double>(cut->ids.size()) - part.mt.rootTriangleCount() : 0;
 }
 
-Result<PartAndCut> readForView(const AmtFile& file, const CutRequest& requested,
-                               const TerrainModel& outline, const RunContext& context) {
+Result<PartAndCut> readForView(const AmtFile& file, const CutRequest& requested, const TerrainModel& outline,
+                               const RunContext& context) {
   // The pixels that a budget comes to are not known. Half as many pixels take about twice the triangles.
   constexpr double kFirstGuess = 16, kMore = 1.5, kMost = 1.0 / 16;
   constexpr int kGuesses = 4;
