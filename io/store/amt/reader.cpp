@@ -21,7 +21,7 @@
 #include "io/store/packed/packed.h"
 #include "io/store/packed/surface/displacement_bytes.h"
 #include "io/store/packed/surface/source_numbers.h"
-#include "surface/model/face_heirs.h"
+#include "surface/model/face_successors.h"
 
 namespace arete {
 

@@ -51,7 +51,7 @@ struct CoderSpace {
 /// @tparam Form  what vertices and triangles carry (io/store/packed/heightfield/form.h,
 /// io/store/packed/surface/form.h): its
 ///               Geometry codes the vertices of a run, its Values their errors
-/// @tparam Io    the reader's (unpack.cpp) or the writer's (writer_io.h)
+/// @tparam Io    the reader's (packet_reader.cpp) or the writer's (writer_io.h)
 template <class Form, class Io>
 class NodeCoder {
  public:

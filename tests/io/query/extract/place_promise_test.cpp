@@ -24,8 +24,8 @@
 #include "engine/criteria/view_error.h"
 #include "full_run.h"
 #include "io/io_fixture.h"
-#include "io/query/request/criterion.h"
 #include "io/query/extract/part.h"
+#include "io/query/request/criterion.h"
 #include "terrain/builder/build.h"
 
 namespace arete {
