@@ -25,7 +25,7 @@ inline constexpr ColumnKey<std::uint16_t> kBelow{0}, kAbove{1};
 /// By triangle id, of a surface: the root mean square of the distances whose largest one is the error. Codes
 /// of MtArrays::scale.
 inline constexpr ColumnKey<std::uint16_t> kRms{2};
-inline constexpr unsigned kColumns = 3;
+inline constexpr unsigned kColumnKeys = 3;
 
 /// The columns of a multitriangulation. Cheap to copy: it refers to memory of others.
 class Columns {
@@ -54,7 +54,7 @@ class Columns {
     const void* data = nullptr;
     std::size_t size = 0;
   };
-  std::array<Entry, kColumns> entries_;
+  std::array<Entry, kColumnKeys> entries_;
 };
 
 }  // namespace arete
