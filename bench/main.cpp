@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// arete-bench: how fast, how large, how many triangles. Figures as JSON, as tables for docs/figures.md,
+// arete-bench: how fast, how large, how many triangles. Figures as JSON, as tables for bench/figures.md,
 // and two reports against each other. The parent process starts no thread: every stage runs in a child of its
 // own.
 #include <fmt/format.h>
