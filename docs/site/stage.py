@@ -20,7 +20,7 @@ ROOT_PAGES = {
     "CHANGELOG.md": "changelog.md",
     "bench/figures.md": "figures.md",
 }
-FOLDERS = "bench|cli|cmake|datasets|docs|engine|examples|gis|io|measure|python|surface|terrain|tests|viewer"
+FOLDERS = "bench|cli|cmake|datasets|docs|engine|examples|gis|io|measure|surface|terrain|tests|viewer"
 # A path from the root of the repository, in the text or in backticks.
 # `arete/engine/...` is an installed header.
 PATH = re.compile(rf"`((?:arete/)?(?:{FOLDERS})/[\w./-]*)`|(?<![\w/.`<(\[\"-])((?:{FOLDERS})/[\w./-]*\w|[A-Z]+\.md)\b/?")
