@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/caught_failure.h"
-#include "io/files/file_writer.h"
 #include "io/geo/crs/names.h"
 #include "io/query/certificate/parts.h"
 #include "io/query/certificate/report_json.h"
@@ -72,15 +71,12 @@ std::string certificateJson(const Certificate& certificate, const TerrainModel& 
   if (certificate.measuredInside)
     json["measuredInside"] = measuredJson(*certificate.measuredInside, model.isRaster);
   json["check"] = certificate.checkCommand;
-  // A path need not be UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return certificateText(json);
 }
 
 Status writeCertificate(const std::string& path, const Certificate& certificate,
                         const TerrainModel& model) try {
-  ARETE_TRY(FileWriter writer, FileWriter::create(path));
-  writer.write(certificateJson(certificate, model));
-  return writer.finish();
+  return writeCertificateText(path, certificateJson(certificate, model));
 } catch (...) {
   return caughtFailure(path);
 }

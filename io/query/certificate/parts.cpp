@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "io/files/file_writer.h"
 #include "io/geo/crs/names.h"
 
 namespace arete {
@@ -85,6 +86,17 @@ Json formatJson(const StatedFormat& format) {
   json["says"] = std::move(says);
   json["doesNotSay"] = std::move(missing);
   return json;
+}
+
+std::string certificateText(const Json& certificate) {
+  // A path need not be UTF-8.
+  return certificate.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Status writeCertificateText(const std::string& path, const std::string& text) {
+  ARETE_TRY(FileWriter writer, FileWriter::create(path));
+  writer.write(text);
+  return writer.finish();
 }
 
 }  // namespace arete

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "engine/base/result.h"
 #include "io/formats/common/file.h"
 #include "io/query/request/cut_request.h"
 
@@ -33,5 +34,11 @@ struct StatedFormat {
   std::string crsWkt, verticalUnit;  ///< of the source
 };
 nlohmann::ordered_json formatJson(const StatedFormat& format);
+
+/// A certificate as the text of its file.
+std::string certificateText(const nlohmann::ordered_json& certificate);
+
+/// Errors: those of FileWriter.
+Status writeCertificateText(const std::string& path, const std::string& text);
 
 }  // namespace arete

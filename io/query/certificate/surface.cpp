@@ -17,7 +17,6 @@
 
 #include "engine/base/caught_failure.h"
 #include "io/files/file_bytes.h"
-#include "io/files/file_writer.h"
 #include "io/geo/crs/names.h"
 #include "io/query/certificate/parts.h"
 #include "io/query/certificate/report_json.h"
@@ -143,15 +142,12 @@ std::string certificateJson(const SurfaceCertificate& c, const SurfaceModel& mod
   if (c.droppedComponents > 0)
     json["dropped"] = {{"components", c.droppedComponents}, {"faces", c.droppedFaces}};
   json["check"] = c.checkCommand;
-  // A path need not be UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return certificateText(json);
 }
 
 Status writeCertificate(const std::string& path, const SurfaceCertificate& certificate,
                         const SurfaceModel& model) try {
-  ARETE_TRY(FileWriter writer, FileWriter::create(path));
-  writer.write(certificateJson(certificate, model));
-  return writer.finish();
+  return writeCertificateText(path, certificateJson(certificate, model));
 } catch (...) {
   return caughtFailure(path);
 }
