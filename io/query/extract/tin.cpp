@@ -21,6 +21,7 @@
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/formats/exchange/written_mesh.h"
 #include "io/geo/dem/raster_writer.h"
+#include "io/query/request/check_request.h"
 #include "io/query/request/criterion.h"
 #include "terrain/model/plan_region.h"
 
@@ -104,6 +105,7 @@ Status checkExtractOutput(const std::string& path, const TerrainModel& model, co
 Result<TinExport> takeTin(const TerrainModel& model, const CutRequest& c, const std::optional<Region>& region,
                           double reserve, std::optional<Cut> taken, ExtractedTin& tin,
                           const RunContext& context) try {
+  ARETE_CHECK(checkRequest(c, ModelKind::terrain));
   const auto describe = [&](const Cut& cut) {
     tin.isComplete = cut.isComplete;
     tin.triangles = cut.triangles.size();

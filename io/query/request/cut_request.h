@@ -36,7 +36,8 @@ enum class CutFit {
 
 /// What a model is cut for: where, how fine, and what may end it. Lengths and errors are in the unit of the
 /// source: heights of terrain, distances of a surface; a share of the whole is resolved before
-/// (io/query/request/wholes.h). A field that is for one kind of model says so, and the other kind ignores it.
+/// (io/query/request/wholes.h). A field that is for one kind of model says so, and the other
+/// kind refuses it (io/query/request/check_request.h).
 struct CutRequest {
   std::optional<double> maxError = {};             ///< everywhere, inside the region, or at the focus
   std::optional<std::uint32_t> maxTriangles = {};  ///< a budget; without a maxError the error is as small as

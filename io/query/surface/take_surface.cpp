@@ -11,6 +11,7 @@
 #include "engine/base/caught_failure.h"
 #include "engine/base/counted.h"
 #include "engine/base/float_bounds.h"
+#include "io/query/request/check_request.h"
 #include "io/query/request/criterion.h"
 #include "surface/diagnosis/diagnosis.h"
 #include "surface/displacement/displaced_places.h"
@@ -59,6 +60,7 @@ SurfaceFront finestWithout(const SurfaceModel& model, const DroppedComponents* d
 
 Result<TakenSurface> takeSurface(const SurfaceModel& model, const CutRequest& request,
                                  const DroppedComponents* dropped, const RunContext& context) try {
+  ARETE_CHECK(checkRequest(request, ModelKind::surface));
   ARETE_TRY(const auto criterion, engineCriterion(request, model));
   TakenSurface taken;
   ARETE_TRY(Cut whole, cutOf(request, model, *criterion, dropped, context));
