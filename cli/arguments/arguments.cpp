@@ -296,6 +296,8 @@ Status checkOutput(const std::string& option, const std::string& path, const std
                    const std::vector<std::string>& outputs) {
   const std::string culprit = fmt::format("{} {}", option, path);
   if (path == kStandardOutput) return {};
+  if (path == kStandardStream)
+    return failure(ErrorCode::usage, "this output cannot go to stdout: it needs the name of a file", culprit);
   const auto isSame = [&](const std::string& other) {
     std::error_code ignored;
     return path == other || fs::equivalent(path, other, ignored);

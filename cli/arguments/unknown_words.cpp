@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Two names are similar if one contains the other ("--triangles", "--max-triangles"), or if few letters have
-// to be changed, left out or put in (the edit distance by dynamic programming, a row at a time).
+// to be changed, left out or put in (the edit distance by dynamic programming, a row at a time). What other
+// programs call an option is in a table.
 #include "cli/arguments/unknown_words.h"
 
 #include <fmt/format.h>
@@ -54,15 +55,59 @@ std::size_t unlikeness(std::string_view unknown, std::string_view name) {
   return distance <= std::max<std::size_t>(1, unknown.size() / 3) ? distance : std::string_view::npos;
 }
 
+/// What other programs call an option of ours.
+constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {{"tolerance", "max-error"},
+                                                                       {"error", "max-error"},
+                                                                       {"precision", "max-error"},
+                                                                       {"epsilon", "max-error"},
+                                                                       {"simplify", "max-error"},
+                                                                       {"simplify", "max-triangles"},
+                                                                       {"faces", "max-triangles"},
+                                                                       {"target", "max-triangles"},
+                                                                       {"count", "max-triangles"},
+                                                                       {"percent", "max-triangles"},
+                                                                       {"reduction", "max-triangles"},
+                                                                       {"epsg", "crs"},
+                                                                       {"srs", "crs"},
+                                                                       {"t-srs", "crs"},
+                                                                       {"s-srs", "crs"},
+                                                                       {"a-srs", "crs"},
+                                                                       {"projection", "crs"},
+                                                                       {"bbox", "region"},
+                                                                       {"bbox", "box"},
+                                                                       {"extent", "region"},
+                                                                       {"clip", "region"},
+                                                                       {"mask", "region"},
+                                                                       {"out", "output"},
+                                                                       {"outfile", "output"},
+                                                                       {"jobs", "threads"},
+                                                                       {"cores", "threads"},
+                                                                       {"silent", "quiet"},
+                                                                       {"verbose", "progress"},
+                                                                       {"force", "overwrite"},
+                                                                       {"compress", "packed"},
+                                                                       {"draco", "packed"},
+                                                                       {"srcnodata", "nodata"},
+                                                                       {"units", "unit"},
+                                                                       {"scale", "unit"},
+                                                                       {"holes", "fill-holes"},
+                                                                       {"merge", "weld"},
+                                                                       {"preserve-borders", "keep-borders"}};
+
 std::vector<std::string> similarOptions(const CLI::App& command, std::string_view unknown) {
   std::vector<std::pair<std::size_t, std::string>> found;
+  for (const auto& [other, ours] : kSynonyms)
+    if (unknown == other && command.get_option_no_throw("--" + std::string(ours)) != nullptr)
+      found.emplace_back(0, "--" + std::string(ours));
   for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames())
       if (const std::size_t unlike = unlikeness(unknown, name); unlike != std::string_view::npos)
         found.emplace_back(unlike, "--" + name);
   std::ranges::stable_sort(found, {}, &std::pair<std::size_t, std::string>::first);
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < std::min(found.size(), kMostSuggestions); ++i) names.push_back(found[i].second);
+  for (const auto& [unlike, name] : found)
+    if (names.size() < kMostSuggestions && std::ranges::find(names, name) == names.end())
+      names.push_back(name);
   return names;
 }
 

@@ -44,6 +44,16 @@ std::string wholeName(const CLI::App& command) {
   return (parent ? wholeName(*parent) + " " : "") + command.get_name();
 }
 
+/// "help mesh info" says "mesh info --help", and "version" says "--version".
+std::vector<std::string> withHelpAsOption(std::vector<std::string> words) {
+  if (words.front() == "version") words.front() = "--version";
+  if (words.front() == "help") {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  return words;
+}
+
 }  // namespace
 
 void declareProgram(CLI::App& app, Session& session) {
@@ -62,7 +72,7 @@ void declareProgram(CLI::App& app, Session& session) {
       "  arete measure tin.ply dem.tif --expect 5           the promise, checked independently\n"
       "  arete mesh info scan.ply                           what is the matter with a mesh\n"
       "\n" +
-      std::string(exitCodeTable()) + "\n\nCOMMAND --help lists the options of a command.");
+      std::string(exitCodeTable()) + "\n\nCOMMAND --help, or help COMMAND, lists the options of a command.");
   addBuildCommand(app, session);
   addInfoCommand(app, session);
   addExtractCommand(app, session);
@@ -88,21 +98,23 @@ ExitCode runProgram(int argc, char** argv) {
     std::fputs(app.help().c_str(), stderr);
     return ExitCode::usage;
   }
-  const std::vector<std::string> words(argv + 1, argv + argc);
+  const std::vector<std::string> words = withHelpAsOption({argv + 1, argv + argc});
   session.setWords(words);
   const bool wantsJson = std::ranges::count(words, "--json") > 0;
   if (const std::string sentence = unknownCommand(app, words); !sentence.empty())
     return session.refuse(sentence, "arete", wantsJson);
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them from the end
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {  // --help, --version
       app.exit(error);
       return std::fflush(stdout) == 0 ? ExitCode::ok : ExitCode::file;
     }
     const CLI::App& command = parsedCommand(app);
-    const bool hasExtras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
-    const std::string unknown = hasExtras ? unknownOption(command, words) : std::string();
+    // An option that does not exist says more than one that is missing for it.
+    const bool mayBeUnknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+                              dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    const std::string unknown = mayBeUnknown ? unknownOption(command, words) : std::string();
     return session.refuse(unknown.empty() ? error.what() : unknown, wholeName(command), wantsJson);
   }
   return session.runParsed();

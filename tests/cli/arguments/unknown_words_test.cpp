@@ -19,7 +19,16 @@ TEST_F(UnknownWords, AreNamedWithTheOptionsOfSimilarNames) {
   extract({"--regoin", "1,2,3,4"}, "there is no option --regoin; similar: --region");
   extract({"--frobnicate"}, "there is no option --frobnicate");
   extract({"-z", "3"}, "there is no option -z");
+  // Other programs' words.
+  extract({"--tolerance", "2"}, "there is no option --tolerance; similar: --max-error");
+  extract({"--bbox", "1,2,3,4"}, "there is no option --bbox; similar: --region");
+  extract({"--verbose"}, "there is no option --verbose; similar: --progress");
   extract({"other.amt"}, "The following argument was not expected: other.amt");
+}
+
+TEST_F(UnknownWords, AreNamedBeforeWhatIsMissingForThem) {
+  expectRefusal({"extract", "dem.amt", "--tolerance", "2"}, 2,
+                "there is no option --tolerance; similar: --max-error\nSee arete extract --help.\n");
 }
 
 TEST_F(UnknownWords, OfACommandOfACommandAreThose) {

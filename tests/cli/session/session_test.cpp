@@ -30,6 +30,26 @@ TEST_F(Sessions, HelpAndVersionAreAnswers) {
   }
   EXPECT_EQ(run({"--version"}).out.rfind("arete ", 0), 0u);
   EXPECT_EQ(run({}).code, 2);
+  // The words of git and of gdal.
+  EXPECT_EQ(run({"version"}).out, run({"--version"}).out);
+  EXPECT_EQ(run({"help"}).out, help.out);
+  EXPECT_EQ(run({"help", "build"}).out, run({"build", "--help"}).out);
+  EXPECT_EQ(run({"help", "mesh", "info"}).out, run({"mesh", "info", "--help"}).out);
+  expectRefusal({"help", "biuld"}, 2, "no command 'biuld'");
+}
+
+TEST_F(Sessions, WritesNoFileNamedAsStdout) {
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"build", "dem.tif", "-o", "-"},
+           {"viewshed", "dem.amt", "--observer", "1,1,2", "-o", "-"},
+           {"height", "dem.amt", "--points", "p.csv", "-o", "-"},
+           {"extract", "dem.amt", "--max-error", "1", "-o", "x.ply", "--certificate", "-"}}) {
+    SCOPED_TRACE(command.front());
+    const std::set<std::string> before = files();
+    EXPECT_EQ(run(command).code, 2);
+    EXPECT_EQ(files(), before);
+  }
+  expectRefusal({"build", "dem.tif", "-o", "-"}, 2, "--output -: this output cannot go to stdout");
 }
 
 TEST_F(Sessions, NamesTheCommandsItHas) {
