@@ -30,7 +30,7 @@ inline constexpr unsigned kColumnKeys = 3;
 /// The columns of a multitriangulation. Cheap to copy: it refers to memory of others.
 class Columns {
  public:
-  /// Empty if there is none. O(1).
+  /// Empty if the model has no such column. O(1).
   template <class T>
   std::span<const T> of(ColumnKey<T> key) const {
     const Entry& entry = entries_[key.index];

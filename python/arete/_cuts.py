@@ -34,8 +34,8 @@ class Camera:
     """Of the height: "agl", above the ground; "msl" or "ell", as the source's heights are."""
 
     def numbers(self) -> _arete.CameraNumbers:
-        return _arete.CameraNumbers(_numbers("position", self.position, 3), self.reference, float(self.azimuth),
-                                    float(self.pitch), float(self.fov), _numbers("viewport", self.viewport, 2))
+        return _arete.CameraNumbers(_of_camera("position", self.position, 3), self.reference, float(self.azimuth),
+                                    float(self.pitch), float(self.fov), _of_camera("viewport", self.viewport, 2))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -51,8 +51,8 @@ class SurfaceCamera:
     """Width and height of the picture in pixels."""
 
     def numbers(self) -> _arete.SurfaceCameraNumbers:
-        return _arete.SurfaceCameraNumbers(_numbers("eye", self.eye, 3), _numbers("target", self.target, 3), float(self.fov),
-                                           _numbers("viewport", self.viewport, 2))
+        return _arete.SurfaceCameraNumbers(_of_camera("eye", self.eye, 3), _of_camera("target", self.target, 3), float(self.fov),
+                                           _of_camera("viewport", self.viewport, 2))
 
 
 class Tin:
@@ -192,15 +192,7 @@ class Asked:
 
 def focus_of(focus: Any, count: int) -> Optional[Tuple[float, ...]]:
     """The place of a focus, checked."""
-    if focus is None:
-        return None
-    try:
-        numbers = tuple(float(value) for value in focus)
-    except (TypeError, ValueError):
-        raise TypeError(f"a focus is {count} numbers, not {focus!r}") from None
-    if len(numbers) != count or not all(math.isfinite(number) for number in numbers):
-        raise ValueError(f"a focus is {count} numbers, not {focus!r}")
-    return numbers
+    return None if focus is None else _numbers("a focus", focus, count)
 
 
 class Stored:
@@ -237,11 +229,15 @@ def _tin_of(*parts: Any) -> Tin:
     return Tin(_arete.Tin(*parts))
 
 
-def _numbers(name: str, values: Any, count: int) -> Tuple[float, ...]:
+def _of_camera(name: str, values: Any, count: int) -> Tuple[float, ...]:
+    return _numbers(f"the {name} of a camera", values, count)
+
+
+def _numbers(what: str, values: Any, count: int) -> Tuple[float, ...]:
     try:
         numbers = tuple(float(value) for value in values)
     except (TypeError, ValueError):
-        raise TypeError(f"the {name} of a camera is {count} numbers, not {values!r}") from None
+        raise TypeError(f"{what} is {count} numbers, not {values!r}") from None
     if len(numbers) != count or not all(math.isfinite(number) for number in numbers):
-        raise ValueError(f"the {name} of a camera is {count} numbers, not {values!r}")
+        raise ValueError(f"{what} is {count} numbers, not {values!r}")
     return numbers

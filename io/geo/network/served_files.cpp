@@ -62,7 +62,7 @@ class OtherFile final : public ByteSource {
   std::uint64_t size_ = 0;
 };
 
-/// A source, or why there is none.
+/// A source of the bytes, or the reason why it cannot be opened.
 struct Served {
   std::shared_ptr<const ByteSource> source;
   int error = 0;  ///< as in errno
