@@ -15,10 +15,13 @@
 #include <utility>
 #include <variant>
 
+#include "cli/session/output_argument.h"
 #include "engine/base/counted.h"
 #include "io/files/file_writer.h"
 #include "io/files/output_file.h"
+#include "io/files/text/length_unit.h"
 #include "io/formats/exchange/mesh_formats.h"
+#include "io/geo/crs/data_unit.h"
 
 namespace arete {
 namespace {
@@ -46,8 +49,14 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
   return parts;
 }
 
+/// A number, perhaps with a unit; whether that of the data is known is seen when the data is.
 std::string toleranceProblem(const std::string& text) {
-  const std::optional<double> value = numberOf(text);
+  std::optional<double> value = numberOf(text);
+  if (!value) {
+    const Result<StatedLength> length = parseLength(text, "");
+    if (!length) return length.error().message;
+    if (length->hasUnit()) value = length->number;
+  }
   if (!value || std::isnan(*value)) return fmt::format("'{}' is not a number", text);
   if (*value < 0) return fmt::format("an error cannot be below zero, as {} is", text);
   return {};
@@ -141,7 +150,8 @@ CLI::Validator shareOrTolerance(bool mayBeInfinite) {
     const bool isShare = text.ends_with('%');
     const std::string number = isShare ? text.substr(0, text.size() - 1) : text;
     if (std::string problem = toleranceProblem(number); !problem.empty()) return problem;
-    return (mayBeInfinite && !isShare) || std::isfinite(*numberOf(number))
+    // A length with a unit is finite.
+    return (mayBeInfinite && !isShare) || std::isfinite(numberOf(number).value_or(0))
                ? ""
                : fmt::format("'{}' is not a finite number", text);
   });
@@ -155,6 +165,48 @@ CLI::Validator tolerances() {
     }
     return {};
   });
+}
+
+CLI::Validator lengthAtLeast(double least) {
+  return validator([least](std::string& text) -> std::string {
+    std::optional<double> value = numberOf(text);
+    if (!value) {
+      const Result<StatedLength> length = parseLength(text, "");
+      if (!length) return length.error().message;
+      value = length->number;
+    }
+    if (!std::isfinite(*value)) return fmt::format("'{}' is not a finite number", text);
+    return *value >= least ? "" : fmt::format("must be {} or more, not {}", least, text);
+  });
+}
+
+Result<double> lengthOf(const std::string& option, const std::string& text,
+                        const Georeference& georeference) {
+  const std::string culprit = fmt::format("{} {}", option, text);
+  ARETE_TRY(const StatedLength length, parseLength(text, culprit));
+  return inDataUnit(length, heightUnitOf(georeference), culprit);
+}
+
+CLI::Validator groundLength(const std::string& option, std::string& stated) {
+  return validator([option, &stated](std::string& text) -> std::string {
+    if (numberOf(text)) return {};  // the checks behind this one refuse nan
+    const Result<StatedLength> length = parseLength(text, "");
+    if (!length) return length.error().message;
+    if (!length->hasUnit()) return {};
+    stated = fmt::format("{} {}", option, text);
+    text = fmt::format("{}", length->number * length->unitMetres);
+    return {};
+  });
+}
+
+Status checkGroundUnits(const Georeference& georeference, const std::vector<std::string>& stated) {
+  for (const std::string& one : stated)
+    if (!one.empty() && !(groundUnitOf(georeference).metres > 0))
+      return failure(ErrorCode::usage,
+                     "has a unit, and the terrain has no CRS: lengths along its ground are in the units of "
+                     "its map",
+                     one);
+  return {};
 }
 
 Result<std::vector<double>> parseNumbers(const std::string& option, const std::string& text) {
@@ -248,15 +300,20 @@ std::string inputPath(const std::string& path) {
 }
 
 // The formats are listed from the table of the writers, so that help and check never lag behind it.
-void MeshOutput::addTo(CLI::App& command, const std::string& help, const std::string& more) {
+void MeshOutput::addTo(CLI::App& command, const std::string& help, const std::string& more,
+                       std::vector<std::string> otherExtensions) {
   command
       .add_option("-o,--output", path,
                   fmt::format("{}: {}{}; - is stdout", help, writableMeshExtensions(), more))
-      ->required()
       ->type_name("FILE");
-  std::vector<std::string> names;
+  std::vector<std::string> names, extensions;
   for (const MeshFormat& known : meshFormats())
-    if (known.write) names.emplace_back(known.extension.substr(1));
+    if (known.write) {
+      names.emplace_back(known.extension.substr(1));
+      extensions.emplace_back(known.extension);
+    }
+  extensions.insert(extensions.end(), otherExtensions.begin(), otherExtensions.end());
+  addOutputArgument(command, path, std::move(extensions));
   command
       .add_option("--format", format,
                   fmt::format("Format of the output, where its name does not say it, as of a pipe: {}",
@@ -351,14 +408,6 @@ std::string withReliefShare(double error, const std::string& unit, std::optional
   return relief && *relief > 0 && std::isfinite(error)
              ? fmt::format("{} ({:.4g} % of the relief)", text, 100 * error / *relief)
              : text;
-}
-
-std::string byteCount(std::uint64_t bytes) {
-  if (bytes < 1000) return fmt::format("{} bytes", bytes);
-  // The limits are where the rounded number would have a digit more.
-  if (bytes < 999'950) return fmt::format("{:.1f} kB", static_cast<double>(bytes) / 1e3);
-  if (bytes < 999'950'000) return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
-  return fmt::format("{:.2f} GB", static_cast<double>(bytes) / 1e9);
 }
 
 }  // namespace arete

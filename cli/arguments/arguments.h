@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/session/byte_count.h"
 #include "cli/session/session.h"
 #include "engine/base/result.h"
 #include "io/files/existing_file.h"
@@ -41,6 +42,21 @@ CLI::Validator oneOf(const std::vector<std::pair<std::string, Enum>>& words) {
 CLI::Validator shareOrTolerance(bool mayBeInfinite = true);
 /// One or more tolerances with commas between, each perhaps with a percent sign.
 CLI::Validator tolerances();
+
+/// A finite length, perhaps with a unit.
+CLI::Validator lengthAtLeast(double least);
+/// The length in the unit of heights. Errors: usage, naming the option.
+Result<double> lengthOf(const std::string& option, const std::string& text, const Georeference& georeference);
+
+/// A length along the ground, in metres or with a unit, which becomes a number of metres.
+///
+/// @param stated gets "OPTION TEXT" where it has a unit, for checkGroundUnits(); must outlive the parser.
+CLI::Validator groundLength(const std::string& option, std::string& stated);
+/// Refuses a length with a unit where lengths along the ground are in the units of a map without a CRS.
+///
+/// @param stated of groundLength(); those that are empty have none.
+/// Errors: usage, naming the option.
+Status checkGroundUnits(const Georeference& georeference, const std::vector<std::string>& stated);
 
 /// Parses numbers with commas between. Errors: usage, naming the option and the part that is not a number.
 Result<std::vector<double>> parseNumbers(const std::string& option, const std::string& text);
@@ -78,8 +94,13 @@ std::string inputPath(const std::string& path);
 struct MeshOutput {
   std::string path, format;
 
-  /// Adds --output and --format. `help` begins the help of --output.
-  void addTo(CLI::App& command, const std::string& help, const std::string& more);
+  /// Adds --output, the same as an argument, and --format. Call behind the argument of the input.
+  ///
+  /// @param help begins the help of --output.
+  /// @param more ends it.
+  /// @param otherExtensions of what the command writes beside meshes: ".tif".
+  void addTo(CLI::App& command, const std::string& help, const std::string& more,
+             std::vector<std::string> otherExtensions = {});
   /// @return The path to write to. If that is stdout, the session leaves it to the mesh.
   std::string open(Session& session) const;
 };
@@ -104,7 +125,5 @@ std::string grouped(std::uint64_t count, std::string_view one, std::string_view 
 std::string withUnit(double value, const std::string& unit);
 /// "12.3 m", and "12.3 m (1.5 % of the relief)" where the relief is known.
 std::string withReliefShare(double error, const std::string& unit, std::optional<double> relief);
-/// "140.3 MB".
-std::string byteCount(std::uint64_t bytes);
 
 }  // namespace arete

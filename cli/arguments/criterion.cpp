@@ -14,6 +14,7 @@
 #include "cli/arguments/arguments.h"
 #include "engine/base/counted.h"
 #include "io/files/text/stated_size.h"
+#include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/position_argument.h"
 #include "io/query/extract/camera_argument.h"
 #include "terrain/locate/ground_height.h"
@@ -93,7 +94,9 @@ void CriterionArguments::addTo(CLI::App& command, OptionKinds& kinds) {
       command
           .add_option(
               "--distance", stated_.distance,
-              "Metres along the ground by which the region is extended (without a CRS: the DEM's units)")
+              "Length along the ground, in metres or with a unit, by which the region is extended (without a "
+              "CRS: the DEM's units)")
+          ->transform(groundLength("--distance", distanceWithUnit_))
           ->check(finiteAbove(0))
           ->needs(region)
           ->type_name("D")
@@ -301,10 +304,12 @@ std::string CriterionArguments::tagOf(const CutRequest& criterion, const std::st
 
 Result<std::vector<CriterionArguments::OfTerrain>> CriterionArguments::criteria(
     const TerrainModel& model) const {
+  ARETE_CHECK(checkGroundUnits(model.georeference, {distanceWithUnit_}));
   const double relief = statesShares() ? reliefOf(model) : 0;
+  const DataUnit unit = heightUnitOf(model.georeference);
   CutRequest request = common();
   if (!outsideErrorText_.empty()) {
-    ARETE_TRY(const auto outside, parseStatedSizes(outsideErrorText_, "--outside-error"));
+    ARETE_TRY(const auto outside, parseStatedSizes(outsideErrorText_, "--outside-error", &unit));
     if (outside.size() != 1) return failure(ErrorCode::usage, "takes one error", "--outside-error");
     request.outsideError = outside.front().of(relief);
   }
@@ -313,7 +318,7 @@ Result<std::vector<CriterionArguments::OfTerrain>> CriterionArguments::criteria(
 
   std::vector<OfTerrain> withErrors = {{request, ""}};
   if (!maxErrors_.empty()) {
-    ARETE_TRY(const auto errors, parseStatedSizes(maxErrors_, "--max-error"));
+    ARETE_TRY(const auto errors, parseStatedSizes(maxErrors_, "--max-error", &unit));
     withErrors.clear();
     for (const StatedSize& stated : errors) {
       const double error = stated.of(relief);
@@ -324,7 +329,8 @@ Result<std::vector<CriterionArguments::OfTerrain>> CriterionArguments::criteria(
                        fmt::format("{} is below the error {} inside; it must not be smaller",
                                    request.outsideError, error),
                        "--outside-error");
-      withErrors.push_back({request, stated.isShare ? stated.text : fmt::format("{}", error)});
+      withErrors.push_back(
+          {request, stated.isShare || stated.hasUnit ? stated.text : fmt::format("{}", error)});
       withErrors.back().criterion.maxError = error;
     }
   }

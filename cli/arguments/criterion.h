@@ -94,6 +94,7 @@ struct CriterionArguments {
   std::string method_ = "minimal", order_;
   std::string region_, regionCrs_;
   std::string outsideErrorText_;
+  std::string distanceWithUnit_;  // as checkGroundUnits() takes it
   std::string focus_;
   double growth_ = kUnstated;
   std::string camera_, look_, viewport_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/files/text/stated_size.h"
+#include "io/geo/crs/data_unit.h"
 #include "terrain/model/relief.h"
 
 namespace arete {
@@ -41,12 +42,14 @@ void addTerrainErrorTo(CLI::App& command, std::string& text, const std::string& 
 }
 
 bool isAboveZero(const std::string& text) {
-  const Result<StatedSize> stated = parseStatedSize(text, kOption);
+  const DataUnit any{1};  // whether it is above zero does not depend on the unit
+  const Result<StatedSize> stated = parseStatedSize(text, kOption, &any);
   return stated && stated->number > 0;
 }
 
 Result<TerrainError> terrainErrorOf(const std::string& text, const AmtFile& file, const Session& session) {
-  ARETE_TRY(const StatedSize stated, parseStatedSize(text, kOption));
+  const DataUnit unit = heightUnitOf(file.model().georeference);
+  ARETE_TRY(const StatedSize stated, parseStatedSize(text, kOption, &unit));
   if (!stated.isShare) return TerrainError{stated.number};
   ARETE_TRY(const TerrainModel whole, file.read({}, session.context()));
   const double relief = reliefOf(whole);

@@ -26,6 +26,7 @@
 #include "engine/base/stopwatch.h"
 #include "io/files/text/stated_size.h"
 #include "io/files/text_scan.h"
+#include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/names.h"
 #include "io/geo/dem/dem_reader.h"
 #include "io/geo/table/plan_point_reader.h"
@@ -70,7 +71,9 @@ Result<FixedVertexOptions> fixedOptions(const BuildArguments& arguments, std::sp
   FixedVertexOptions fixed;
   fixed.features->count = arguments.featureCount;
   if (!arguments.featurePersistence.empty()) {
-    ARETE_TRY(const auto stated, parseStatedSize(arguments.featurePersistence, "--feature-persistence"));
+    const DataUnit unit = heightUnitOf(georeference);
+    ARETE_TRY(const auto stated,
+              parseStatedSize(arguments.featurePersistence, "--feature-persistence", &unit));
     const std::optional<double> relief = stated.isShare ? std::optional(reliefOf(heights)) : std::nullopt;
     // A stated persistence replaces the number of features, which is then unlimited.
     fixed.features->count = std::numeric_limits<std::size_t>::max();

@@ -128,7 +128,7 @@ void addConvertCommand(CLI::App& app, Session& session) {
   command->add_option("MESH", arguments->input, "Triangle mesh: " + readableMeshExtensions() + "; or .amt")
       ->required()
       ->type_name("");
-  arguments->output.addTo(*command, "File to write", "; .amt from .amt");
+  arguments->output.addTo(*command, "File to write", "; .amt from .amt", {".amt"});
   addOverwriteTo(*command, arguments->existing);
   command->add_flag("--packed", arguments->isPacked,
                     "Write an .amt in the compressed form (default: the plain one)");

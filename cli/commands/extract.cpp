@@ -41,12 +41,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// --certificate has an optional value, and CLI11 takes the next word for it: FILE.amt, if that comes last.
+/// --certificate has an optional value, and CLI11 takes the next word for it: FILE.amt, or the output, if
+/// that comes last.
 CLI::Validator notTheModel() {
   return CLI::Validator(
       [](std::string& text) -> std::string {
-        if (fs::path(text).extension() != ".amt") return {};
-        return fmt::format("'{}' cannot be the certificate; put FILE.amt before --certificate", text);
+        const bool isModel = fs::path(text).extension() == ".amt";
+        if (!isModel && !meshFormatOf(text, "") && !isGeoTiffName(text)) return {};
+        return fmt::format("'{}' cannot be the certificate; put {} before --certificate", text,
+                           isModel ? "FILE.amt" : "the output");
       },
       "");
 }
@@ -257,7 +260,8 @@ void addExtractCommand(CLI::App& app, Session& session) {
   arguments->output.addTo(
       *command, "File to write",
       ", or .tif (the TIN sampled on the source grid). {} in the name becomes the tolerance; "
-      "with several tolerances and no {}, _E is put before the extension");
+      "with several tolerances and no {}, _E is put before the extension",
+      {".tif", ".tiff"});
   addOverwriteTo(*command, arguments->existing);
   OptionKinds& kinds = arguments->kinds;
   arguments->criterion.addTo(*command, kinds);

@@ -14,6 +14,7 @@
 #include "cli/surface/info.h"
 #include "engine/base/counted.h"
 #include "io/files/text/stated_size.h"
+#include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/names.h"
 #include "io/query/extract/model_file.h"
 #include "io/store/amt/file.h"
@@ -182,7 +183,8 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
   // Stated shares are of the relief, which only the model knows.
   std::vector<double> tolerances = toleranceLadder(model.mt, arguments.curvePoints);
   if (!arguments.at.empty()) {
-    ARETE_TRY(const auto stated, parseStatedSizes(arguments.at, "--at"));
+    const DataUnit unit = heightUnitOf(model.georeference);
+    ARETE_TRY(const auto stated, parseStatedSizes(arguments.at, "--at", &unit));
     tolerances.clear();
     for (const StatedSize& size : stated) tolerances.push_back(size.of(facts.relief));
   }

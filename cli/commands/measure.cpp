@@ -20,6 +20,7 @@
 #include "io/files/text/address_text.h"
 #include "io/files/text/stated_size.h"
 #include "io/formats/exchange/mesh_formats.h"
+#include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/names.h"
 #include "io/geo/dem/dem_reader.h"
@@ -38,7 +39,7 @@ struct MeasureArguments {
   std::string tin;
   DemArguments dem;
   std::string expectText;
-  std::optional<StatedSize> expect;
+  std::string distanceWithUnit;  // as checkGroundUnits() takes it
   std::string region, regionCrs, errorRaster;
   double distance = 0;
   bool allowCoveredNodata = false, measuresBothWays = false;
@@ -107,6 +108,7 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
   constexpr bool isRaster = std::is_same_v<Heightfield, RasterHeightfield>;
   const Georeference& georeference = field.georeference;
   compareFrames(tin, georeference, session);
+  ARETE_CHECK(checkGroundUnits(georeference, {arguments.distanceWithUnit}));
   ARETE_TRY(const auto mask, maskOf(arguments, field, session));
   MeasureOptions options;
   options.mask = mask;
@@ -116,9 +118,14 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
                                                 arguments.errorRaster.empty() ? nullptr : &rasters));
   if (!arguments.errorRaster.empty()) ARETE_CHECK(writeErrors(arguments, field, rasters, session));
 
-  const bool expects = arguments.expect.has_value();
+  const bool expects = !arguments.expectText.empty();
   const double relief = expects ? reliefOf(field.heights) : 0;
-  const double expected = expects ? arguments.expect->of(relief) : 0;
+  double expected = 0;
+  if (expects) {
+    const DataUnit unit = heightUnitOf(georeference);
+    ARETE_TRY(const auto stated, parseStatedSize(arguments.expectText, "--expect", &unit));
+    expected = stated.of(relief);
+  }
   const Status promise =
       expects ? checkPromise(report, expected, {.allowCoveredNodata = arguments.allowCoveredNodata})
               : Status();
@@ -153,10 +160,6 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
 }
 
 Status runMeasure(MeasureArguments arguments, Session& session) {
-  if (!arguments.expectText.empty()) {
-    ARETE_TRY(auto stated, parseStatedSize(arguments.expectText, "--expect"));
-    arguments.expect = std::move(stated);
-  }
   const Result<AmtContainer> model = openModelFile(arguments.dem.path);
   const bool isAgainstMesh = isMeshFile(arguments.dem.path) || (model && model->isOfSurface());
   ARETE_CHECK(checkKind(arguments, isAgainstMesh));
@@ -164,7 +167,7 @@ Status runMeasure(MeasureArguments arguments, Session& session) {
     MeasureMeshesArguments meshes;
     meshes.first = arguments.tin;
     meshes.second = arguments.dem.path;
-    meshes.expect = arguments.expect;
+    meshes.expect = arguments.expectText;
     meshes.measuresBothWays = arguments.measuresBothWays;
     meshes.samples = arguments.samples;
     if (arguments.seed >= 0) meshes.seed = arguments.seed;
@@ -234,7 +237,9 @@ void addMeasureCommand(CLI::App& app, Session& session) {
       command
           ->add_option(
               "--distance", arguments->distance,
-              "Metres along the ground by which the region is extended (without a CRS: the DEM's units)")
+              "Length along the ground, in metres or with a unit, by which the region is extended (without a "
+              "CRS: the DEM's units)")
+          ->transform(groundLength("--distance", arguments->distanceWithUnit))
           ->check(finiteAbove(0))
           ->needs(region)
           ->type_name("D"));

@@ -15,8 +15,10 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/commands/mesh_distance_text.h"
+#include "io/files/text/stated_size.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/formats/exchange/metric_mesh.h"
+#include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/names.h"
 #include "io/query/certificate/report_json.h"
 #include "io/query/extract/model_file.h"
@@ -162,9 +164,14 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
   const double moved = *metric ? longest((*metric)->firstUnits) * first.positionError +
                                      longest((*metric)->secondUnits) * second.positionError
                                : first.positionError + second.positionError;
-  const bool expects = arguments.expect.has_value();
+  const bool expects = !arguments.expect.empty();
   const double diagonal = report->second.diagonal;
-  const double expected = expects ? arguments.expect->of(diagonal) : 0;
+  double expected = 0;
+  if (expects) {
+    const DataUnit unitOfDistances = *metric ? DataUnit{1} : spaceUnitOf(second.crsWkt, second.verticalUnit);
+    ARETE_TRY(const auto stated, parseStatedSize(arguments.expect, "--expect", &unitOfDistances));
+    expected = stated.of(diagonal);
+  }
   const PromisedWay way = arguments.measuresBothWays ? PromisedWay::both : PromisedWay::fromSecond;
   // A promise is broken by what is found, and proven by what is certain of the source itself.
   const Status promise = expects ? checkDistance(*report, expected, way) : Status();

@@ -6,16 +6,15 @@
 #include <string>
 
 #include "cli/session/session.h"
-#include "io/files/text/stated_size.h"
 
 namespace arete {
 
 /// The arguments of `arete measure MESH MESH`.
 struct MeasureMeshesArguments {
   std::string first, second;
-  std::optional<StatedSize> expect;  ///< a share is of the second's diagonal; missing: not stated
-  bool measuresBothWays = false;     ///< expects it of the points of both meshes, not of the second's alone
-  std::int64_t samples = 0;          ///< 0: the library's default
+  std::string expect;             ///< --expect; a share is of the second's diagonal; empty: not stated
+  bool measuresBothWays = false;  ///< expects it of the points of both meshes, not of the second's alone
+  std::int64_t samples = 0;       ///< 0: the library's default
   std::int64_t seed = 1;
   std::string errorMesh;  ///< empty: none
 };

@@ -18,10 +18,12 @@
 #include "cli/commands/info.h"
 #include "cli/commands/measure.h"
 #include "cli/commands/validate.h"
+#include "cli/manual/help_page.h"
 #include "cli/manual/manual.h"
 #include "cli/mesh/mesh.h"
 #include "cli/session/exit_code.h"
 #include "cli/session/interrupt.h"
+#include "cli/session/output_argument.h"
 #include "cli/session/session.h"
 #include "cli/sight/los.h"
 #include "cli/sight/profile.h"
@@ -49,7 +51,7 @@ std::vector<std::string> withHelpAsOption(std::vector<std::string> words) {
   if (words.front() == "version") words.front() = "--version";
   if (words.front() == "help") {
     words.erase(words.begin());
-    words.emplace_back("--help");
+    if (std::ranges::find(words, "--help-all") == words.end()) words.emplace_back("--help");
   }
   return words;
 }
@@ -61,7 +63,10 @@ void declareProgram(CLI::App& app, Session& session) {
       "Arete turns a digital elevation model or a triangle mesh into one multitriangulation and\n"
       "takes meshes of any tolerance from it, with an error that can be measured independently.");
   app.name("arete");
-  app.set_version_flag("--version", "arete " ARETE_VERSION);
+  app.set_version_flag("--version", "arete " ARETE_VERSION, "Print the version");
+  app.formatter(helpPages());  // of all commands that are added from here on
+  app.set_help_flag("-h,--help", "Show the common options, and examples");
+  app.set_help_all_flag("--help-all", "Show all options");
   app.require_subcommand(1);
   app.footer(
       "Examples:\n"
@@ -72,7 +77,9 @@ void declareProgram(CLI::App& app, Session& session) {
       "  arete measure tin.ply dem.tif --expect 5           the promise, checked independently\n"
       "  arete mesh info scan.ply                           what is the matter with a mesh\n"
       "\n" +
-      std::string(exitCodeTable()) + "\n\nCOMMAND --help, or help COMMAND, lists the options of a command.");
+      std::string(exitCodeTable()) +
+      "\n\nCOMMAND --help, or help COMMAND, shows the common options of a command and examples;\n"
+      "COMMAND --help-all shows all of its options.");
   addBuildCommand(app, session);
   addInfoCommand(app, session);
   addExtractCommand(app, session);
@@ -112,8 +119,11 @@ ExitCode runProgram(int argc, char** argv) {
     }
     const CLI::App& command = parsedCommand(app);
     // An option that does not exist says more than one that is missing for it.
-    const bool mayBeUnknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
-                              dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    // The value of such an option may have been taken for the output.
+    const bool mayBeUnknown =
+        dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+        dynamic_cast<const CLI::RequiredError*>(&error) != nullptr ||
+        (dynamic_cast<const CLI::ValidationError*>(&error) != nullptr && hasOutputArgument(command));
     const std::string unknown = mayBeUnknown ? unknownOption(command, words) : std::string();
     return session.refuse(unknown.empty() ? error.what() : unknown, wholeName(command), wantsJson);
   }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 namespace arete {
 namespace {
@@ -35,7 +36,40 @@ std::vector<std::string> choicesOf(const std::string& value) {
   return choices;
 }
 
+/// The long names of some options, in the order in which the command declares them.
+std::string namesOf(const CLI::App& app, const std::set<CLI::Option*>& options) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options({}))
+    if (options.contains(const_cast<CLI::Option*>(option))) names.push_back(option->get_name());
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// What a check of the parser's own adds to the type, "N:INT in [1 - 4096]", in words.
+std::string rangeOf(const std::string& type) {
+  const std::size_t open = type.find(" in ["), between = type.find(" - ", std::min(open, type.size()));
+  if (open == type.npos || between == type.npos || !type.ends_with(']')) return {};
+  return fmt::format("from {} to {}", type.substr(open + 5, between - open - 5),
+                     type.substr(between + 3, type.size() - between - 4));
+}
+
+std::vector<std::string> constraintsOf(const CLI::App& app, const CLI::Option& option) {
+  std::vector<std::string> all;
+  if (option.get_required() && option.nonpositional()) all.emplace_back("required");
+  if (const std::string range = rangeOf(option.get_type_name()); !range.empty()) all.push_back(range);
+  if (!option.get_needs().empty())
+    all.push_back(fmt::format("with {} only", namesOf(app, option.get_needs())));
+  if (!option.get_excludes().empty())
+    all.push_back(fmt::format("not with {}", namesOf(app, option.get_excludes())));
+  return all;
+}
+
 }  // namespace
+
+std::string DeclaredOption::textWithConstraints() const {
+  std::string whole = text;
+  for (const std::string& constraint : constraints) whole += "; " + constraint;
+  return whole;
+}
 
 std::string DeclaredCommand::joined(std::string_view between) const {
   return fmt::format("{}", fmt::join(words, between));
@@ -67,6 +101,7 @@ std::vector<DeclaredOption> declaredOptions(const CLI::App& app) {
     std::ranges::replace(one.text, '\n', ' ');
     one.group = option->get_group();
     one.isRequired = option->get_required();
+    one.constraints = constraintsOf(app, *option);
     all.push_back(std::move(one));
   }
   return all;

@@ -26,7 +26,11 @@ struct DeclaredOption {
   std::string value;                 ///< "FILE"; empty: a flag
   std::vector<std::string> choices;  ///< where the value is one of some words
   std::string text, group;
+  std::vector<std::string> constraints;  ///< "with --camera only", "not with --region", "from 1 to 8"
   bool isArgument = false, isRequired = false;
+
+  /// The text, with what constrains the option behind it.
+  std::string textWithConstraints() const;
 };
 std::vector<DeclaredOption> declaredOptions(const CLI::App& app);
 

@@ -42,8 +42,7 @@ void addOptions(const std::vector<DeclaredOption>& options, const std::string& g
     for (const std::string& name : option.names)
       names += fmt::format("{}\\fB{}\\fR", names.empty() ? "" : ", ", escaped(name));
     if (!option.value.empty()) names += fmt::format(" \\fI{}\\fR", escaped(option.value));
-    page += names + "\n" + escaped(option.text) +
-            (option.isRequired && !option.isArgument ? " (required)\n" : "\n");
+    page += names + "\n" + escaped(option.textWithConstraints()) + "\n";
   }
 }
 

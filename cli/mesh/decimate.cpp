@@ -118,7 +118,7 @@ Error tooFew(const std::string& budget, std::uint64_t least, const std::string& 
 }
 
 Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
-                         std::optional<std::uint32_t> maxTriangles, Session& session) {
+                         std::optional<std::uint32_t> maxTriangles, const DataUnit& unit, Session& session) {
   SurfaceBuildOptions options;
   options.keepsBorders = arguments.keepsBorders;
   // A cut of so many triangles has what is coarser than a quarter of them whole.
@@ -132,7 +132,7 @@ Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
                                  finestSurfaceOf(model).mesh));
   if (!arguments.maxError.empty()) {
     ARETE_TRY(const auto tolerances,
-              parseSurfaceTolerances("--max-error", arguments.maxError, model.diagonal));
+              parseSurfaceTolerances("--max-error", arguments.maxError, model.diagonal, unit));
     if (tolerances.size() != 1) return failure(ErrorCode::usage, "takes one distance", "--max-error");
     request.maxError = tolerances.front().distance;
   }
@@ -216,8 +216,8 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
 
   SmallComponents dropped;
   if (!arguments.dropParts.empty()) {
-    ARETE_TRY(const auto least,
-              parseSurfaceTolerances("--drop-parts", arguments.dropParts, diagonalOf(file.mesh)));
+    ARETE_TRY(const auto least, parseSurfaceTolerances("--drop-parts", arguments.dropParts,
+                                                       diagonalOf(file.mesh), spaceUnitOf(file)));
     if (least.size() != 1) return failure(ErrorCode::usage, "takes one length", "--drop-parts");
     ARETE_TRY(SmallComponents without, withoutSmallComponents(file.mesh, least.front().distance));
     dropped = std::move(without);
@@ -233,9 +233,10 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
   }
   Stopwatch working;
   const double diagonal = diagonalOf(file.mesh);
-  Result<Outcome> outcome = arguments.method == "measured"
-                                ? measured(std::move(file.mesh), arguments, maxTriangles, session)
-                                : contracted(file.mesh, arguments, *maxTriangles, session);
+  Result<Outcome> outcome =
+      arguments.method == "measured"
+          ? measured(std::move(file.mesh), arguments, maxTriangles, spaceUnitOf(file), session)
+          : contracted(file.mesh, arguments, *maxTriangles, session);
   if (!outcome) {
     Error error = outcome.error();
     if (error.culprit.empty()) error.culprit = arguments.input;

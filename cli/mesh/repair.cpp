@@ -20,6 +20,7 @@
 #include "cli/mesh/diagnosis_text.h"
 #include "cli/mesh/findings.h"
 #include "engine/base/counted.h"
+#include "io/files/text/length_unit.h"
 #include "io/formats/exchange/convert.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/query/surface/mesh_input.h"
@@ -45,15 +46,18 @@ struct WeldDistance {
   std::optional<double> share;  ///< percent of the diagonal, if it was stated so
 };
 
-Result<WeldDistance> weldDistance(const std::string& text, const TriangleMesh& mesh) {
+Result<WeldDistance> weldDistance(const std::string& text, const MeshFile& file) {
+  const TriangleMesh& mesh = file.mesh;
   const bool isPercent = text.ends_with('%');
-  ARETE_TRY(const auto number,
-            parseNumbers(fmt::format("--weld {}", text), isPercent ? text.substr(0, text.size() - 1) : text));
-  if (number.size() != 1 || !(number[0] >= 0) || !std::isfinite(number[0]))
+  const std::string culprit = fmt::format("--weld {}", text);
+  ARETE_TRY(const StatedLength length,
+            parseLength(isPercent ? text.substr(0, text.size() - 1) : text, culprit));
+  ARETE_TRY(const double number, inDataUnit(length, spaceUnitOf(file), culprit));
+  if ((isPercent && length.hasUnit()) || !(number >= 0) || !std::isfinite(number))
     return failure(ErrorCode::usage,
                    "must be a distance of 0 or more, or such a number and % of the diagonal",
                    fmt::format("--weld {}", text));
-  WeldDistance distance{.size = number[0], .share = {}};
+  WeldDistance distance{.size = number, .share = {}};
   if (isPercent) {
     distance.share = distance.size;
     const double diagonal = diagonalOf(mesh);
@@ -200,7 +204,7 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
   std::optional<Welded> welded;
   if (!arguments.weld.empty()) {
     SurfaceMesh& mesh = input.file.mesh;
-    ARETE_TRY(const WeldDistance distance, weldDistance(arguments.weld, mesh));
+    ARETE_TRY(const WeldDistance distance, weldDistance(arguments.weld, input.file));
     welded = Welded{.distance = distance, .diagonal = diagonalOf(mesh)};
   } else if (const auto distance = distanceOfNearBorders(input, session.context()); !distance) {
     return tl::unexpected(distance.error());

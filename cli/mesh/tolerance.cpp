@@ -7,12 +7,14 @@
 #include <utility>
 
 #include "io/files/text/stated_size.h"
+#include "io/geo/crs/data_unit.h"
 
 namespace arete {
 
 Result<std::vector<SurfaceTolerance>> parseSurfaceTolerances(const std::string& option,
-                                                             const std::string& text, double diagonal) {
-  ARETE_TRY(const std::vector<StatedSize> sizes, parseStatedSizes(text, option));
+                                                             const std::string& text, double diagonal,
+                                                             const DataUnit& unit) {
+  ARETE_TRY(const std::vector<StatedSize> sizes, parseStatedSizes(text, option, &unit));
   std::vector<SurfaceTolerance> tolerances;
   for (const StatedSize& size : sizes) {
     const double distance = size.of(diagonal);
@@ -21,6 +23,14 @@ Result<std::vector<SurfaceTolerance>> parseSurfaceTolerances(const std::string& 
     tolerances.push_back({size.text, distance});
   }
   return tolerances;
+}
+
+DataUnit spaceUnitOf(const SurfaceModel& model) {
+  return spaceUnitOf(model.crsWkt, model.verticalUnit);
+}
+
+DataUnit spaceUnitOf(const MeshFile& file) {
+  return spaceUnitOf(file.crsWkt, file.verticalUnit);
 }
 
 std::string withShare(double distance, double diagonal) {

@@ -5,6 +5,9 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "io/files/text/length_unit.h"
+#include "io/formats/common/file.h"
+#include "surface/model/surface_model.h"
 
 namespace arete {
 
@@ -15,10 +18,18 @@ struct SurfaceTolerance {
   bool operator==(const SurfaceTolerance&) const = default;
 };
 
-/// Parses tolerances with commas between: "0.01", "0.5%", "inf". Errors: usage, naming the option and the
-/// part that is no distance.
+/// Parses tolerances with commas between: "0.01", "0.5%", "2mm", "inf".
+///
+/// @param unit of the mesh.
+/// Errors: usage, naming the option and the part that is no distance, or whose unit cannot be turned into
+/// that of the mesh.
 Result<std::vector<SurfaceTolerance>> parseSurfaceTolerances(const std::string& option,
-                                                             const std::string& text, double diagonal);
+                                                             const std::string& text, double diagonal,
+                                                             const DataUnit& unit);
+
+/// The unit of a model, or of a mesh in a file.
+DataUnit spaceUnitOf(const SurfaceModel& model);
+DataUnit spaceUnitOf(const MeshFile& file);
 
 /// "0.0123 (0.48 % of the diagonal)".
 std::string withShare(double distance, double diagonal);

@@ -12,14 +12,18 @@
 #include <new>
 #include <utility>
 
+#include "cli/session/byte_count.h"
 #include "cli/session/interrupt.h"
+#include "cli/session/next_step.h"
 #include "cli/session/option_names.h"
+#include "cli/session/output_argument.h"
 #include "cli/session/progress_bar.h"
 #include "cli/session/proj_guard.h"
 #include "engine/memory/pages.h"
 #include "engine/parallel/thread_limit.h"
 #include "io/files/text/address_text.h"
 #include "io/files/watched_files.h"
+#include "io/files/written_files.h"
 #include "io/geo/gdal/confined.h"
 #include "io/geo/gdal/unclaimed_messages.h"
 
@@ -79,6 +83,20 @@ Json withoutQueriesIn(Json value) {
   return value;
 }
 
+/// The files that were written, as the answer lists them. What was there before them is named apart.
+void addFilesTo(Json& answer) {
+  const std::vector<WrittenFile> written = writtenFiles();
+  if (written.empty() || !answer.is_object()) return;
+  Json files = Json::array(), replaced = Json::array();
+  for (const WrittenFile& file : written) {
+    files.push_back({{"path", file.path}, {"bytes", file.bytes}});
+    if (file.olderBytes && !file.isAddedTo)
+      replaced.push_back({{"path", file.path}, {"bytes", *file.olderBytes}});
+  }
+  if (!answer.contains("files")) answer["files"] = std::move(files);
+  answer["replaced"] = std::move(replaced);
+}
+
 }  // namespace
 
 CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std::string& summary,
@@ -105,6 +123,7 @@ CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std:
   // The command runs after parsing has ended, and not within it, so that its errors are not taken for those
   // in the arguments.
   command->callback([this, command, run = std::move(run)] {
+    requireOneOutput(*command);
     run_ = run;
     command_ = command;
   });
@@ -118,12 +137,14 @@ ExitCode Session::runParsed() {
   if (threads_ > 0) limit.emplace(threads_);
   ExitCode code = ExitCode::ok;
   try {
+    listWrittenFiles();
     Status status = prepareGdal();
     if (status) status = run_(*this);
     if (Status explained = explain(std::move(status)); explained)
       progressBar().finishLine();
     else
       code = fail(explained.error());
+    sayFiles();
   } catch (const std::bad_alloc&) {
     progressBar().endLine();
     tell("arete: there is not enough memory for this\n");
@@ -184,8 +205,10 @@ void Session::answer(const Json& object) {
   if (!json_ || (changedInputFile() != nullptr && !object.contains("error"))) return;
   progressBar().finishLine();
   answered_ = true;
+  Json whole = object;
+  addFilesTo(whole);
   // A path may not be UTF-8: invalid bytes are replaced; nothing throws.
-  print(withoutQueriesIn(object).dump(2, ' ', false, Json::error_handler_t::replace) + "\n", out_);
+  print(withoutQueriesIn(std::move(whole)).dump(2, ' ', false, Json::error_handler_t::replace) + "\n", out_);
 }
 
 void Session::note(const std::string& sentence) const {
@@ -204,9 +227,21 @@ void Session::warn(const Warnings& warnings, const std::string& culprit) const {
   for (const Warning& warning : warnings) warn(fmt::format("{}: {}", culprit, warning.sentence));
 }
 
+// A file that was replaced is said on stderr, where what a person should know goes while text is piped away.
+void Session::sayFiles() const {
+  if (json_) return;  // the answer lists them
+  for (const WrittenFile& file : writtenFiles()) {
+    const std::string named = fmt::format("{} ({})", file.path, byteCount(file.bytes));
+    if (file.olderBytes && !file.isAddedTo)
+      note("Replaced " + named);
+    else
+      say(fmt::format("{} {}\n", file.isAddedTo ? "Added to" : "Wrote", named));
+  }
+}
+
 ExitCode Session::fail(const Error& failed) {
   progressBar().endLine();
-  const Error error = withOptionNames(failed);
+  const Error error = withNextStep(withOptionNames(failed), command_ ? command_->get_name() : "");
   const ExitCode code = exitCodeOf(error.code);
   tell(fmt::format("arete: {}\n", withoutControls(withoutQueries(error.describe()))));
   answerError(error, code);

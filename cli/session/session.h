@@ -52,7 +52,8 @@ class Session {
 
   /// Writes text to stdout; not with --json or --quiet.
   void say(const std::string& text) const;
-  /// Writes the object to stdout, with --json only. Call at most once.
+  /// Writes the object to stdout, with --json only, and in it the files that were written and those that
+  /// were replaced. Call at most once, behind the last file.
   void answer(const Json& object);
   /// Writes "arete: ..." to stderr, not with --quiet: what a person wants to know beside a table on stdout.
   void note(const std::string& sentence) const;
@@ -72,6 +73,8 @@ class Session {
   /// The file that the command is about: its first argument that is no option.
   std::string subject() const;
   ExitCode fail(const Error& failed);
+  /// Names the files that were written, and those that were replaced.
+  void sayFiles() const;
   void answerError(const Error& error, ExitCode code);
 
   bool json_ = false, quiet_ = false, progress_ = false, answered_ = false;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include "cli/sight/rows.h"
 #include "io/files/file_writer.h"
 #include "io/files/text_scan.h"
+#include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/transform.h"
 #include "io/geo/dem/clutter_raster.h"
 #include "io/geo/table/line_table.h"
@@ -31,13 +33,22 @@
 namespace arete {
 namespace {
 
+/// Whether a position is X,Y,H, and not X,Y.
+bool statesHeight(const std::string& position) {
+  return std::ranges::count(position, ',') != 1;
+}
+
 struct LosArguments {
   std::string model, from, to, pairs, points, layer, output, observerHeight, targetHeight, clutter;
   SightArguments sight;
   SightMethod method = SightMethod::automatic;
   std::string maxError = "0";
+  std::string clutterFreeWithUnit;  // as checkGroundUnits() takes it
   double frequency = 0, fresnel = kUsualFresnel, clutterFree = 100;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
+
+  /// Whether --to is a place without a height.
+  bool isTargetOnGround() const { return !to.empty() && !statesHeight(to) && targetHeight.empty(); }
 };
 
 bool isJson(const std::string& path) {
@@ -58,9 +69,9 @@ Status checkArguments(const LosArguments& a) {
     return usage("requires either --from or --to, the other end of every line", "--points");
   if (!a.layer.empty() && a.pairs.empty() && a.points.empty())
     return usage("requires --pairs or --points", "--layer");
-  for (const auto& [option, height] :
-       {std::pair{"--observer-height", a.observerHeight}, {"--target-height", a.targetHeight}})
-    if (!height.empty() && a.pairs.empty() && a.points.empty())
+  for (const auto& [option, height, end] :
+       {std::tuple{"--observer-height", a.observerHeight, a.from}, {"--target-height", a.targetHeight, a.to}})
+    if (!height.empty() && a.pairs.empty() && a.points.empty() && statesHeight(end))
       return usage("requires --pairs or --points; the height in --from and --to is the H of X,Y,H", option);
   if (!a.output.empty() && !isLineTable(a.output) && !isJson(a.output))
     return usage("a table of lines of sight ends in .csv, .gpkg or .json", "--output " + a.output);
@@ -69,10 +80,17 @@ Status checkArguments(const LosArguments& a) {
   return {};
 }
 
-/// Reads "X,Y,H" as a site. Its `stated` coordinates are those typed, its `xy` are in the DEM's CRS.
-Result<SightSite> siteOf(const std::string& option, const std::string& text, const CrsTransform& toDem) {
-  ARETE_TRY(const auto stated, readPositionArgument(option, text, CrsTransform()));
-  ARETE_TRY(const auto position, readPositionArgument(option, text, toDem));
+/// Reads "X,Y,H" as a site. Its `stated` coordinates are those typed, its `xy` are in the DEM's CRS. "X,Y"
+/// has no height, if `mayLackHeight`.
+Result<SightSite> siteOf(const std::string& option, const std::string& text, const CrsTransform& toDem,
+                         const DataUnit& unit, bool mayLackHeight) {
+  if (mayLackHeight && !statesHeight(text)) {
+    ARETE_TRY(const Vec2 stated, readPlaceArgument(option, text, CrsTransform()));
+    ARETE_TRY(const Vec2 xy, readPlaceArgument(option, text, toDem));
+    return SightSite{stated, xy, std::nullopt};
+  }
+  ARETE_TRY(const auto stated, readPositionArgument(option, text, CrsTransform(), &unit));
+  ARETE_TRY(const auto position, readPositionArgument(option, text, toDem, &unit));
   return SightSite{stated.xy, position.xy, StatedHeight{position.height, position.kind}};
 }
 
@@ -97,7 +115,11 @@ Result<SightPairs> readRows(const LosArguments& a, const TerrainModel& model, Se
   std::optional<SightSite> from, to;
   for (const auto& [option, text, site] : {std::tuple{"--from", &a.from, &from}, {"--to", &a.to, &to}}) {
     if (text->empty()) continue;
-    ARETE_TRY(auto read, siteOf(option, *text, toDem));
+    // An observer on the ground sees next to nothing, so its height must be stated; a target may be a place.
+    const bool isTarget = site == &to;
+    ARETE_TRY(auto read,
+              siteOf(option, *text, toDem, heightUnitOf(dem), isTarget || !a.observerHeight.empty()));
+    if (isTarget && a.isTargetOnGround()) read.height = StatedHeight{};
     *site = read;
   }
   if (a.points.empty()) {
@@ -122,11 +144,11 @@ Result<SightPairs> readRows(const LosArguments& a, const TerrainModel& model, Se
 }
 
 /// Applies the heights of the options to ends that have none.
-Status addUsualHeights(const LosArguments& a, SightPairs& pairs) {
+Status addUsualHeights(const LosArguments& a, const DataUnit& unit, SightPairs& pairs) {
   for (const auto& [end, option, text] :
        {std::tuple{0, "--observer-height", &a.observerHeight}, {1, "--target-height", &a.targetHeight}}) {
     if (text->empty()) continue;
-    const auto height = readHeightText(*text);
+    const auto height = readHeightText(*text, &unit);
     if (!height)
       return failure(height.error().code, height.error().message, fmt::format("{} {}", option, *text));
     for (auto& row : pairs.rows)
@@ -167,11 +189,13 @@ RequiredError wantedFor(const LosArguments& a, double maxError, const SightPairs
   return wanted.within(0);
 }
 
-Status reportOne(const SightResults& results, Json json, Session& session) {
+Status reportOne(const LosArguments& a, const SightResults& results, Json json, Session& session) {
   // A single line has no table, so its error is the command's.
   if (const Error* error = results.errorOf(0)) return tl::unexpected(*error);
   json.update(results.jsonOf(0));
-  session.say(results.textOf(0));
+  json["targetOnGround"] = a.isTargetOnGround();
+  session.say(results.textOf(0) +
+              (a.isTargetOnGround() ? "target       on the ground, as --to states no height\n" : ""));
   session.answer(json);
   return {};
 }
@@ -184,6 +208,7 @@ Status writeAnswers(const std::string& path, const LineTable& table, const Json&
 }
 
 Status reportMany(const LosArguments& a, const SightResults& results, Json json, Session& session) {
+  if (a.isTargetOnGround()) session.note("--to states no height: the target is on the ground");
   const std::size_t lines = results.rows.count();
   const SightCounts counts = results.counts();
   json["lines"] = lines;
@@ -232,13 +257,14 @@ Status runLos(const LosArguments& a, Session& session) {
   ARETE_CHECK(checkArguments(a));
   ARETE_TRY(const AmtFile file, openTerrainFile(a.model));
   ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
+  ARETE_CHECK(checkGroundUnits(outline.georeference, {a.clutterFreeWithUnit}));
   if (!a.output.empty())
     if (Status output =
             checkOutput("--output", a.output, {a.model, a.pairs, a.points, a.clutter, outline.source});
         !output)
       return output;
   ARETE_TRY(auto pairs, readRows(a, outline, session));
-  ARETE_CHECK(addUsualHeights(a, pairs));
+  ARETE_CHECK(addUsualHeights(a, heightUnitOf(outline.georeference), pairs));
   ARETE_TRY(const TerrainError maxError, terrainErrorOf(a.maxError, file, session));
   ARETE_TRY(const auto options, optionsOf(a, maxError.value, outline, session));
   ARETE_TRY(const auto earth, a.sight.makeEarth(outline, session));
@@ -274,7 +300,7 @@ Status runLos(const LosArguments& a, Session& session) {
   if (maxError.relief)
     session.note(fmt::format("terrain within {}", maxError.text(model.georeference.verticalUnit)));
   const bool isOne = a.pairs.empty() && a.points.empty() && a.output.empty();
-  return isOne ? reportOne(results, std::move(json), session)
+  return isOne ? reportOne(a, results, std::move(json), session)
                : reportMany(a, results, std::move(json), session);
 }
 
@@ -285,6 +311,7 @@ void addLosCommand(CLI::App& app, Session& session) {
   CLI::App* command = session.addCommand(
       app, "los", "Compute whether places see each other",
       "  arete los dem.amt --from 409050,3801450,10 --to 411000,3795000,1500msl\n"
+      "  arete los dem.amt --from 409050,3801450,10 --to 411000,3795000      to the ground there\n"
       "  arete los dem.amt --from 8.55,46.6,30 --to 8.7,46.55,10 --lonlat --frequency 2400\n"
       "  arete los dem.amt --pairs links.gpkg -o answers.gpkg --observer-height 30 --target-height 10\n"
       "  arete los dem.amt --from 409050,3801450,10 --points huts.gpkg --target-height 2 -o seen.csv\n"
@@ -293,9 +320,12 @@ void addLosCommand(CLI::App& app, Session& session) {
       "See docs/topics/visibility.md.",
       [arguments](Session& s) { return runLos(*arguments, s); });
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
-  command->add_option("--from", arguments->from, "Position of the observer, in the DEM's CRS")
+  command->add_option("--from,--observer", arguments->from, "Position of the observer, in the DEM's CRS")
       ->type_name("X,Y,H");
-  command->add_option("--to", arguments->to, "Position of the target")->type_name("X,Y,H");
+  command
+      ->add_option("--to,--target", arguments->to,
+                   "Position of the target; without H it is on the ground, or at --target-height")
+      ->type_name("X,Y[,H]");
   // The ends may be stated in several ways; checkArguments() refuses those that do not go together.
   command
       ->add_option(
@@ -361,10 +391,11 @@ void addLosCommand(CLI::App& app, Session& session) {
           ->group(radio);
   command
       ->add_option("--clutter-free", arguments->clutterFree,
-                   "Radius around both ends without clutter (default 100)")
+                   "Radius around both ends without clutter, in metres or with a unit (default 100)")
+      ->transform(groundLength("--clutter-free", arguments->clutterFreeWithUnit))
       ->check(finiteAtLeast(0))
       ->needs(clutter)
-      ->type_name("METRES")
+      ->type_name("D")
       ->group(radio);
 }
 

@@ -23,6 +23,7 @@
 #include "cli/sight/arguments.h"
 #include "io/files/file_writer.h"
 #include "io/files/text_scan.h"
+#include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/position_argument.h"
 #include "io/geo/crs/transform.h"
 #include "io/query/extract/model_file.h"
@@ -66,7 +67,7 @@ std::vector<std::string> splitAtColons(const std::string& text) {
   return parts;
 }
 
-Result<Way> typedWay(const std::string& text, const CrsTransform& toDem) {
+Result<Way> typedWay(const std::string& text, const CrsTransform& toDem, const DataUnit& unit) {
   Way way;
   const std::vector<std::string> parts = splitAtColons(text);
   if (parts.size() < 2)
@@ -75,7 +76,7 @@ Result<Way> typedWay(const std::string& text, const CrsTransform& toDem) {
   std::vector<PositionArgument> positions;
   for (const std::string& part : parts) {
     if (std::count(part.begin(), part.end(), ',') == 2) {
-      ARETE_TRY(const auto position, readPositionArgument("--along", part, toDem));
+      ARETE_TRY(const auto position, readPositionArgument("--along", part, toDem, &unit));
       positions.push_back(position);
       way.vertices.push_back(position.xy);
       continue;
@@ -96,7 +97,7 @@ Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference&
                                   const LongitudeTurns& turns, const CrsTransform& toDem, Session& session) {
   if (!isFile(a.along)) {
     if (!a.layer.empty()) return failure(ErrorCode::usage, "requires --along FILE", "--layer");
-    ARETE_TRY(auto way, typedWay(a.along, toDem));
+    ARETE_TRY(auto way, typedWay(a.along, toDem, heightUnitOf(dem)));
     return std::vector<Way>{std::move(way)};
   }
   // A file states its CRS, and its longitudes may be a whole turn away from the DEM's.
@@ -352,7 +353,7 @@ void addProfileCommand(CLI::App& app, Session& session) {
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
   command
       ->add_option(
-          "--along", arguments->along,
+          "--along,--line", arguments->along,
           "Layer of lines, or places; two places with heights, X,Y,H:X,Y,H, are a line of sight as well")
       ->required()
       ->type_name("FILE|X,Y:X,Y[:...]");

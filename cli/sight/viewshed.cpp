@@ -21,6 +21,7 @@
 #include "cli/session/model_file.h"
 #include "cli/sight/arguments.h"
 #include "cli/sight/viewshed_arguments.h"
+#include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/position_argument.h"
 #include "io/geo/dem/placed_grid.h"
@@ -68,14 +69,15 @@ Result<std::vector<PlacedObserver>> placeObservers(const ViewshedArguments& a, c
                                                    const TerrainModel& outline, Session& session) {
   std::vector<PlacedObserver> observers;
   ARETE_TRY(const auto toDem, transformOfPlaces(a.sight.lonLat, outline));
+  const DataUnit unit = heightUnitOf(outline.georeference);
   for (const std::string& text : a.observers.typed) {
-    ARETE_TRY(const auto position, readPositionArgument("--observer", text, toDem));
+    ARETE_TRY(const auto position, readPositionArgument("--observer", text, toDem, &unit));
     observers.push_back({position, field, {}});
   }
   if (a.observers.file.empty()) return observers;
   std::optional<StatedHeight> usual;
   if (!a.observers.usualHeight.empty()) {
-    const auto height = readHeightText(a.observers.usualHeight);
+    const auto height = readHeightText(a.observers.usualHeight, &unit);
     if (!height)
       return failure(height.error().code, height.error().message,
                      "--observer-height " + a.observers.usualHeight);
@@ -280,7 +282,7 @@ Status answer(const Question& q, Session& session) {
   ARETE_TRY(auto grid, gridOf(q, session));
   Json json = {{"model", a.model},
                {"observers", q.observers.size()},
-               {"targetHeight", a.targetHeight},
+               {"targetHeight", q.options.targetHeight},
                {"earth", a.sight.earthName(q.model)},
                {"refraction", a.sight.refractionJson(q.model)},
                {"nodata", std::string(toString(a.sight.nodata))}};
@@ -311,6 +313,9 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
   ARETE_TRY(auto options, a.options());
   ARETE_TRY(const AmtFile file, openTerrainFile(a.model));
   ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
+  ARETE_CHECK(
+      checkGroundUnits(outline.georeference, {a.fieldOfView.greatestWithUnit, a.fieldOfView.leastWithUnit}));
+  ARETE_TRY(options.targetHeight, lengthOf("--target-height", a.targetHeight, outline.georeference));
   ARETE_CHECK(checkOutput("--output", a.output, {a.model, a.observers.file, a.like, outline.source}));
   ARETE_TRY(const TerrainError maxError, terrainErrorOf(a.maxError, file, session));
   options.maxError = maxError.value;

@@ -11,6 +11,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/terrain_error.h"
+#include "cli/session/output_argument.h"
 #include "io/geo/dem/raster_writer.h"
 
 namespace arete {
@@ -50,13 +51,19 @@ void ObserverArguments::addTo(CLI::App& command) {
 
 void FieldOfViewArguments::addTo(CLI::App& command) {
   const std::string group = "Field of view";
-  command.add_option("--radius", greatestMetres, "Largest distance along the ground (default: no limit)")
+  command
+      .add_option("--radius", greatestMetres,
+                  "Largest distance along the ground, in metres or with a unit (default: no limit)")
+      ->transform(groundLength("--radius", greatestWithUnit))
       ->check(finiteAbove(0))
-      ->type_name("METRES")
+      ->type_name("D")
       ->group(group);
-  command.add_option("--min-distance", leastMetres, "Smallest distance along the ground (default 0)")
+  command
+      .add_option("--min-distance", leastMetres,
+                  "Smallest distance along the ground, in metres or with a unit (default 0)")
+      ->transform(groundLength("--min-distance", leastWithUnit))
       ->check(finiteAtLeast(0))
-      ->type_name("METRES")
+      ->type_name("D")
       ->group(group);
   command.add_option("--azimuth", azimuths, "From the first azimuth clockwise to the second, in degrees")
       ->type_name("A,B")
@@ -100,14 +107,15 @@ Result<ViewshedField> FieldOfViewArguments::field() const {
 
 void ViewshedArguments::addTo(CLI::App& command) {
   command.add_option("FILE.amt", model, "Multitriangulation of a raster")->required()->type_name("");
-  command.add_option("-o,--output", output, "GeoTIFF to write")->required()->type_name("FILE.tif");
+  command.add_option("-o,--output", output, "GeoTIFF to write")->type_name("FILE.tif");
+  addOutputArgument(command, output, {".tif", ".tiff"});
   observers.addTo(command);
   command.add_option("--like", like, "Raster whose grid and CRS the answer has, instead of the DEM's")
       ->type_name("RASTER");
   command
       .add_option("--target-height", targetHeight,
-                  "Height of the target above the terrain, in the DEM's unit (default 0)")
-      ->check(finiteAtLeast(0))
+                  "Height of the target above the terrain, in the DEM's unit or with one (default 0)")
+      ->check(lengthAtLeast(0))
       ->type_name("H");
   command
       .add_option(
@@ -148,7 +156,6 @@ Status ViewshedArguments::check() const {
 Result<ViewshedOptions> ViewshedArguments::options() const {
   ARETE_TRY(const ViewshedField field, fieldOfView.field());
   ViewshedOptions options;
-  options.targetHeight = targetHeight;
   options.nodata = sight.nodata;
   options.method = method;
   options.field = field;

@@ -36,7 +36,8 @@ struct ObserverArguments {
 /// The field of view of all observers, but for what a row of the file states itself.
 struct FieldOfViewArguments {
   double greatestMetres = std::numeric_limits<double>::infinity(), leastMetres = 0;
-  std::string azimuths, elevations;  ///< "A,B" in degrees; empty = all
+  std::string azimuths, elevations;             ///< "A,B" in degrees; empty = all
+  std::string greatestWithUnit, leastWithUnit;  ///< as checkGroundUnits() takes them
 
   void addTo(CLI::App& command);
   /// Errors: usage, naming the option.
@@ -50,8 +51,8 @@ struct ViewshedArguments {
   SightArguments sight;
   ViewshedMode mode = ViewshedMode::seen;
   ViewshedMethod method = ViewshedMethod::automatic;
-  double targetHeight = 0;     ///< in the DEM's unit
-  std::string maxError = "0";  ///< as it is stated
+  std::string targetHeight = "0";  ///< as it is stated
+  std::string maxError = "0";      ///< as it is stated
 
   void addTo(CLI::App& command);
   /// The rules between options that CLI11 cannot state. Errors: usage, naming the option.

@@ -55,8 +55,8 @@ Result<CutRequest> readSurfaceRequest(const CriterionArguments::OfSurface& asked
                                       const RunContext& context) {
   CutRequest request = asked.common;
   if (!asked.outsideError.empty()) {
-    ARETE_TRY(const auto stated,
-              parseSurfaceTolerances("--outside-error", asked.outsideError, model.diagonal));
+    ARETE_TRY(const auto stated, parseSurfaceTolerances("--outside-error", asked.outsideError, model.diagonal,
+                                                        spaceUnitOf(model)));
     if (stated.size() != 1) return failure(ErrorCode::usage, "takes one distance", "--outside-error");
     request.outsideError = stated.front().distance;
   }

@@ -45,7 +45,8 @@ Result<Requests> requestsOf(const SurfaceExtractArguments& arguments, const Surf
   const CriterionArguments::OfSurface& asked = arguments.asked;
   std::vector<std::optional<SurfaceTolerance>> tolerances(1);
   if (!asked.maxErrors.empty()) {
-    ARETE_TRY(const auto stated, parseSurfaceTolerances("--max-error", asked.maxErrors, model.diagonal));
+    ARETE_TRY(const auto stated,
+              parseSurfaceTolerances("--max-error", asked.maxErrors, model.diagonal, spaceUnitOf(model)));
     tolerances.assign(stated.begin(), stated.end());
   }
   std::vector<std::optional<StatedTriangles>> budgets(1);
@@ -58,7 +59,8 @@ Result<Requests> requestsOf(const SurfaceExtractArguments& arguments, const Surf
   ARETE_TRY(CutRequest common, readSurfaceRequest(asked, model, context));
   common.isDisplaced = !arguments.staysUndisplaced;
   if (!arguments.dropParts.empty()) {
-    ARETE_TRY(const auto least, parseSurfaceTolerances("--drop-parts", arguments.dropParts, model.diagonal));
+    ARETE_TRY(const auto least, parseSurfaceTolerances("--drop-parts", arguments.dropParts, model.diagonal,
+                                                       spaceUnitOf(model)));
     if (least.size() != 1) return failure(ErrorCode::usage, "takes one length", "--drop-parts");
     common.dropParts = least.front().distance;
   }

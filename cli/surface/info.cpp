@@ -29,7 +29,7 @@ Result<std::vector<double>> errorsOf(const std::string& at, std::size_t mostPoin
                                      const SurfaceModel& model) {
   std::vector<double> errors;
   if (!at.empty()) {
-    ARETE_TRY(const auto stated, parseSurfaceTolerances("--at", at, model.diagonal));
+    ARETE_TRY(const auto stated, parseSurfaceTolerances("--at", at, model.diagonal, spaceUnitOf(model)));
     for (const SurfaceTolerance& tolerance : stated) errors.push_back(tolerance.distance);
     return errors;
   }

@@ -24,16 +24,20 @@ Result<std::optional<double>> numberOf(CSLConstList options, const char* name, b
 
 const char* const kAmtOpenOptions =
     "<OpenOptionList>"
-    "<Option name='TOLERANCE' type='float' min='0' default='0' description='Largest error allowed, in the "
-    "unit of "
-    "heights; 0: the source itself'/>"
+    "<Option name='MAX_ERROR' alias='TOLERANCE' type='float' min='0' default='0' description='Largest error "
+    "allowed, in the unit of heights; 0: the source itself. TOLERANCE is an older name'/>"
     "<Option name='CELL' type='float' description='Side of a pixel in the unit of the CRS; default: the grid "
     "of "
     "the source, of points about their spacing'/>"
     "</OpenOptionList>";
 
 Result<DriverOptions> readOpenOptions(CSLConstList options) {
-  ARETE_TRY(const auto tolerance, numberOf(options, "TOLERANCE", true));
+  ARETE_TRY(const auto maxError, numberOf(options, "MAX_ERROR", true));
+  ARETE_TRY(const auto older, numberOf(options, "TOLERANCE", true));
+  if (maxError && older && *maxError != *older)
+    return failure(ErrorCode::usage, "is another error than that of TOLERANCE, its older name",
+                   fmt::format("MAX_ERROR={}", *maxError));
+  const auto tolerance = maxError ? maxError : older;
   ARETE_TRY(const auto cell, numberOf(options, "CELL", false));
   return DriverOptions{tolerance.value_or(0), cell};
 }

@@ -9,7 +9,7 @@
 
 namespace arete {
 
-/// What a user states when a file is opened: gdalinfo -oo TOLERANCE=2 -oo CELL=10 a.amt.
+/// What a user states when a file is opened: gdalinfo -oo MAX_ERROR=2 -oo CELL=10 a.amt.
 struct DriverOptions {
   double tolerance = 0;        ///< in the unit of heights, or of the surface; 0: the source itself
   std::optional<double> cell;  ///< side of a pixel in the unit of the CRS; none: the grid of the source

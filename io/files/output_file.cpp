@@ -8,11 +8,14 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
+#include <optional>
 #include <system_error>
 #include <utility>
 
 #include "io/files/temporary_files.h"
 #include "io/files/watched_files.h"
+#include "io/files/written_files.h"
 
 namespace arete {
 
@@ -44,6 +47,13 @@ fs::path followed(fs::path path) {
     path = to.is_absolute() ? to : path.parent_path() / to;
   }
   return path;
+}
+
+/// Nothing where there is no such file.
+std::optional<std::uint64_t> sizeOf(const fs::path& path) {
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  return error ? std::nullopt : std::optional<std::uint64_t>(size);
 }
 
 /// The group of this thread that files are committed to.
@@ -130,7 +140,8 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       target_(std::move(other.target_)),
       temporary_(std::exchange(other.temporary_, {})),
       stale_(std::move(other.stale_)),
-      inPlace_(other.inPlace_) {}
+      inPlace_(other.inPlace_),
+      isAddedTo_(other.isAddedTo_) {}
 
 OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
   if (this != &other) {
@@ -140,6 +151,7 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
     temporary_ = std::exchange(other.temporary_, {});
     stale_ = std::move(other.stale_);
     inPlace_ = other.inPlace_;
+    isAddedTo_ = other.isAddedTo_;
   }
   return *this;
 }
@@ -186,6 +198,10 @@ Status OutputFile::rename() {
   const fs::path following = withSuffix(temporary_, kFollowing), stale = withSuffix(target_, kFollowing);
   std::vector<fs::path> sides;
   for (const std::string& suffix : stale_) sides.push_back(withSuffix(target_, suffix.c_str()));
+  WrittenFile written{.path = path_.string(),
+                      .bytes = sizeOf(temporary_).value_or(0),
+                      .olderBytes = sizeOf(target_),
+                      .isAddedTo = isAddedTo_};
   std::error_code error;
   fs::rename(temporary_, target_, error);
   if (error) {
@@ -193,12 +209,16 @@ Status OutputFile::rename() {
     return failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", error.message()),
                    path_.string());
   }
+  noteWritten(std::move(written));
   // A side file of the replaced file does not describe the new one.
   std::error_code ignored;
-  if (fs::exists(following, ignored))
+  if (const auto bytes = sizeOf(following)) {
+    const auto older = sizeOf(stale);
     fs::rename(following, stale, ignored);
-  else
+    noteWritten({.path = withSuffix(path_, kFollowing).string(), .bytes = *bytes, .olderBytes = older});
+  } else {
     fs::remove(stale, ignored);
+  }
   for (const fs::path& side : sides) fs::remove(side, ignored);
   discard();
   return {};
@@ -234,7 +254,10 @@ Status OutputGroup::commit() {
   for (std::size_t i = 0; i < files.size(); ++i) {
     const Status renamed = files[i].rename();
     if (renamed) continue;
-    for (std::size_t before = 0; before < i; ++before) older[before].restore();
+    for (std::size_t before = 0; before < i; ++before) {
+      older[before].restore();
+      noteRestored(files[before].path_);
+    }
     return renamed;
   }
   return {};

@@ -21,7 +21,7 @@ namespace arete {
 ///
 /// An existing target that is not a regular file (/dev/null, a pipe) is written in place. If the target is a
 /// symbolic link, the file that it points to, which need not exist, is replaced and the link stays. What
-/// killed runs have left in the folder is removed.
+/// killed runs have left in the folder is removed. A file that gets its name is listed (written_files.h).
 class OutputFile {
  public:
   /// Errors: notFound: the folder does not exist. unreadable: the folder is not writable, or `path` is a
@@ -39,6 +39,8 @@ class OutputFile {
   /// States what is removed beside the file when it gets its name: side files of an older one, by what
   /// follows its name (".ovr").
   void removeBeside(std::vector<std::string> suffixes) { stale_ = std::move(suffixes); }
+  /// States that the new file holds what the older one of its name held, too.
+  void addsToOlder() { isAddedTo_ = true; }
   /// Whether an existing target that is no regular file is written in place.
   bool isInPlace() const { return inPlace_; }
   /// The path given to create().
@@ -62,7 +64,7 @@ class OutputFile {
   std::filesystem::path target_;     // path_ with links resolved
   std::filesystem::path temporary_;  // empty once committed or moved from
   std::vector<std::string> stale_;
-  bool inPlace_ = false;
+  bool inPlace_ = false, isAddedTo_ = false;
 };
 
 /// Outputs that belong together: a mesh and the files beside it, or a file that is read back before it

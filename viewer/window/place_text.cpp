@@ -10,6 +10,7 @@
 #include <cmath>
 #include <utility>
 
+#include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/position_argument.h"
 
 namespace arete {
@@ -61,7 +62,8 @@ Result<PlaceText::Goal> PlaceText::read(const std::string& text, bool isLonLat) 
     goal.ground = ground->height;
     return goal;
   }
-  ARETE_TRY(const auto position, readPositionArgument("go to", text, toDem));
+  const DataUnit unit = heightUnitOf(dem);
+  ARETE_TRY(const auto position, readPositionArgument("go to", text, toDem, &unit));
   ARETE_TRY(const auto height, demHeight(position, heights_));
   const auto ground = heights_.at(position.xy);
   goal.xy = position.xy;

@@ -16,6 +16,7 @@
 #include "engine/base/caught_failure.h"
 #include "engine/base/counted.h"
 #include "io/files/number_text.h"
+#include "io/files/text/length_unit.h"
 
 namespace arete {
 namespace {
@@ -87,11 +88,20 @@ Result<double> readNumberText(std::string_view text) try {
   return caughtFailure();
 }
 
-Result<StatedHeight> readHeightText(std::string_view text) try {
+Result<StatedHeight> readHeightText(std::string_view text, const DataUnit* unit) try {
   std::string_view height = text::withoutSpaces(text);
   // The word is taken away first; what is left has to be a number.
   const HeightKind kind = takeKind(height);
-  const auto value = finiteNumber(height);
+  auto value = finiteNumber(height);
+  if (!value && unit) {
+    const auto length = parseLength(height, "");
+    if (length && length->hasUnit()) {
+      ARETE_TRY(const double inUnit, inDataUnit(*length, *unit, std::string(text)));
+      value = inUnit;
+    } else if (!length && text::parseNumber(height.substr(0, 1))) {  // a number, and what is no unit
+      return failure(ErrorCode::usage, length.error().message);
+    }
+  }
   if (!value)
     return failure(
         ErrorCode::usage,
@@ -114,7 +124,7 @@ Result<Vec2> readPlaceArgument(const std::string& option, const std::string& tex
 }
 
 Result<PositionArgument> readPositionArgument(const std::string& option, const std::string& text,
-                                              const CrsTransform& toDem) try {
+                                              const CrsTransform& toDem, const DataUnit* unit) try {
   const std::string culprit = fmt::format("{} {}", option, text);
   const auto fields = fieldsOf(text);
   if (fields.size() != 3)
@@ -123,7 +133,7 @@ Result<PositionArgument> readPositionArgument(const std::string& option, const s
                                counted(fields.size(), "field", "fields")),
                    culprit);
   PositionArgument position;
-  const auto height = readHeightText(fields[2]);
+  const auto height = readHeightText(fields[2], unit);
   if (!height) return failure(height.error().code, height.error().message, culprit);
   position.height = height->height;
   position.kind = height->kind;

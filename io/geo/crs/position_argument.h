@@ -11,6 +11,8 @@
 
 namespace arete {
 
+struct DataUnit;
+
 /// The reference of a height.
 enum class HeightKind {
   aboveGround,  ///< agl: above the terrain at full resolution
@@ -34,8 +36,13 @@ struct StatedHeight {
   double height = 0;  ///< in the DEM's vertical unit
   HeightKind kind = HeightKind::aboveGround;
 };
-/// Without a word the height is above ground. Errors: usage: quotes the text.
-Result<StatedHeight> readHeightText(std::string_view text);
+/// Without a word the height is above ground.
+///
+/// @param unit of the DEM's heights (io/files/text/length_unit.h), for a height with a unit of its own,
+/// "30ft" or "1.5kmmsl"; null: there is none, as in the columns of a table.
+///
+/// Errors: usage: quotes the text.
+Result<StatedHeight> readHeightText(std::string_view text, const DataUnit* unit = nullptr);
 
 /// Reads "X,Y".
 ///
@@ -47,9 +54,9 @@ Result<StatedHeight> readHeightText(std::string_view text);
 Result<Vec2> readPlaceArgument(const std::string& option, const std::string& text, const CrsTransform& toDem);
 
 /// Reads "X,Y,H", "X,Y,Hagl", "X,Y,Hmsl" or "X,Y,Hell"; without a word H is above ground. Parameters and
-/// errors as readPlaceArgument().
+/// errors as readPlaceArgument() and readHeightText().
 Result<PositionArgument> readPositionArgument(const std::string& option, const std::string& text,
-                                              const CrsTransform& toDem);
+                                              const CrsTransform& toDem, const DataUnit* unit = nullptr);
 
 /// Converts the height of a position to the vertical reference of the DEM. The DEM's heights are msl unless
 /// its vertical datum is "ellipsoid".

@@ -5,13 +5,15 @@
 #include "io/geo/dem/clutter_raster.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "io/files/text/length_unit.h"
+#include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/map_scale.h"
 #include "io/geo/crs/transform.h"
@@ -64,9 +66,9 @@ bool mayOverlap(const TerrainModel& model, const RasterHeightfield& raster) {
 Result<SightClutter> readClutter(const std::string& text, const TerrainModel& model,
                                  const RunContext& context) try {
   SightClutter clutter;
-  double height = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), height);
-  if (error == std::errc{} && end == text.data() + text.size()) {
+  if (const auto length = parseLength(text, "clutter");
+      length && !(length->hasUnit() && std::filesystem::exists(text))) {
+    ARETE_TRY(const double height, inDataUnit(*length, heightUnitOf(model.georeference), "clutter " + text));
     if (!(height >= 0) || !std::isfinite(height))
       return failure(ErrorCode::usage, "must be a height of at least 0", "clutter " + text);
     clutter.height = [height](Vec2) { return height; };

@@ -71,6 +71,7 @@ Status writeGeoPackage(const std::filesystem::path& path, ExistingFile existing,
     auto made = GeoPackageCopy::make(path, file.temporaryPath(), layer, context);
     if (!made) return failure(made.error().code, made.error().message, path.string());
     copy = std::move(*made);
+    if (copy->isMade()) file.addsToOlder();
   }
   const CPLConfigOptionSetter noWait("OGR_SQLITE_SYNCHRONOUS", "OFF", false);
   const CPLConfigOptionSetter noJournal("OGR_SQLITE_JOURNAL", "OFF", false);

@@ -8,6 +8,7 @@
 
 #include "engine/base/caught_failure.h"
 #include "engine/base/counted.h"
+#include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/position_argument.h"
 
 namespace arete {
@@ -21,7 +22,8 @@ struct StatedCamera {
 };
 
 /// Precondition: the text outlives it.
-Result<StatedCamera> stated(const std::string& option, const std::string& text, const CrsTransform& toDem) {
+Result<StatedCamera> stated(const std::string& option, const std::string& text, const CrsTransform& toDem,
+                            const DataUnit& unit) {
   const std::string culprit = fmt::format("{} {}", option, text);
   const auto fields = static_cast<int>(std::ranges::count(text, ',')) + 1;
   if (fields != 3 && fields != 5 && fields != 6)
@@ -32,7 +34,7 @@ Result<StatedCamera> stated(const std::string& option, const std::string& text, 
                    culprit);
   // The position ends at the third comma.
   const std::size_t end = std::min(text.find(',', text.find(',', text.find(',') + 1) + 1), text.size());
-  const auto position = readPositionArgument(option, text.substr(0, end), toDem);
+  const auto position = readPositionArgument(option, text.substr(0, end), toDem, &unit);
   if (!position) return failure(position.error().code, position.error().message, culprit);
   return StatedCamera{text.substr(0, end), *position, std::string_view(text).substr(end), fields};
 }
@@ -41,7 +43,10 @@ Result<StatedCamera> stated(const std::string& option, const std::string& text, 
 
 Result<Vec2> readCameraPlace(const std::string& option, const std::string& text,
                              const CrsTransform& toDem) try {
-  return stated(option, text, toDem).map([](const StatedCamera& camera) { return camera.position.xy; });
+  // Of a height only that it is one matters, so any unit does.
+  return stated(option, text, toDem, DataUnit{1}).map([](const StatedCamera& camera) {
+    return camera.position.xy;
+  });
 } catch (...) {
   return caughtFailure();
 }
@@ -49,7 +54,7 @@ Result<Vec2> readCameraPlace(const std::string& option, const std::string& text,
 Result<CameraArgument> readCameraArgument(const std::string& option, const std::string& text,
                                           const CrsTransform& toDem, const GroundHeights& heights) try {
   const std::string culprit = fmt::format("{} {}", option, text);
-  ARETE_TRY(const auto parts, stated(option, text, toDem));
+  ARETE_TRY(const auto parts, stated(option, text, toDem, heightUnitOf(heights.model().georeference)));
   const auto height = demHeight(parts.position, heights);
   if (!height) return failure(height.error().code, height.error().message, culprit);
 

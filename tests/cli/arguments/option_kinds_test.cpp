@@ -285,7 +285,7 @@ class OptionsOfBothKinds : public Balls {
     for (const CLI::Option* option : commands_.at(name)->get_options()) {
       const std::string text = option->get_name();
       if (option->get_group().empty() || option->get_group() == "Output" || option->get_positional() ||
-          option->get_required() || text == "--help")
+          option->get_required() || text == "--output" || text == "--help" || text == "--help-all")
         continue;
       SCOPED_TRACE(name + " " + text);
       const auto found = tried.trials.find(text);

@@ -59,8 +59,8 @@ TEST_F(OptionNamesOfTheProgram, AreThoseOfOptionsThatExist) {
   std::string help;
   for (const char* command : {"build", "convert", "demo", "extract", "height", "info", "los", "measure",
                               "profile", "validate", "view", "viewshed"})
-    help += run({command, "--help"}).out;
-  help += run({"mesh", "crop", "--help"}).out;
+    help += run({command, "--help-all"}).out;
+  help += run({"mesh", "crop", "--help-all"}).out;
   for (const char* field : {"allowCoveredNodata",
                             "band",
                             "bands",

@@ -121,6 +121,49 @@ TEST_F(Los, TellsRadioPlannersOfFresnelZonesAndClutter) {
           "far.tif: lies nowhere over the DEM");
 }
 
+TEST_F(Los, ATargetWithoutAHeightIsOnTheGround) {
+  makeModel();
+  const auto ask = [&](const std::vector<std::string>& ends) {
+    std::vector<std::string> command = {"los", "dem.amt", "--json"};
+    command.insert(command.end(), ends.begin(), ends.end());
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.json();
+  };
+  Json ground = ask({"--from", "1105,1895,2", "--to", "1205,1895"});
+  EXPECT_EQ(ground["targetOnGround"], true);
+  EXPECT_EQ(ground["toHeight"], 100);
+  EXPECT_EQ(ground["verdict"], "visible");
+  Json zero = ask({"--from", "1105,1895,2", "--to", "1205,1895,0"});
+  EXPECT_EQ(zero["targetOnGround"], false) << "is stated";
+  ground.erase("targetOnGround");
+  zero.erase("targetOnGround");
+  EXPECT_EQ(ground, zero);
+  EXPECT_EQ(ask({"--from", "1105,1895,2", "--to", "1505,1895"})["verdict"], "blocked");
+  const Outcome text = run({"los", "dem.amt", "--from", "1105,1895,2", "--to", "1205,1895"});
+  EXPECT_NE(text.out.find("on the ground, as --to states no height"), std::string::npos) << text.out;
+  // The options for heights that a file lacks are for a position without one, too.
+  EXPECT_EQ(ask({"--from", "1105,1895,2", "--to", "1205,1895", "--target-height", "7"})["toHeight"], 107);
+  const Json both = ask(
+      {"--from", "1105,1895", "--to", "1205,1895", "--observer-height", "3", "--target-height", "107msl"});
+  EXPECT_EQ(both["fromHeight"], 103);
+  EXPECT_EQ(both["toHeight"], 107);
+  write("sites.csv", "x,y,h\n1105,1895,2\n1505,1895,2\n");
+  const Outcome sites = run({"los", "dem.amt", "--to", "1205,1895", "--points", "sites.csv"});
+  EXPECT_EQ(sites.code, 0) << sites.err;
+  EXPECT_NE(sites.err.find("the target is on the ground"), std::string::npos) << sites.err;
+  refused({"los", "dem.amt", "--from", "1105,1895", "--to", "1205,1895,2"}, 2, "a position is X,Y,H");
+  refused({"los", "dem.amt", "--from", "1105,1895,2", "--to", "1205"}, 2, "a position is X,Y,H");
+}
+
+TEST_F(Los, TakesTheNamesThatPythonHas) {
+  makeModel();
+  EXPECT_EQ(run({"los", "dem.amt", "--observer", "1105,1895,2", "--target", "1205,1895,2"}).out,
+            run({"los", "dem.amt", "--from", "1105,1895,2", "--to", "1205,1895,2"}).out);
+  EXPECT_EQ(run({"profile", "dem.amt", "--line", "1105,1895:1205,1895"}).out,
+            run({"profile", "dem.amt", "--along", "1105,1895:1205,1895"}).out);
+}
+
 TEST_F(Los, RefusesWhatMakesNoSense) {
   makeModel();
   write("pairs.csv", "x1,y1,x2,y2\n1105,1895,1505,1895\n");

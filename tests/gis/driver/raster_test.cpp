@@ -454,6 +454,19 @@ TEST_F(RasterDriver, AFileThatIsChangedWhileItIsOpenIsAnErrorNotTheEndOfTheProgr
       }
 }
 
+TEST_F(RasterDriver, CallsTheErrorAsTheCommandDoesAndByItsOlderName) {
+  const std::string path = terrain("hills.amt", 40, 30, hills);
+  const Dataset named = open(path, {"MAX_ERROR=5"}), older = open(path, {"TOLERANCE=5"});
+  ASSERT_TRUE(named && older) << message();
+  EXPECT_STREQ(named->GetMetadataItem("TOLERANCE"), "5");
+  EXPECT_STREQ(named->GetMetadataItem("ERROR"), older->GetMetadataItem("ERROR"));
+  EXPECT_TRUE(open(path, {"MAX_ERROR=5", "TOLERANCE=5"}));
+  EXPECT_FALSE(open(path, {"MAX_ERROR=5", "TOLERANCE=6"}));
+  EXPECT_NE(message().find("MAX_ERROR=5"), std::string::npos) << message();
+  EXPECT_FALSE(open(path, {"MAX_ERROR=-1"}));
+  EXPECT_NE(message().find("MAX_ERROR=-1"), std::string::npos) << message();
+}
+
 TEST_F(RasterDriver, NamesWhatMakesNoSense) {
   const std::string path = terrain("hills.amt", 40, 30, hills);
   EXPECT_FALSE(open(path, {"TOLERANCE=-1"}));

@@ -37,6 +37,26 @@ TEST(StatedSize, RefusesWhatIsNone) {
   }
 }
 
+TEST(StatedSize, WithAUnitIsInTheUnitOfTheData) {
+  const DataUnit feet{0.3048}, unknown{};
+  const auto sizes = parseStatedSizes("1,5%, 2m,10 ft,1.5km", "--e", &feet);
+  ASSERT_TRUE(sizes);
+  EXPECT_EQ((*sizes)[0].of(200), 1);
+  EXPECT_EQ((*sizes)[1].of(200), 10);
+  EXPECT_DOUBLE_EQ((*sizes)[2].of(200), 2 / 0.3048);
+  EXPECT_EQ((*sizes)[2].text, "2m");
+  EXPECT_TRUE((*sizes)[2].hasUnit);
+  EXPECT_FALSE((*sizes)[0].hasUnit);
+  EXPECT_EQ((*sizes)[3].of(200), 10) << "to the bit";
+  EXPECT_DOUBLE_EQ((*sizes)[4].of(200), 1500 / 0.3048);
+  for (const char* text : {"5%m", "m%", "5m%", "-5m", "infm", "5parsec", "m"})
+    EXPECT_FALSE(parseStatedSize(text, "--e", &feet)) << text;
+  const auto refused = parseStatedSize("5m", "--e", &unknown);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().culprit, "--e 5m");
+  EXPECT_EQ(parseStatedSize("5", "--e", &unknown).value().of(200), 5);
+}
+
 TEST(StatedSize, OfAListKeepsItsOrderAndText) {
   const auto sizes = parseStatedSizes("1,5%, 20", "--e");
   ASSERT_TRUE(sizes);

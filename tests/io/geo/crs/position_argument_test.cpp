@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "io/files/text/length_unit.h"
 #include "io/geo/crs/reader.h"
 #include "terrain/builder/build.h"
 
@@ -29,6 +30,31 @@ TerrainModel slope() {
   auto model = build(field);
   EXPECT_TRUE(model);
   return std::move(*model);
+}
+
+TEST(PositionArgument, TurnsAUnitOfTheHeightIntoThatOfTheDem) {
+  const DataUnit feet{0.3048}, unknown{};
+  const struct {
+    const char* text;
+    double height;
+    HeightKind kind;
+  } cases[] = {{"1,2,3", 3, HeightKind::aboveGround},
+               {"1,2,3m", 3 / 0.3048, HeightKind::aboveGround},
+               {"1,2,3ft", 3, HeightKind::aboveGround},
+               {"1,2,3 m agl", 3 / 0.3048, HeightKind::aboveGround},
+               {"1,2,3mmsl", 3 / 0.3048, HeightKind::seaLevel},
+               {"1,2,3ftell", 3, HeightKind::ellipsoidal},
+               {"1,2,1.5kmMSL", 1500 / 0.3048, HeightKind::seaLevel}};
+  for (const auto& c : cases) {
+    const auto position = readPositionArgument("--from", c.text, CrsTransform(), &feet);
+    ASSERT_TRUE(position) << c.text << ": " << position.error().describe();
+    EXPECT_DOUBLE_EQ(position->height, c.height) << c.text;
+    EXPECT_EQ(position->kind, c.kind) << c.text;
+  }
+  EXPECT_NE(readHeightText("3parsec", &feet).error().message.find("mm, cm, m"), std::string::npos);
+  EXPECT_NE(readHeightText("3m", &unknown).error().message.find("is not known"), std::string::npos);
+  EXPECT_FALSE(readHeightText("3m")) << "a column of a table holds numbers";
+  EXPECT_FALSE(readPositionArgument("--from", "1m,2m,3", CrsTransform(), &feet)) << "a place has no unit";
 }
 
 TEST(PositionArgument, TakesAglMslEllAndNothing) {

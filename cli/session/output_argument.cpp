@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The argument and --output are two options of the parser that write to one text: which of them was stated
+// decides what is checked.
+#include "cli/session/output_argument.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace arete {
+namespace {
+
+constexpr const char* kOutputArgument = "OUTPUT";
+
+std::string lowered(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : static_cast<char>(c);
+  });
+  return text;
+}
+
+}  // namespace
+
+void addOutputArgument(CLI::App& command, std::string& path, std::vector<std::string> extensions) {
+  const std::string known = fmt::format("{}", fmt::join(extensions, ", "));
+  const auto check = [&command, extensions = std::move(extensions), known](std::string& text) -> std::string {
+    const std::string name = lowered(text);
+    const bool isKnown = std::ranges::any_of(extensions, [&](const std::string& extension) {
+      return name.size() > extension.size() && name.ends_with(extension);
+    });
+    if (isKnown) return {};
+    // All words are known by now: with --output this one is too many.
+    if (command.get_option("--output")->count() > 0)
+      throw CLI::ExtrasError(command.get_name(), std::vector<std::string>{text});
+    return fmt::format("'{}' is no output, as it does not end in {}; --output states another name", text,
+                       known);
+  };
+  command
+      .add_option(kOutputArgument, path,
+                  "Output, instead of --output, where its name ends in a format that is written")
+      ->check(CLI::Validator(check, ""))
+      ->type_name("");
+}
+
+bool hasOutputArgument(const CLI::App& command) {
+  return command.get_option_no_throw(kOutputArgument) != nullptr;
+}
+
+void requireOneOutput(const CLI::App& command) {
+  if (!hasOutputArgument(command)) return;
+  const CLI::Option& argument = *command.get_option(kOutputArgument);
+  const CLI::Option& option = *command.get_option("--output");
+  if (argument.count() == 0 && option.count() == 0) throw CLI::RequiredError("--output");
+  if (argument.count() > 0 && option.count() > 0)
+    throw CLI::ValidationError(fmt::format("there are two outputs, {} and --output {}",
+                                           argument.results().front(), option.results().front()));
+}
+
+}  // namespace arete
