@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <string_view>
+#include <system_error>
 
 #include "io/files/shell_text.h"
 #include "io/files/text_scan.h"
@@ -54,11 +55,33 @@ std::string insteadOfModel(const std::string& path, const std::string& command) 
   return text;
 }
 
+/// What to do with a file that is no mesh, as its name says.
+std::string insteadOfMesh(const std::string& path, const std::string& command) {
+  if (command == "measure") return "measure takes the mesh first, and then what it is compared with";
+  return fmt::format("of a DEM '{}' makes an .amt, and arete extract takes meshes from that",
+                     buildCommand(path));
+}
+
+/// What to do with a model in place of a DEM.
+std::string insteadOfDem(const std::string& path) {
+  return fmt::format("it is built: 'arete info {}' describes it, and arete extract takes meshes from it",
+                     shellQuoted(path));
+}
+
 }  // namespace
 
+// The sentences are those of the readers. A name that is stated but does not exist is that of an output.
 Error withNextStep(Error error, const std::string& command) {
-  if (error.code == ErrorCode::unsupported && error.message == "is not an .amt file")
+  std::error_code ignored;
+  if (error.code != ErrorCode::unsupported || !fs::exists(error.culprit, ignored)) return error;
+  const std::string_view sentence = error.message;
+  const bool isModel = text::lowerExtension(error.culprit) == "amt";
+  if (sentence == "is not an .amt file")
     error.message += "; " + insteadOfModel(error.culprit, command);
+  else if (sentence.find("is no known mesh format") != sentence.npos && !isModel)
+    error.message += "; " + insteadOfMesh(error.culprit, command);
+  else if (sentence.find("is not a DEM in any format") != sentence.npos && isModel)
+    error.message += "; " + insteadOfDem(error.culprit);
   return error;
 }
 

@@ -55,8 +55,9 @@ TEST_F(OneName, OfAnOpenOptionOfTheDriverIsThatOfExtract) {
   const std::regex option("Option name='([A-Z_]+)'");
   int count = 0;
   for (std::sregex_iterator match(source.begin(), source.end(), option), end; match != end; ++match, ++count)
-    if (!own.contains((*match)[1].str()))
+    if (!own.contains((*match)[1].str())) {
       EXPECT_TRUE(hasOption("extract", optionName((*match)[1].str()))) << (*match)[1];
+    }
   EXPECT_GE(count, 2);
 }
 
@@ -81,10 +82,11 @@ TEST_F(OneName, OfAnArgumentInPythonIsThatOfTheCommand) {
     seen.insert(name);
     const std::string command = commandOf.contains(name) ? commandOf.at(name) : name;
     for (std::sregex_iterator one(arguments.begin(), arguments.end(), argument); one != end; ++one)
-      if (const std::string word = (*one)[1]; !known->second.contains(word))
+      if (const std::string word = (*one)[1]; !known->second.contains(word)) {
         EXPECT_TRUE(hasOption(command, optionName(word)))
             << name << "(" << word << "=) is no option of arete " << command
             << ": give both one name, or list it above as what only a program has";
+      }
   }
   EXPECT_EQ(seen.size(), own.size());
 }

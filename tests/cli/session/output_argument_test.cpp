@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An output as the second argument, and what is said of the files that were written.
+#include <algorithm>
 #include <filesystem>
 
 #include "cli/arguments_fixture.h"
@@ -139,9 +140,10 @@ TEST_F(OutputArgument, FilesBesideAMeshAreNamedToo) {
   write("mesh.obj", "mtllib skin.mtl\nusemtl skin\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const Outcome outcome = run({"convert", "mesh.obj", "copy.obj"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  for (const std::string& name : files())
-    if (!before_.contains(name) && name != "mesh.obj" && name != "skin.mtl")
-      EXPECT_NE(outcome.out.find("Wrote " + name + " ("), std::string::npos) << name << "\n" << outcome.out;
+  for (const std::string& name : files()) {
+    if (before_.contains(name) || name == "mesh.obj" || name == "skin.mtl") continue;
+    EXPECT_NE(outcome.out.find("Wrote " + name + " ("), std::string::npos) << name << "\n" << outcome.out;
+  }
 }
 
 TEST_F(OutputArgument, AGeoPackageThatKeepsItsOtherLayersIsAddedTo) {
@@ -183,6 +185,17 @@ TEST_F(OutputArgument, AFileOfAnotherKindIsAnsweredWithTheNextStep) {
   }
   const Json json = run({"info", "dem.tif", "--json"}).json();
   EXPECT_EQ(json["error"]["culprit"], "dem.tif");
+  const auto answered = [&](const std::vector<std::string>& command, const std::string& sentence) {
+    const Outcome outcome = run(command);
+    EXPECT_NE(outcome.err.find(sentence), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  answered({"convert", "dem.tif", "x.glb"}, "of a DEM 'arete build dem.tif -o dem.amt' makes an .amt");
+  answered({"mesh", "info", "dem.tif"}, "of a DEM 'arete build dem.tif -o dem.amt' makes an .amt");
+  answered({"measure", "dem.tif", "tin.ply"}, "measure takes the mesh first");
+  answered({"build", "dem.amt", "-o", "x.amt"}, "it is built: 'arete info dem.amt' describes it");
+  answered({"convert", "tin.ply", "-o", "x.foo"}, ".foo is no known mesh format");
+  EXPECT_EQ(run({"convert", "tin.ply", "-o", "x.foo"}).err.find("arete build"), std::string::npos);
 }
 
 }  // namespace
