@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The blocks of pages are found, and each has a kind that something checks."""
 import json
+import re
 import unittest
 import xml.etree.ElementTree
 
@@ -52,6 +53,18 @@ class Blocks(unittest.TestCase):
                     json.loads(block.text)
                 if block.kind == "xml":
                     xml.etree.ElementTree.fromstring(block.text)
+
+    def test_no_list_holds_a_block_which_nothing_would_run(self):
+        for page in blocks.pages():
+            lines = page.read_text(encoding="utf-8").split("\n")
+            hidden = [i + 1 for i, line in enumerate(lines) if line.startswith(" " * 8) and not lines[i - 1].strip()
+                      and blocks.in_a_list(lines, i)]
+            self.assertEqual(hidden, [], page)
+
+    def test_the_citation_is_of_the_version_that_is_built(self):
+        version = re.search(r"project\(arete VERSION ([\d.]+)", (blocks.ROOT / "CMakeLists.txt").read_text())[1]
+        self.assertIn(f"\nversion: {version}\n", (blocks.ROOT / "CITATION.cff").read_text())
+        self.assertIn(f"version = {{{version}}}", (blocks.ROOT / "docs/start/help.md").read_text())
 
     def test_every_mark_is_of_a_line_that_a_page_has(self):
         commands = [c for b in blocks.all_blocks() if b.kind == "shell" for _, c in blocks.commands_of(b)]

@@ -40,9 +40,8 @@ def tiff(path, columns, rows, bands, sample_format, bits, data):
 
 
 def geopackage(path, table, kind, features):
-    """A layer of points, lines or polygons, each a list of positions, with heights or without, in EPSG."""
-    deep = len(features[0][0]) == 3
-    wkb = {"POINT": 1, "LINESTRING": 2, "POLYGON": 3}[kind] + 1000 * deep
+    """A layer of points, lines or polygons, each a list of positions, in EPSG; heights of 10 m at both ends."""
+    wkb = {"POINT": 1, "LINESTRING": 2, "POLYGON": 3}[kind]
     database = sqlite3.connect(path)
     database.executescript(f"""
         PRAGMA application_id = 1196444487; PRAGMA user_version = 10200;
@@ -52,19 +51,19 @@ def geopackage(path, table, kind, features):
           last_change DATETIME NOT NULL DEFAULT '2026-01-01T00:00:00.000Z', min_x DOUBLE, min_y DOUBLE, max_x DOUBLE, max_y DOUBLE, srs_id INTEGER);
         CREATE TABLE gpkg_geometry_columns (table_name TEXT PRIMARY KEY, column_name TEXT NOT NULL, geometry_type_name TEXT NOT NULL,
           srs_id INTEGER NOT NULL, z TINYINT NOT NULL, m TINYINT NOT NULL);
-        CREATE TABLE {table} (fid INTEGER PRIMARY KEY, geom BLOB, h DOUBLE);
+        CREATE TABLE {table} (fid INTEGER PRIMARY KEY, geom BLOB, h1 DOUBLE, h2 DOUBLE);
         INSERT INTO gpkg_spatial_ref_sys VALUES ('undefined', -1, 'NONE', -1, 'undefined', ''), ('undefined', 0, 'NONE', 0, 'undefined', ''),
           ('WGS 84 / UTM zone 11N', {EPSG}, 'EPSG', {EPSG}, 'PROJCS["WGS 84 / UTM zone 11N",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",
           6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433],AUTHORITY["EPSG","4326"]],PROJECTION["Transverse_Mercator"],
           PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",-117],PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],
           PARAMETER["false_northing",0],UNIT["metre",1],AUTHORITY["EPSG","{EPSG}"]]', '');
         INSERT INTO gpkg_contents (table_name, data_type, identifier, srs_id) VALUES ('{table}', 'features', '{table}', {EPSG});
-        INSERT INTO gpkg_geometry_columns VALUES ('{table}', 'geom', '{kind}', {EPSG}, {int(deep)}, 0);""")
+        INSERT INTO gpkg_geometry_columns VALUES ('{table}', 'geom', '{kind}', {EPSG}, 0, 0);""")
     for positions in features:
-        body = b"".join(struct.pack(f"<{len(p)}d", *p) for p in positions)
+        body = b"".join(struct.pack("<2d", *p) for p in positions)
         count = struct.pack("<I", len(positions))
         shape = {"POINT": body, "LINESTRING": count + body, "POLYGON": struct.pack("<I", 1) + count + body}[kind]
-        database.execute(f"INSERT INTO {table} (geom, h) VALUES (?, 10)",
+        database.execute(f"INSERT INTO {table} (geom, h1, h2) VALUES (?, 10, 10)",
                          (b"GP\0\1" + struct.pack("<i", EPSG) + struct.pack("<BI", 1, wkb) + shape,))
     database.commit()
     database.close()
@@ -104,7 +103,7 @@ def make(folder, arete):
     geopackage(folder / "peaks.gpkg", "peaks", "POINT", [[(404000, 3803000)]])
     geopackage(folder / "road.gpkg", "road", "LINESTRING", [[(400000, 3800000), (405000, 3802000), (409050, 3801450)]])
     geopackage(folder / "paths.gpkg", "paths", "LINESTRING", 
-               [[(400000, 3800000, 30), (409050, 3801450, 30)], [(401000, 3799000, 30), (411000, 3797000, 30)]])
+               [[(400000, 3800000), (409050, 3801450)], [(401000, 3799000), (411000, 3797000)]])
     park = [(398000, 3798000), (408000, 3798000), (408000, 3806000), (398000, 3806000), (398000, 3798000)]
     geopackage(folder / "park.gpkg", "park", "POLYGON", [park])
     (folder / "points.csv").write_text("x,y,z\n" + "".join(f"{x(c)},{y(r)},{heights[r * COLUMNS + c]}\n"

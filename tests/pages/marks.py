@@ -10,20 +10,20 @@ NOT_RUN = [(re.compile(pattern), reason) for pattern, reason in (
     (r"^sudo |^apt(-get)? ", "installs packages"),
     (r"^cmake ", "tests/library installs Arete and builds the examples"),
     (r"qgis", "needs QGIS: tests/external runs it"),
-    (r"^blender ", "needs Blender: docs/pictures/make.sh runs it"),
-    (r"^arete-bench |bench/", "measures for minutes"),
     (r"^PYTHONPATH=\S+ /usr/bin/python3$", "waits for what a person types"),
 )]
 
-# (what a line matches, what is added): a window closes by itself after two frames, flights are small.
+# (what a line matches, what is added): a window closes by itself after two frames, terrains and
+# flights are small.
 CHANGED = [(re.compile(pattern), added) for pattern, added in (
+    (r"^arete-datasets generate(?!.*--size)", " --size 257"),
     (r"^arete view\s(?!.*--headless)", " --window-frames 2"),
     (r"^arete view\s.*--headless.*--round", " --size 96x54 --fps 2"),
     (r"^arete view\s.*--headless(?!.*--size)(?!.*--round)", " --size 320x180"),
 )]
 
 # Programs that a page uses and that a machine may lack; what needs them is then counted as not run here.
-PROGRAMS = ("gdalinfo", "gdal_translate", "gdalbuildvrt", "gdaldem", "ogr2ogr", "ogrinfo", "rio", "xvfb-run", "ffmpeg")
+PROGRAMS = ("gdalinfo", "gdal_translate", "gdalbuildvrt", "gdaldem", "gdalwarp", "ogr2ogr", "ogrinfo", "rio", "xvfb-run", "ffmpeg")
 
 # Python packages of which the same holds.
 MODULES = {"rasterio", "rioxarray", "xarray", "geopandas", "shapely", "fiona", "meshio", "matplotlib", "trimesh", "pyvista", "osgeo",
@@ -37,7 +37,4 @@ def reason_not_to_run(command):
 def as_run(command):
     """The command with what is added to it, before a comment or a pipe."""
     body, comment = re.match(r"(.*?)(\s+#.*|\s+\|.*)?$", command).groups()
-    for pattern, added in CHANGED:
-        if pattern.search(command):
-            body += added
-    return body + (comment or "")
+    return body + "".join(added for pattern, added in CHANGED if pattern.search(body)) + (comment or "")
