@@ -29,7 +29,7 @@ arete view dem.amt --headless --size 1280x720 --haze 60 --screenshot flight.png 
 python "$out/panels.py" "$out/tutorial-view.png" 640x360 flight.png ""
 xvfb-run -a -s "-screen 0 1280x800x24" arete view dem.amt --contours 100 --haze 60 --camera 423055,5182625,3300msl,215,-12 \
   --size 1200x675 --window-frames 12 --window-screenshot window.png -q
-python "$out/panels.py" "$out/window.png" 960x540 window.png ""
+python "$out/panels.py" "$out/window.png" 912x513 window.png ""
 python "$out/tutorial_python.py" dem.amt python.png
 python "$out/panels.py" "$out/tutorial-python.png" 512x400 python.png ""
 if python -c "import qgis.core" 2>/dev/null; then

@@ -55,7 +55,7 @@ def run_page(page, page_blocks, made, variables, scratch):
             if not reason and (lacking := missing_program(command)):
                 reason = f"needs {lacking}, which is not here"
             if reason:
-                left.append(reason)
+                left.append((f"{page}:{line}", reason))
                 continue
             whole = marks.as_run(command)
             if "--window-frames" in whole:
@@ -91,9 +91,10 @@ def main():
             for task in tasks:
                 page, run, left, failures = task.result()
                 total += run
-                left_out.update(left)
+                left_out.update(reason for _, reason in left)
                 failed += failures
                 print(f"{page}: {run} lines run, {len(left)} not run, {len(failures)} failed")
+                print("".join(f"  {place}: {reason}\n" for place, reason in left), end="")
     print(f"\nall pages: {total} lines run, {sum(left_out.values())} not run:")
     for reason, count in left_out.most_common():
         print(f"  {count} x {reason}")
