@@ -18,8 +18,22 @@ ROOT_PAGES = {
     "ARCHITECTURE.md": "architecture.md",
     "CONTRIBUTING.md": "contributing.md",
     "CHANGELOG.md": "changelog.md",
+    "SECURITY.md": "security.md",
     "bench/figures.md": "figures.md",
 }
+# The pages for newcomers, in the order in which they help.
+START = ["install", "tutorial", "choose", "limits", "compare", "faq", "help", "roadmap"]
+# The topics by reader. Every page of docs/topics is in one group.
+READERS = {
+    "Maps and terrain": ["reading", "heights", "gdal", "qgis", "formats"],
+    "Simulation and proof": ["error", "cuts", "fit", "certificate"],
+    "Visibility": ["visibility"],
+    "Meshes": ["surfaces", "meshes", "decimation", "distance"],
+    "Drawing": ["viewer", "flights", "geomorphing"],
+    "Programming": ["python", "library", "package", "services", "multitriangulation", "amt-format", "sources"],
+}
+# What CMake knows of whoever answers for the build; pages name neither where it is empty.
+CONTACT = {"ARETE_TRACKER_URL": "Faults are reported at", "ARETE_CONTACT": "The contact of this build, also for reports in private, is"}
 FOLDERS = "bench|cli|cmake|datasets|docs|engine|examples|gis|io|measure|surface|terrain|tests|viewer"
 # A path from the root of the repository, in the text or in backticks.
 # `arete/engine/...` is an installed header.
@@ -132,6 +146,13 @@ class Site:
             return match.group(0)
         return self.link(page, match.group(0), found[0].removeprefix("docs/"))
 
+    def contact(self):
+        """Where faults are reported and by whom they are answered, as lines; none where the build does not say."""
+        cache = dict(re.findall(r"^(ARETE_\w+):\w+=(.+)$", self.read("build/release/CMakeCache.txt"), re.M))
+        said = {name: os.environ.get(name, cache.get(name, "")).strip() for name in CONTACT}
+        lines = [f"{CONTACT[name]} {value if '://' not in value else f'<{value}>'}." for name, value in said.items() if value]
+        return ["", "## Where", "", " ".join(lines)] if lines else []
+
     def stage(self, source, page):
         lines, fenced = [], False
         for text in self.read(source).split("\n"):
@@ -142,16 +163,14 @@ class Site:
             elif not is_code and not text.startswith("#"):
                 text = self.line(source, page, text)
             lines.append(text)
+        if source in ("docs/start/help.md", "SECURITY.md"):
+            lines += self.contact()
         self.write(page, "\n".join(lines))
 
     def write(self, page, text):
         path = self.pages / page
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
-
-
-def title(path):
-    return next(line for line in Site.read(path).split("\n") if line.startswith("# "))[2:]
 
 
 def main():
@@ -179,13 +198,24 @@ def main():
     def section(name, pages):
         return [f"  - {name}:"] + [f"    - {page}" for page in pages]
 
-    topics = sorted((f for f in docs if f.startswith("docs/topics/")), key=title)
+    def listed(folder, names):
+        missing = [f"{folder}/{name}.md" for name in names if f"{folder}/{name}.md" not in site.files]
+        site.errors += [f"docs/site/stage.py: there is no {path}" for path in missing]
+        return [f"{folder}/{name}.md" for name in names]
+
+    start, topics = listed("docs/start", START), [t for names in READERS.values() for t in listed("docs/topics", names)]
+    for page in docs:
+        if page.startswith(("docs/start/", "docs/topics/")) and page not in start + topics:
+            site.errors.append(f"{page} is in no group of docs/site/stage.py")
     nav = ["nav:", "  - Home: index.md"]
-    nav += section("Topics", [site.staged(t) for t in topics])
+    nav += section("Start", [site.staged(page) for page in start])
+    nav += ["  - Topics:"]
+    for reader, names in READERS.items():
+        nav += [f"    - {reader}:"] + [f"      - topics/{name}.md" for name in names]
     nav += ["  - Reference:", "    - Headers: api/files.html", "    - glossary.md", "    - bibliography.md",
             "    - performance.md", "    - figures.md", "    - changelog.md"]
     nav += section("Examples", ["examples/index.md"] + [site.staged(e) for e in examples])
-    nav += ["  - Inside:", "    - architecture.md", "    - contributing.md"]
+    nav += ["  - Inside:", "    - architecture.md", "    - contributing.md", "    - security.md"]
     nav += section("Decisions", ["decisions/README.md"] +
                    [site.staged(d) for d in docs if re.match(r"docs/decisions/\d", d)])
     config = site.read("docs/site/mkdocs.yml")
