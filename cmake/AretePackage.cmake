@@ -1,4 +1,4 @@
-# `cpack -G DEB` in a build folder: two Debian packages, arete (the component "program") and libarete-dev ("library").
+# `cpack -G DEB` in a build folder (./dev package: that of the preset "package"): two Debian packages, arete (the component "program") and libarete-dev ("library").
 #
 # What the binaries need is found by dpkg-shlibdeps; what Python, and what a program that links the static libraries
 # need, is stated, since no binary says it. The first entry of cmake/debian/changelog and CHANGELOG.md have the version of
@@ -32,7 +32,7 @@ set(CPACK_DEBIAN_PACKAGE_SOURCE arete)
 set(CPACK_DEBIAN_PACKAGE_HOMEPAGE "${ARETE_TRACKER_URL}")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION TRUE)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
-set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_SOURCE_DIR}/cmake/strip_archives.cmake")
+set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_SOURCE_DIR}/cmake/strip_binaries.cmake")
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME arete)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
@@ -104,7 +104,7 @@ foreach(component IN ITEMS program library)
   if(EXISTS "${CMAKE_SOURCE_DIR}/cmake/debian/${package}.lintian-overrides")
     file(READ "${CMAKE_SOURCE_DIR}/cmake/debian/${package}.lintian-overrides" overrides)
   endif()
-  if(NOT ARETE_CONTACT OR NOT ARETE_TRACKER_URL)
+  if(NOT ARETE_CONTACT)
     file(READ "${CMAKE_SOURCE_DIR}/cmake/debian/no-contact.lintian-overrides" more)
     string(APPEND overrides "${more}")
   endif()
