@@ -52,7 +52,7 @@ class Algorithm(QgsProcessingAlgorithm):
         picture = os.path.join(FOLDER, "pictures", self.PICTURE)
         if not self.PICTURE or QgsApplication.platform() == "qgis_process" or not os.path.exists(picture):
             return self.HELP
-        return f'{self.HELP}\n<img src="{QUrl.fromLocalFile(picture).toString()}">'
+        return f'{self.HELP}\n<img width="240" src="{QUrl.fromLocalFile(picture).toString()}">'
 
     def helpUrl(self):
         """The page of the documentation, where it is installed beside the plugin."""

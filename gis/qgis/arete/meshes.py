@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Triangle meshes that are no terrain: made smaller, and compared."""
 
-from qgis.core import (QgsProcessingContext, QgsProcessingException, QgsProcessingOutputNumber, QgsProcessingParameterEnum,
-                       QgsProcessingParameterFile, QgsProcessingParameterFileDestination, QgsProcessingUtils)
+import re
+
+from qgis.core import (QgsCoordinateReferenceSystem, QgsProcessingContext, QgsProcessingException,
+                       QgsProcessingOutputNumber, QgsProcessingParameterEnum, QgsProcessingParameterFile,
+                       QgsProcessingParameterFileDestination, QgsProcessingUtils)
 
 from .algorithm import Algorithm, title_of
 from .program import run
@@ -40,6 +43,10 @@ class Decimate(Algorithm):
         if not limits:
             raise QgsProcessingException("state the number of triangles, the largest distance, or both")
         answer = run(words + limits, feedback)
+        number = re.search(r"\((EPSG:\d+)\)$", answer.get("crs") or "")
+        if number and QgsCoordinateReferenceSystem(number[1]).isGeographic():
+            feedback.pushWarning("x and y of the mesh are degrees, beside heights in another unit: its distances mean little. "
+                                 "Take a mesh of a DEM in a projected CRS")
         feedback.pushInfo(f"{answer['triangles']} triangles of {answer['trianglesBefore']}")
         hint = SHOWN.get(output.rsplit(".", 1)[-1].lower())
         if hint is not None and context.project() is not None:
