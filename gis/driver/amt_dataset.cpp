@@ -34,7 +34,9 @@ int AmtDataset::identify(GDALOpenInfo* info) {
 GDALDataset* AmtDataset::open(GDALOpenInfo* info) {
   if (identify(info) == FALSE) return nullptr;
   if (info->eAccess == GA_Update) {
-    CPLError(CE_Failure, CPLE_NotSupported, "%s: an .amt file is only read", info->pszFilename);
+    // QGIS tries this of every layer first, and its log shows in red what is said of it.
+    if ((info->nOpenFlags & GDAL_OF_VERBOSE_ERROR) != 0)
+      CPLError(CE_Failure, CPLE_NotSupported, "%s: an .amt file is only read", info->pszFilename);
     return nullptr;
   }
   const auto refuse = [](const Error& error) {

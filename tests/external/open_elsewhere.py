@@ -256,6 +256,9 @@ def step_provider(arguments):
     need_module("qgis.core", "python3-qgis")
     environment = dict(os.environ, QT_QPA_PLATFORM="offscreen", XDG_RUNTIME_DIR=str(arguments.work),
                        HOME=str(arguments.work), ARETE=str(arguments.arete.resolve()))
+    has_driver = (arguments.driver / "gdal_AMT.so").exists()
+    if has_driver:
+        environment["GDAL_DRIVER_PATH"] = str(arguments.driver)
     for t in terrains(arguments):
         middle = [(t.extent[0] + t.extent[2]) / 2, (t.extent[1] + t.extent[3]) / 2]
         found = json.loads(run([SYSTEM_PYTHON, HERE / "run_provider.py", ROOT / "gis/qgis", t.dem, t.folder, t.error,
@@ -266,6 +269,17 @@ def step_provider(arguments):
               abs(found["secondBand"] - found["measured"]) <= 1e-9 * found["measured"], f"QGIS: {found}")
         check(found.get("options", 0) <= t.error * 2, f"QGIS: {found}")
         check(all(found["refused"]), f"QGIS: a run without sense was not refused: {found['refused']}")
+        close = 1e-6 * max(map(abs, t.heights))
+        check(found["heights"][:4] == [3, 4, False, "POIN"] and found["heights"][4] <= close, f"QGIS: heights: {found['heights']}")
+        check(found["profile"][:3] == [[2], True, True] and found["profile"][3] <= close, f"QGIS: profile: {found['profile']}")
+        check(found["sight"][0] == found["sight"][1] and found["sight"][2], f"QGIS: lines of sight: {found['sight']}")
+        check(found["cuts"][0] == found["cuts"][1] and found["names"] == ["TIN of provider by region"], f"QGIS: {found}")
+        # Of degrees beside metres the two measure differently, and the plugin says so.
+        check(found["meshes"][0] <= 60 and (t.epsg == 4326 or found["meshes"][1] <= 1.001 * found["meshes"][2]),
+              f"QGIS: meshes: {found['meshes']}")
+        check(found["canceled"] == ["canceled", False], f"QGIS: Cancel: {found['canceled']}")
+        check(not found["red"] and found["icons"] and (found["opened"] == [True, True] or not has_driver),
+              f"QGIS: its log has {found['red']}; {found['opened']}, {found['icons']}")
         print(f"ok: {t.name}: Processing in QGIS: {', '.join(found['algorithms'])}; {t.triangles} triangles, "
               f"measured {found['measured']:g} ({t.error} promised)")
 

@@ -12,7 +12,8 @@ plugins, dem, folder, tolerance, x, y, epsg = sys.argv[1:8]
 sys.path[:0] = ["/usr/share/qgis/python/plugins", plugins]
 
 from osgeo import gdal  # noqa: E402
-from qgis.core import (QgsApplication, QgsCoordinateReferenceSystem, QgsProcessingFeedback, QgsRasterLayer,
+from qgis.core import (Qgis, QgsApplication, QgsCoordinateReferenceSystem, QgsFeature, QgsGeometry, QgsProcessingContext,
+                       QgsProcessingFeedback, QgsProcessingOutputLayerDefinition, QgsProject, QgsRasterLayer,
                        QgsVectorLayer)  # noqa: E402
 
 application = QgsApplication([], False)
@@ -22,8 +23,13 @@ import processing  # noqa: E402
 from processing.core.Processing import Processing  # noqa: E402
 
 Processing.initialize()
+red = []  # what QGIS shows in red of our plugin and our files
+QgsApplication.messageLog().messageReceived[str, str, Qgis.MessageLevel].connect(
+    lambda text, tag, level: red.append(f"{tag}: {text}") if level == Qgis.Critical else None)
+gdal.PushErrorHandler(lambda kind, number, text: red.append(text) if kind >= gdal.CE_Failure else None)
 plugin = arete.classFactory(None)
 plugin.initProcessing()
+loading = list(red)
 found = {"algorithms": [one.name() for one in QgsApplication.processingRegistry().providerById("arete").algorithms()]}
 model = processing.run("arete:build", {"INPUT": dem, "OUTPUT": f"{folder}/provider.amt"})["OUTPUT"]
 tin = processing.run("arete:extracttin", {"MODEL": model, "MAX_ERROR": float(tolerance),
@@ -72,6 +78,97 @@ if coarse.isValid():  # the driver is there
 seen = processing.run("arete:viewshed", {"MODEL": model, "OBSERVER": f"{x},{y} [EPSG:{epsg}]", "CRS": "EPSG:4326",
                                          "RADIUS": 500, "OUTPUT": f"{folder}/wrong_crs.tif"})["OUTPUT"]
 found["rasters"].append(QgsRasterLayer(seen).isValid())
+# What is asked of places: layers in the DEM's CRS, whose points are samples of it.
+step = source.GetGeoTransform()
+columns, rows = source.RasterXSize, source.RasterYSize
+
+
+def sample(column, row):
+    """The middle of a pixel, and its height."""
+    place = gdal.ApplyGeoTransform(step, column + 0.5, row + 0.5)
+    return place, float(source.GetRasterBand(1).ReadAsArray(column, row, 1, 1)[0, 0])
+
+
+def layer_of(kind, texts):
+    made = QgsVectorLayer(f"{kind}?crs=EPSG:{epsg}&field=fid:integer&field=height:string", kind, "memory")
+    for text in texts:
+        feature = QgsFeature(made.fields())
+        feature.setAttributes([7, text[:4]])
+        feature.setGeometry(QgsGeometry.fromWkt(text))
+        made.dataProvider().addFeature(feature)
+    return made
+
+
+def point(place):
+    return f"POINT({place[0]!r} {place[1]!r})"
+
+
+def command(*words):
+    return json.loads(subprocess.run([os.environ["ARETE"], *map(str, words), "--json"], capture_output=True, text=True,
+                                     check=True).stdout)
+
+
+asked = [sample(columns // 4, rows // 4), sample(columns // 2, rows // 3), sample(3 * columns // 4, rows // 2)]
+far = (step[0] - 90 * step[1] * columns, step[3])
+answer = processing.run("arete:heights", {"MODEL": model, "INPUT": layer_of("Point", [point(far)] + [point(p) for p, _ in asked]),
+                                          "OUTPUT": f"{folder}/heights.gpkg"})
+answers = list(QgsVectorLayer(answer["OUTPUT"]).getFeatures())
+found["heights"] = [answer["WITH_HEIGHT"], len(answers), bool(answers[0]["height_2"]), answers[1]["height"],
+                    max(abs(one["height_2"] - h) for one, (_, h) in zip(answers[1:], asked))]
+one, other = asked[0][0], asked[2][0]
+lines = layer_of("MultiLineString", [f"MULTILINESTRING(({far[0]!r} {far[1]!r},{far[0]!r} {far[1] - 1!r}))",
+                                     f"MULTILINESTRING(({one[0]!r} {one[1]!r},{other[0]!r} {other[1]!r}))"])
+profile = list(QgsVectorLayer(processing.run("arete:profile", {"MODEL": model, "INPUT": lines, "OUTPUT": f"{folder}/profile.gpkg"})
+                              ["OUTPUT"]).getFeatures())
+distances = [f["distance"] for f in profile]
+found["profile"] = [sorted({f["line"] for f in profile}), distances == sorted(distances), profile[0]["height"] == "MULT",
+                    max(abs(profile[0]["height_2"] - asked[0][1]), abs(profile[-1]["height_2"] - asked[2][1]))]
+sight = processing.run("arete:sightlines", {"MODEL": model, "OBSERVERS": layer_of("Point", [point(one)]), "OBSERVER_HEIGHT": 30,
+                                            "TARGETS": layer_of("Point", [point(p) for p in (far, asked[1][0], other)]),
+                                            "TARGET_HEIGHT": 10, "OUTPUT": f"{folder}/sight.gpkg"})
+verdicts = [feature["verdict"] or "" for feature in QgsVectorLayer(sight["OUTPUT"]).getFeatures()]
+found["sight"] = [verdicts, [""] + [command("los", model, f"--from={one[0]!r},{one[1]!r},30", f"--to={p[0]!r},{p[1]!r},10")["verdict"]
+                                    for p in (asked[1][0], other)], sight["VISIBLE"] == verdicts.count("visible")]
+# Cuts: as many triangles as the command has.
+box = [min(one[0], other[0]), min(one[1], other[1]), max(one[0], other[0]), max(one[1], other[1])]
+context = QgsProcessingContext()
+context.setProject(QgsProject.instance())
+region = processing.run("arete:extracttinbyregion", {
+    "MODEL": model, "EXTENT": f"{box[0]!r},{box[2]!r},{box[1]!r},{box[3]!r} [EPSG:{epsg}]", "MAX_ERROR": float(tolerance),
+    "OUTSIDE_ERROR": 10 * float(tolerance), "OUTPUT": QgsProcessingOutputLayerDefinition(f"{folder}/region.gpkg", context.project())},
+    context=context)
+found["names"] = [details.name for details in context.layersToLoadOnCompletion().values()]
+camera = processing.run("arete:extracttinforcamera", {
+    "MODEL": model, "CAMERA": f"{one[0]!r},{one[1]!r} [EPSG:{epsg}]", "HEIGHT": 50, "AZIMUTH": 120, "PITCH": -8, "PIXEL_ERROR": 3,
+    "OUTPUT": f"{folder}/camera.gpkg"})
+found["cuts"] = [[region["TRIANGLES"], camera["TRIANGLES"]], [command(
+    "extract", model, "-o", f"{folder}/asked.ply", *words)["exports"][0]["triangles"] for words in (
+        ("--region", ",".join(map(repr, box)), "--max-error", tolerance, "--outside-error", 10 * float(tolerance)),
+        (f"--camera={one[0]!r},{one[1]!r},50", "--look=120,-8", "--pixel-error", 3))]]
+small = processing.run("arete:decimatemesh", {"INPUT": f"{folder}/asked.ply", "MAX_TRIANGLES": 60, "OUTPUT": f"{folder}/small.2dm"})
+apart = processing.run("arete:measuremeshes", {"FIRST": f"{folder}/small.2dm", "SECOND": f"{folder}/asked.ply"})
+found["meshes"] = [small["TRIANGLES"], apart["MAX_DISTANCE_BACK"], small["ERROR"]]
+
+
+class Impatient(QgsProcessingFeedback):
+    """Cancels at the first progress."""
+
+    def setProgressText(self, text):
+        self.cancel()
+
+
+try:
+    processing.run("arete:build", {"INPUT": dem, "OUTPUT": f"{folder}/canceled.amt"}, feedback=Impatient())
+    found["canceled"] = "not"
+except Exception as error:  # noqa: BLE001: whatever QGIS makes of it
+    found["canceled"] = [str(error), os.path.exists(f"{folder}/canceled.amt")]
+# Opening a model, as QGIS does it: for an update first.
+red.clear()
+found["opened"] = [QgsVectorLayer(model, "triangles", "ogr").isValid(), QgsRasterLayer(model, "heights", "gdal").isValid()]
+found["red"] = loading + red
+found["icons"] = all(not one.icon().isNull() and os.path.exists(one.svgIconPath()) and "<img" in one.shortHelpString()
+                     for one in QgsApplication.processingRegistry().providerById("arete").algorithms()
+                     if not one.name().startswith("measure"))
 plugin.unload()
 print(json.dumps(found))
 sys.stdout.flush()

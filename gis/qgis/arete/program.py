@@ -13,6 +13,8 @@ from qgis.core import QgsProcessingException
 
 BAR = "0...10...20...30...40...50...60...70...80...90...100 - done."
 TICKS = 40
+WARNING = "arete: warning: "
+SECONDS_TO_END = 20  # after Cancel, for temporary files to be removed
 
 
 def run(words, feedback):
@@ -28,22 +30,40 @@ def run(words, feedback):
         # Beside stderr: the program waits where one of its pipes is full.
         reader = threading.Thread(target=lambda: answer.append(process.stdout.read()))
         reader.start()
+        # Beside both: a stage that says nothing for a minute is canceled at once too.
+        has_ended = threading.Event()
+        watcher = threading.Thread(target=_interrupt_where_canceled, args=(process, feedback, has_ended))
+        watcher.start()
         for line, is_whole in _lines(process.stderr):
             bar = progress_of(line)
             if bar:
                 feedback.setProgressText(bar[0])
                 feedback.setProgress(bar[1])
             elif is_whole and line.strip():
-                said.append(line.strip())
-                feedback.pushInfo(line.strip())
-            if feedback.isCanceled():
-                process.send_signal(signal.SIGINT)
+                text = line.strip()
+                if text.startswith(WARNING):
+                    feedback.pushWarning(text[len(WARNING):])
+                else:
+                    said.append(text)
+                    feedback.pushInfo(text)
         reader.join()
+        has_ended.set()
+        watcher.join()
     if feedback.isCanceled():
         raise QgsProcessingException("canceled")
     if process.returncode != 0:
+        said = [text[len("arete: "):] if text.startswith("arete: ") else text for text in said]
         raise QgsProcessingException("\n".join(said) or f"arete gave exit code {process.returncode}")
     return json.loads(answer[0])
+
+
+def _interrupt_where_canceled(process, feedback, has_ended):
+    while not has_ended.wait(0.1):
+        if feedback.isCanceled():
+            process.send_signal(signal.SIGINT)
+            if not has_ended.wait(SECONDS_TO_END):
+                process.kill()
+            return
 
 
 def progress_of(line):

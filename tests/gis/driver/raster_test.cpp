@@ -477,7 +477,11 @@ TEST_F(RasterDriver, NamesWhatMakesNoSense) {
   EXPECT_NE(message().find("CELL=0"), std::string::npos) << message();
   EXPECT_FALSE(open(path, {"CELL=1e-9"}));
   EXPECT_NE(message().find("more than GDAL can number"), std::string::npos) << message();
-  EXPECT_FALSE(open(path, {}, GDAL_OF_RASTER | GDAL_OF_UPDATE));
+  EXPECT_FALSE(open(path, {}, GDAL_OF_RASTER | GDAL_OF_UPDATE | GDAL_OF_VERBOSE_ERROR));
+  EXPECT_NE(message().find("only read"), std::string::npos) << message();
+  // QGIS asks for an update first, quietly, and would show what is said of it as an error.
+  EXPECT_FALSE(open(path, {}, GDAL_OF_VECTOR | GDAL_OF_UPDATE));
+  EXPECT_EQ(message(), "");
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
   EXPECT_FALSE(open(path));
   EXPECT_NE(message().find("hills.amt"), std::string::npos) << message();
