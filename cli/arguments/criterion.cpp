@@ -66,11 +66,12 @@ void CriterionArguments::addTo(CLI::App& command, OptionKinds& kinds) {
       command
           .add_option("--fit", fit_,
                       "Adjust the vertices. Of terrain triangles: about a third fewer triangles within "
-                      "--max-error; error: a smaller error with the same triangles. Of a surface rms: move\n"
+                      "--max-error; error: a smaller error with the same triangles; unbiased: a mean\n"
+                      "error of 0 with the same triangles, as volumes need it. Of a surface rms: move\n"
                       "vertices to where the mean square distance is small")
-          ->check(oneOf({"triangles", "error", "rms"}))
+          ->check(oneOf({"triangles", "error", "unbiased", "rms"}))
           ->type_name("WHAT");
-  kinds.valuesOf(ModelKind::terrain, fit, {"triangles", "error"});
+  kinds.valuesOf(ModelKind::terrain, fit, {"triangles", "error", "unbiased"});
   kinds.valuesOf(ModelKind::surface, fit, {"rms"});
 
   const std::string where = "Resolution that varies";
@@ -219,7 +220,7 @@ CutRequest CriterionArguments::common() const {
   request.method = method_ == "saturated" ? CutMethod::saturated : CutMethod::minimal;
   for (const CutOrder order : {CutOrder::worst, CutOrder::breadth, CutOrder::depth, CutOrder::twoQueues})
     if (order_ == orderName(order)) request.order = order;
-  for (const CutFit fit : {CutFit::triangles, CutFit::error, CutFit::rms})
+  for (const CutFit fit : {CutFit::triangles, CutFit::error, CutFit::unbiased, CutFit::rms})
     if (fit_ == fitName(fit)) request.fit = fit;
   request.region = region_;
   request.regionCrs = regionCrs_;

@@ -32,6 +32,7 @@ Json answerOf(const DemoReport& report) {
                        {"percentOfFinest", r.percentOfFinest},
                        {"measuredMax", r.measuredMax},
                        {"measuredRms", r.measuredRms},
+                       {"measuredMean", r.measuredMean},
                        {"uncovered", r.uncovered},
                        {"cutSeconds", r.cutSeconds},
                        {"kept", r.isKept}});

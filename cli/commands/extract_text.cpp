@@ -32,9 +32,13 @@ std::string extractText(const ExtractRequest& request, const ExtractedTin& tin, 
   if (ended == "maxTriangles") text += "; ended by --max-triangles";
   if (tin.fit && request.criterion.fit == CutFit::triangles)
     text += fmt::format("; {} before the fit", grouped(tin.fit->trianglesBefore, "triangle", "triangles"));
+  else if (tin.fit && request.criterion.fit == CutFit::unbiased)
+    text += fmt::format("; mean error {} before the fit", withUnit(tin.fit->meanBefore, unit));
   else if (tin.fit)
     text += fmt::format("; {} before the fit", withUnit(tin.fit->errorBefore, unit));
   if (tin.measured) text += fmt::format("; measured {}", withUnit(tin.measured->maxAbsError, unit));
+  if (tin.measured && request.criterion.fit == CutFit::unbiased)
+    text += fmt::format(", mean {}", withUnit(tin.measured->meanError, unit));
   if (tin.measuredInside) text += fmt::format(", {} inside", withUnit(tin.measuredInside->maxAbsError, unit));
   if (!request.certificate.empty()) text += fmt::format("\n  certificate {}", request.certificate);
   if (!request.errorRaster.empty()) text += fmt::format("\n  error raster {}", request.errorRaster);

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cli/arguments/arguments.h"
@@ -17,7 +19,9 @@
 #include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/names.h"
 #include "io/query/extract/model_file.h"
+#include "io/query/extract/tin.h"
 #include "io/store/amt/file.h"
+#include "terrain/measure/measure.h"
 #include "terrain/model/error_curve.h"
 #include "terrain/model/relief.h"
 
@@ -36,7 +40,28 @@ struct Facts {
   std::string writer;
   double rootError = 0, relief = 0;
   std::vector<CurvePoint> curve;
+  std::vector<double> means;  ///< with --at: of the minimal cut of each point, z_TIN - z_sample
 };
+
+/// The mean errors of the minimal cuts, measured: no file stores them.
+Result<std::vector<double>> meanErrors(const TerrainModel& model, const std::vector<double>& tolerances,
+                                       const RunContext& context) {
+  std::vector<double> means;
+  const auto meanOf = [&](const auto& samples) -> Status {
+    for (const double maxError : tolerances) {
+      ExtractedTin unused;
+      ARETE_TRY(const TinExport tin,
+                takeTin(model, {.maxError = maxError}, std::nullopt, 0, std::nullopt, unused, context));
+      const Result<MeasureReport> report = measure(tin.mesh, samples, {}, context);
+      if (!report && report.error().code == ErrorCode::interrupted) return tl::unexpected(report.error());
+      // A file may hold what cannot be measured; the rest of the answer does not depend on it.
+      means.push_back(report ? report->meanError : std::numeric_limits<double>::quiet_NaN());
+    }
+    return {};
+  };
+  ARETE_CHECK(model.isRaster ? meanOf(model.rasterSamples()) : meanOf(model.pointSamples()));
+  return means;
+}
 
 /// The error of the coarsest triangulation, with which the curve ends.
 double largestRootError(const MultiTriangulation& mt) {
@@ -99,21 +124,24 @@ void sayFacts(const InfoArguments& arguments, const TerrainModel& model, const F
                   o.shape == HoleShape::dataDependent ? fmt::format(" --min-aspect {}", o.minimumAspect) : "",
                   o.rimTolerance > 0 ? fmt::format(" --rim-tolerance {}", o.rimTolerance) : ""));
   const std::string& unit = model.georeference.verticalUnit;
-  text += fmt::format("\n  {:>12}  {:>9}  {:>13}  {:>13}\n",
+  text += fmt::format("\n  {:>12}  {:>9}  {:>13}  {:>13}{}\n",
                       unit.empty() ? std::string("error") : fmt::format("error ({})", unit), "relief",
-                      "minimal", "saturated");
-  const auto row = [&](const std::string& error, double value, std::uint64_t minimal,
-                       std::uint64_t saturated) {
+                      "minimal", "saturated", facts.means.empty() ? "" : "  mean TIN minus DEM");
+  const auto row = [&](const std::string& error, double value, std::uint64_t minimal, std::uint64_t saturated,
+                       const std::string& mean = "") {
     const std::string share =
         facts.relief > 0 ? fmt::format("{:.3g} %", 100 * value / facts.relief) : std::string();
-    text +=
-        fmt::format("  {:>12}  {:>9}  {:>13}  {:>13}\n", error, share, grouped(minimal), grouped(saturated));
+    text += fmt::format("  {:>12}  {:>9}  {:>13}  {:>13}{}\n", error, share, grouped(minimal),
+                        grouped(saturated), mean);
   };
   // Stated errors are answered alone; otherwise the finest and the root triangulation frame the curve.
   if (arguments.at.empty()) row("0 (finest)", 0, mt.finestTriangleCount(), mt.finestTriangleCount());
-  for (const CurvePoint& point : facts.curve)
-    row(fmt::format("{:g}", point.maxError), point.maxError, point.minimalTriangles,
-        point.saturatedTriangles);
+  for (std::size_t i = 0; i < facts.curve.size(); ++i)
+    row(fmt::format("{:g}", facts.curve[i].maxError), facts.curve[i].maxError,
+        facts.curve[i].minimalTriangles, facts.curve[i].saturatedTriangles,
+        facts.means.empty()          ? ""
+        : std::isnan(facts.means[i]) ? "             unknown"
+                                     : fmt::format("  {:>18.3g}", facts.means[i]));
   if (arguments.at.empty())
     row(fmt::format("{:.4g} (root)", facts.rootError), facts.rootError, mt.rootTriangleCount(),
         mt.rootTriangleCount());
@@ -137,6 +165,8 @@ Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const 
                                              : Json()},
                      {"minimal", point.minimalTriangles},
                      {"saturated", point.saturatedTriangles}});
+  for (std::size_t i = 0; i < facts.means.size(); ++i)
+    curve[i]["minimalMeanError"] = std::isnan(facts.means[i]) ? Json() : Json(facts.means[i]);
   return {{"file", arguments.model},
           {"bytes", facts.bytes},
           {"isPacked", facts.isPacked},
@@ -190,6 +220,10 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
   }
   ARETE_TRY(auto curve, errorCurve(model.mt, tolerances, session.context()));
   facts.curve = std::move(curve);
+  if (!arguments.at.empty()) {
+    ARETE_TRY(auto means, meanErrors(model, tolerances, session.context()));
+    facts.means = std::move(means);
+  }
   sayFacts(arguments, model, facts, session);
   Json answer = factsJson(arguments, model, facts);
   ARETE_TRY(answer["columns"], columnsJson(file.container()));
@@ -216,9 +250,10 @@ void addInfoCommand(CLI::App& app, Session& session) {
                             ->check(wholeNumber(0, 1000))
                             ->type_name("N");
   command
-      ->add_option("--at", arguments->at,
-                   "Errors at which the curve is computed; E% is a share of the relief, or of a surface's "
-                   "diagonal")
+      ->add_option(
+          "--at", arguments->at,
+          "Errors at which the curve is computed, of terrain with the mean error of the minimal cut; E% is "
+          "a share of the relief, or of a surface's diagonal")
       ->check(tolerances())
       ->type_name("E[,E...]")
       ->excludes(points);

@@ -70,7 +70,8 @@ class Model(Stored):
         deadline: milliseconds after which the refinement ends as far as it is; the TIN conforms.
         order: what is refined first under max_triangles or a deadline: "worst", "breadth", "depth", or "two-queues".
         fit: moves the heights of the vertices: "triangles" for fewer triangles within max_error, "error" for a smaller
-            error of as many. What that comes to is certain once measure() has found it.
+            error of as many, "unbiased" for a mean error of 0 of as many. What that comes to is certain once measure()
+            has found it.
 
         An error may be a percentage of the relief ("1%": of the highest minus the lowest sample), a number of triangles one of
         the finest.
@@ -80,8 +81,8 @@ class Model(Stored):
         asked = Asked(max_error, max_triangles, region is not None, outside_error, camera is not None, pixel_error,
                       focus_of(focus, 2), error_growth, deadline, order, fit)
         asked.check()
-        if fit not in (None, "triangles", "error"):
-            raise ValueError(f"fit={fit!r} is neither \"triangles\" nor \"error\"")
+        if fit not in (None, "triangles", "error", "unbiased"):
+            raise ValueError(f"fit={fit!r} is not \"triangles\", \"error\" or \"unbiased\"")
         if fit is not None and camera is not None:
             raise ValueError("a fit is not for a camera")
         if fit == "triangles" and (max_error is None or max_triangles is not None):

@@ -64,7 +64,7 @@ void defineRequest(py::module_& module) {
                if (orderName(order) == name) request.order = order;
            })
       .def("set_fit", [](CutRequest& request, const std::string& name) {
-        for (const CutFit fit : {CutFit::triangles, CutFit::error, CutFit::rms})
+        for (const CutFit fit : {CutFit::triangles, CutFit::error, CutFit::unbiased, CutFit::rms})
           if (fitName(fit) == name) request.fit = fit;
       });
 }

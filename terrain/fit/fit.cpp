@@ -62,9 +62,24 @@ tl::unexpected<Error> notOneCut() {
   return failure(ErrorCode::invalidData, "the triangles of the model are not those of a multitriangulation");
 }
 
+/// Mean z_TIN - z_sample. O(samples).
+double meanResidual(const FitMesh& mesh) {
+  double sum = 0, count = 0;
+  for (std::uint32_t t = 0; t < mesh.slotCount(); ++t) {
+    if (!mesh.isLive(t)) continue;
+    const FitMesh::Corners& corners = mesh.triangle(t).corners;
+    const FitMesh::Weights weights = mesh.weights(corners);
+    mesh.forSamples(t, [&](std::uint32_t s) {
+      sum += mesh.residual(corners, weights.of(mesh.plan(s)), s);
+      ++count;
+    });
+  }
+  return count > 0 ? sum / count : 0;
+}
+
 /// The cut that the mesh represents now, with the errors of its triangles. An error above the tolerance by no
 /// more than rounding is set to the tolerance.
-Result<FittedCut> fittedCut(const FitMesh& mesh, const Cut& before, double tolerance) {
+Result<FittedCut> fittedCut(const FitMesh& mesh, const Cut& before, double meanBefore, double tolerance) {
   const MultiTriangulation& mt = mesh.mt();
   NodeSet nodes(mt.nodeCount(), 0);
   for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v)
@@ -72,7 +87,8 @@ Result<FittedCut> fittedCut(const FitMesh& mesh, const Cut& before, double toler
       nodes[mesh.mtVertex(v) - mt.rootVertexCount()] = 1;
   FittedCut fitted{.cut = front(mt, nodes),
                    .trianglesBefore = before.triangles.size(),
-                   .errorBefore = before.achievedError};
+                   .errorBefore = before.achievedError,
+                   .meanBefore = meanBefore};
   fitted.cut.isComplete = before.isComplete;
   fitted.heights.reserve(fitted.cut.vertices.size());
   for (const std::uint32_t v : fitted.cut.vertices) {
@@ -109,6 +125,15 @@ Result<FittedCut> fittedCut(const FitMesh& mesh, const Cut& before, double toler
   return fitted;
 }
 
+Status checkTolerance(const FitTolerance& tolerance) {
+  if (!(tolerance.maxError >= 0))
+    return failure(ErrorCode::usage, "the tolerance must not be negative", "maxError");
+  if (!(tolerance.outsideError >= tolerance.maxError))
+    return failure(ErrorCode::usage, "the tolerance outside the region must not be smaller than inside",
+                   "outsideError");
+  return {};
+}
+
 Result<Cut> leastCut(const TerrainModel& model, const FitTolerance& tolerance, const RunContext& context) {
   if (tolerance.region == nullptr) return takeCut(model.mt, UniformError(tolerance.maxError), {}, context);
   return takeCut(
@@ -120,20 +145,17 @@ Result<Cut> leastCut(const TerrainModel& model, const FitTolerance& tolerance, c
 
 Result<FittedCut> fitFewestTriangles(const TerrainModel& model, const FitTolerance& tolerance,
                                      const FitOptions& options, const RunContext& context) try {
-  if (!(tolerance.maxError >= 0))
-    return failure(ErrorCode::usage, "the tolerance must not be negative", "maxError");
-  if (!(tolerance.outsideError >= tolerance.maxError))
-    return failure(ErrorCode::usage, "the tolerance outside the region must not be smaller than inside",
-                   "outsideError");
+  ARETE_CHECK(checkTolerance(tolerance));
   ARETE_TRY(const Cut cut, leastCut(model, tolerance, context));
   FitBounds bounds = boundsOf(model, tolerance, cut);
   ARETE_TRY(auto mesh, meshOf(model, cut, std::move(bounds), options, context));
+  const double meanBefore = meanResidual(mesh);
   // With the tolerance 0 no height can change, and with an infinite one the cut is the root already.
   if (tolerance.maxError > 0 && std::isfinite(tolerance.maxError)) {
     mesh.setAccepted(1 + kRounding);
     ARETE_CHECK(removeWhatFits(mesh, std::max(1u, options.rings), context));
   }
-  return fittedCut(mesh, cut, tolerance.maxError);
+  return fittedCut(mesh, cut, meanBefore, tolerance.maxError);
 } catch (...) {
   return caughtFailure();
 }
@@ -142,8 +164,22 @@ Result<FittedCut> fitLeastError(const TerrainModel& model, const Cut& cut, const
                                 const RunContext& context) try {
   ARETE_TRY(auto mesh, meshOf(model, cut, {.everywhere = 1, .rounding = kRounding * cut.achievedError},
                               options, context));
+  const double meanBefore = meanResidual(mesh);
   ARETE_CHECK(minimizeLargestError(mesh, std::max(1u, options.rings), context));
-  return fittedCut(mesh, cut, 0);
+  return fittedCut(mesh, cut, meanBefore, 0);
+} catch (...) {
+  return caughtFailure();
+}
+
+Result<FittedCut> fitUnbiased(const TerrainModel& model, const Cut& cut, const FitTolerance& tolerance,
+                              const FitOptions& options, const RunContext& context) try {
+  ARETE_CHECK(checkTolerance(tolerance));
+  FitTolerance finite = tolerance;
+  if (!std::isfinite(tolerance.maxError)) finite.maxError = cut.achievedError;
+  ARETE_TRY(auto mesh, meshOf(model, cut, boundsOf(model, finite, cut), options, context));
+  const double meanBefore = meanResidual(mesh);
+  if (mesh.bounds().everywhere > 0) ARETE_CHECK(removeMeanErrors(mesh, context));
+  return fittedCut(mesh, cut, meanBefore, tolerance.maxError);
 } catch (...) {
   return caughtFailure();
 }

@@ -19,4 +19,9 @@ Status removeWhatFits(FitMesh& mesh, std::uint32_t rings, const RunContext& cont
 /// %, or it is within FitBounds::rounding. Replaces the mesh's bounds by uniform ones. Errors: interrupted.
 Status minimizeLargestError(FitMesh& mesh, std::uint32_t rings, const RunContext& context);
 
+/// Changes heights until the mean residual is 0, on the whole and in the parts of the ground, as far as the
+/// bounds permit; every intermediate state is within them. The result is the same for any number of threads.
+/// Precondition: all samples are within their bounds. Errors: interrupted.
+Status removeMeanErrors(FitMesh& mesh, const RunContext& context);
+
 }  // namespace arete

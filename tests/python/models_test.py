@@ -87,7 +87,8 @@ class Models(unittest.TestCase):
 
     def test_a_fit_is_that_of_the_command(self):
         for fit, options, words in (("triangles", {"max_error": 4}, ["--max-error", 4]),
-                                    ("error", {"max_triangles": 500}, ["--max-triangles", 500])):
+                                    ("error", {"max_triangles": 500}, ["--max-triangles", 500]),
+                                    ("unbiased", {"max_error": 4}, ["--max-error", 4])):
             tin = self.model.cut(fit=fit, **options)
             said = json.loads(command("extract", self.file, "-o", self.path("fit.obj"), *words, "--fit", fit,
                                       "--json"))["exports"][0]

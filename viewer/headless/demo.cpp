@@ -222,6 +222,7 @@ class Demo {
     row.percentOfFinest = 100.0 * row.triangles / report_.finestTriangles;
     row.measuredMax = measured.maxAbsError;
     row.measuredRms = measured.rmsError;
+    row.measuredMean = measured.meanError;
     row.uncovered = measured.uncovered;
     row.cutSeconds = seconds;
     row.isKept = tin.isKept;
@@ -357,13 +358,14 @@ Result<DemoReport> runDemo(const std::string& dem, const DemoOptions& options, c
 std::string demoTable(const DemoReport& report) {
   const std::string unit = report.unit.empty() ? "" : ", " + report.unit;
   std::vector<std::vector<std::string>> rows = {{"tolerance" + unit, "triangles", "% of full",
-                                                 "measured max" + unit, "RMS" + unit, "uncovered", "cut, s",
-                                                 "% of relief"}};
+                                                 "measured max" + unit, "RMS" + unit, "mean" + unit,
+                                                 "uncovered", "cut, s", "% of relief"}};
   for (const DemoResult& r : report.results)
     rows.push_back({fmt::format("{:g}", r.maxError), std::to_string(r.triangles),
                     fmt::format("{:.3g}", r.percentOfFinest), fmt::format("{:.4g}", r.measuredMax),
-                    fmt::format("{:.3g}", r.measuredRms), std::to_string(r.uncovered),
-                    fmt::format("{:.3f}", r.cutSeconds), fmt::format("{:.3g}", r.percentOfRelief)});
+                    fmt::format("{:.3g}", r.measuredRms), fmt::format("{:.3g}", r.measuredMean),
+                    std::to_string(r.uncovered), fmt::format("{:.3f}", r.cutSeconds),
+                    fmt::format("{:.3g}", r.percentOfRelief)});
   std::vector<std::size_t> width(rows.front().size(), 0);
   for (const auto& row : rows)
     for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], row[c].size());

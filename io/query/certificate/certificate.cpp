@@ -67,7 +67,8 @@ std::string certificateJson(const Certificate& certificate, const TerrainModel& 
                {"measured", measuredJson(certificate.measured, model.isRaster)}};
   if (certificate.fit)
     json["fit"] = {{"trianglesBefore", certificate.fit->trianglesBefore},
-                   {"errorBefore", certificate.fit->errorBefore}};
+                   {"errorBefore", certificate.fit->errorBefore},
+                   {"meanBefore", certificate.fit->meanBefore}};
   if (certificate.measuredInside)
     json["measuredInside"] = measuredJson(*certificate.measuredInside, model.isRaster);
   json["check"] = certificate.checkCommand;

@@ -27,6 +27,7 @@ struct ExportFormat {
 struct FitFigures {
   std::uint64_t trianglesBefore = 0;
   double errorBefore = 0;  ///< the largest error stored with its triangles
+  double meanBefore = 0;   ///< mean z_TIN - z_sample of that cut
 };
 
 /// What an export promises, and how a third party can check it.

@@ -41,7 +41,8 @@ Json tinJson(const ExtractRequest& request, const ExtractedTin& tin) {
   if (tin.fit)
     json["fit"] = {{"for", fitName(asked.fit)},
                    {"trianglesBefore", tin.fit->trianglesBefore},
-                   {"errorBefore", tin.fit->errorBefore}};
+                   {"errorBefore", tin.fit->errorBefore},
+                   {"meanBefore", tin.fit->meanBefore}};
   if (tin.measured) json["measured"] = toJson(*tin.measured, tin.isRaster);
   if (tin.measuredInside) json["measuredInside"] = toJson(*tin.measuredInside, tin.isRaster);
   if (tin.measured) json["kept"] = tin.isKept;

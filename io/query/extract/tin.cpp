@@ -23,6 +23,7 @@
 #include "io/geo/dem/raster_writer.h"
 #include "io/query/request/check_request.h"
 #include "io/query/request/criterion.h"
+#include "terrain/fit/fit.h"
 #include "terrain/model/plan_region.h"
 
 namespace arete {
@@ -46,6 +47,17 @@ double storedErrorInside(const TerrainModel& model, const Cut& cut, const Region
     if (region.meetsTriangle(position(0), position(1), position(2))) largest = error;
   }
   return largest;
+}
+
+/// What a fit that keeps a cut's triangles may use: the tolerance, or the error that the cut reached.
+FitTolerance toleranceOf(const TerrainModel& model, const CutRequest& c, const std::optional<Region>& region,
+                         double reserve, const Cut& cut) {
+  const double inside = region ? storedErrorInside(model, cut, *region) : cut.achievedError;
+  FitTolerance tolerance{.maxError = inside, .region = region ? &*region : nullptr};
+  if (c.promisesMaxError(cut.isComplete) && std::isfinite(*c.maxError))
+    tolerance.maxError = std::max(inside, *c.maxError - reserve);
+  tolerance.outsideError = std::max(tolerance.maxError, c.outsideError);
+  return tolerance;
 }
 
 /// A file's name without its folder, which an export does not tell.
@@ -119,7 +131,7 @@ Result<TinExport> takeTin(const TerrainModel& model, const CutRequest& c, const 
   const auto finish = [&](const Result<FittedCut>& fitted) -> Result<TinExport> {
     if (!fitted) return tl::unexpected(fitted.error());
     describe(fitted->cut);
-    tin.fit = FitFigures{fitted->trianglesBefore, fitted->errorBefore};
+    tin.fit = FitFigures{fitted->trianglesBefore, fitted->errorBefore, fitted->meanBefore};
     return exportTin(model, *fitted);
   };
   if (c.fit == CutFit::triangles) {
@@ -138,6 +150,8 @@ Result<TinExport> takeTin(const TerrainModel& model, const CutRequest& c, const 
     ARETE_TRY(Cut cut, takeCut(model.mt, *criterion, options, context));
     taken = std::move(cut);
   }
+  if (c.fit == CutFit::unbiased)
+    return finish(fitUnbiased(model, *taken, toleranceOf(model, c, region, reserve, *taken), {}, context));
   if (c.fit == CutFit::error || (c.fit == CutFit::triangles && !region))
     return finish(fitLeastError(model, *taken, {}, context));
   if (c.camera) tin.pixels = worstSeverity(model.mt, *criterion, *taken);

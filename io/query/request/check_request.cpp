@@ -15,7 +15,7 @@ tl::unexpected<Error> refused(std::string_view field, const char* why) {
 }
 
 Status checkKind(const CutRequest& r, ModelKind kind) {
-  const bool fitsHeights = r.fit == CutFit::triangles || r.fit == CutFit::error;
+  const bool fitsHeights = r.fit != CutFit::none && r.fit != CutFit::rms;
   const std::array ofTerrain = {Field{"planRegion", r.planRegion != nullptr},
                                 Field{"camera", r.camera.has_value()}, Field{"distance", r.distance != 0},
                                 Field{"fit", fitsHeights}};
@@ -49,7 +49,8 @@ Status checkRequest(const CutRequest& r, ModelKind kind) {
   if (r.fit == CutFit::triangles && !r.maxError) return refused("fit", "triangles requires maxError");
   if (r.fit == CutFit::triangles && r.method == CutMethod::saturated)
     return refused("fit", "triangles cannot be combined with the saturated method");
-  if (r.fit != CutFit::triangles && hasRegion) return refused("fit", "error and rms are for the whole model");
+  if ((r.fit == CutFit::error || r.fit == CutFit::rms) && hasRegion)
+    return refused("fit", "error and rms are for the whole model");
   return {};
 }
 

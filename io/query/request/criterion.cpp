@@ -30,6 +30,8 @@ std::string_view fitName(CutFit fit) {
       return "triangles";
     case CutFit::error:
       return "error";
+    case CutFit::unbiased:
+      return "unbiased";
     case CutFit::rms:
       return "rms";
     default:

@@ -31,6 +31,7 @@ enum class CutFit {
   none,
   triangles,  ///< of terrain: fewer triangles within the tolerance (terrain/fit/fit.h)
   error,      ///< of terrain: a smaller error of the same triangles
+  unbiased,   ///< of terrain: a mean error of 0 of the same triangles
   rms,        ///< of a surface: a smaller mean square distance (surface/fit/fit.h)
 };
 
@@ -85,7 +86,7 @@ struct CutRequest {
   bool statesError() const { return maxError || pixelError || (hasCamera() && !maxTriangles); }
 };
 
-/// "none", "triangles", "error" or "rms".
+/// "none", "triangles", "error", "unbiased" or "rms".
 std::string_view fitName(CutFit fit);
 /// "worst", "breadth", "depth" or "two-queues"; "usual".
 std::string_view orderName(CutOrder order);

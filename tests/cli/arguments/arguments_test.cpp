@@ -28,7 +28,7 @@ TEST_F(Arguments, RefusesTolerancesThatAreNone) {
     options.insert(options.begin(), {"extract", "dem.amt", "-o", "x.ply", "--fit"});
     expectRefusal(options, 2, sentence);
   };
-  fit({"heights", "--max-error", "1"}, "--fit: 'heights' must be one of triangles, error");
+  fit({"heights", "--max-error", "1"}, "--fit: 'heights' must be one of triangles, error, unbiased");
   fit({"triangles", "--max-triangles", "500"}, "--fit triangles: requires --max-error");
   fit({"triangles", "--max-error", "1", "--method", "saturated"},
       "--fit triangles: cannot be combined with --method saturated");
@@ -37,6 +37,12 @@ TEST_F(Arguments, RefusesTolerancesThatAreNone) {
       "--fit error: cannot be combined with --camera, --focus or");
   fit({"triangles", "--max-error", "1", "--focus", "1,1", "--error-growth", "0"},
       "--fit triangles: cannot be");
+  for (const std::vector<std::string>& place :
+       {std::vector<std::string>{"--deadline", "9"}, {"--focus", "1,1", "--error-growth", "0"}}) {
+    std::vector<std::string> options{"unbiased", "--max-error", "1"};
+    options.insert(options.end(), place.begin(), place.end());
+    fit(options, "--fit unbiased: cannot be combined with --camera, --focus or");
+  }
   expectRefusal({"measure", "tin.ply", "dem.tif", "--expect", "-2"}, 2, "--expect: an error cannot be below");
 }
 

@@ -39,6 +39,22 @@ TEST_F(ExtractCommand, FitsHeightsForFewerTrianglesOrASmallerError) {
     EXPECT_EQ(run({"measure", "fewer.ply", "dem.tif", "--expect", "3"}).code, 0);
     EXPECT_NE(read("fewer.ply").find("heights fitted"), std::string::npos);
 
+    const Outcome level = run({"extract", "dem.amt", "-o", "level.ply", "--max-error", "3", "--fit",
+                               "unbiased", "--certificate", "--json"});
+    ASSERT_EQ(level.code, 0) << level.err;
+    const Json unbiased = level.json()["exports"][0];
+    EXPECT_EQ(unbiased["fit"]["for"], "unbiased");
+    EXPECT_EQ(unbiased["triangles"], plain["triangles"]);
+    EXPECT_EQ(unbiased["kept"], true);
+    const Json measured = run({"measure", "level.ply", "dem.tif", "--expect", "3", "--json"}).json();
+    EXPECT_LT(std::abs(double(measured["error"]["mean"])), 0.02 * 3);
+    const Json certificate = Json::parse(read("level.certificate.json"));
+    EXPECT_EQ(certificate["measured"]["error"]["mean"], measured["error"]["mean"]);
+    EXPECT_EQ(certificate["fit"]["meanBefore"], unbiased["fit"]["meanBefore"]);
+    const Json before = run({"measure", "plain.ply", "dem.tif", "--json"}).json();
+    EXPECT_NEAR(double(before["error"]["mean"]), double(unbiased["fit"]["meanBefore"]), 1e-9);
+    EXPECT_NE(run({"measure", "level.ply", "dem.tif"}).out.find("(TIN minus DEM)"), std::string::npos);
+
     const std::string budget = std::to_string(int(plain["triangles"]));
     const Outcome closer = run(
         {"extract", "dem.amt", "-o", "closer.ply", "--max-triangles", budget, "--fit", "error", "--json"});

@@ -38,7 +38,12 @@ TEST_F(InfoCommand, TellsTheCurve) {
         run({"extract", "dem.amt", "-o", "tin.ply", "--max-error", "4", "--method", method, "--json"})
             .json()["exports"][0];
     EXPECT_EQ(tin["triangles"], at[0][method]) << method;
+    if (method != "minimal") continue;
+    const Json measured = run({"measure", "tin.ply", "dem.tif", "--json"}).json();
+    EXPECT_NEAR(measured["error"]["mean"].get<double>(), at[0]["minimalMeanError"].get<double>(), 1e-9);
   }
+  EXPECT_NE(run({"info", "dem.amt", "--at", "4"}).out.find("mean TIN minus DEM"), std::string::npos);
+  EXPECT_FALSE(curve[0].contains("minimalMeanError"));
   EXPECT_NE(run({"info", "dem.amt"}).out.find("(finest)"), std::string::npos);
 }
 

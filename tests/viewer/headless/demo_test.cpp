@@ -104,6 +104,7 @@ TEST_F(Demo, KeepsItsTolerancesWhenTheFilesAreMeasuredAgain) {
     EXPECT_TRUE(checkPromise(*measured, r.maxError))
         << checkPromise(*measured, r.maxError).error().describe();
     EXPECT_DOUBLE_EQ(measured->maxAbsError, r.measuredMax);
+    EXPECT_DOUBLE_EQ(measured->meanError, r.measuredMean);
     EXPECT_TRUE(r.isKept);
   }
   EXPECT_TRUE(loadAmt(path("out/deep/dem.amt")));
@@ -142,6 +143,7 @@ TEST_F(Demo, PrintsATableThatParses) {
           .percentOfFinest = 12.3456,
           .measuredMax = 0.499,
           .measuredRms = 0.1,
+          .measuredMean = -0.03,
           .uncovered = 0,
           .cutSeconds = 0.25,
           .isKept = true};
@@ -157,11 +159,14 @@ TEST_F(Demo, PrintsATableThatParses) {
     ASSERT_TRUE(std::getline(lines, line));
     EXPECT_EQ(line.size(), heading.size());
     std::istringstream numbers(line);
-    double tolerance = 0, triangles = 0, percent = 0, most = 0, rms = 0, uncovered = -1, seconds = 0;
-    ASSERT_TRUE(numbers >> tolerance >> triangles >> percent >> most >> rms >> uncovered >> seconds) << line;
+    double tolerance = 0, triangles = 0, percent = 0, most = 0, rms = 0, mean = 0, uncovered = -1,
+           seconds = 0;
+    ASSERT_TRUE(numbers >> tolerance >> triangles >> percent >> most >> rms >> mean >> uncovered >> seconds)
+        << line;
     EXPECT_EQ(tolerance, expected.maxError);
     EXPECT_EQ(triangles, expected.triangles);
     EXPECT_NEAR(percent, expected.percentOfFinest, 0.1);
+    EXPECT_NEAR(mean, expected.measuredMean, 1e-3);
     EXPECT_EQ(uncovered, 0);
   }
   EXPECT_FALSE(std::getline(lines, line));

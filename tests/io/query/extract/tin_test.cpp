@@ -86,7 +86,12 @@ void expectKept(const TerrainModel& model, const std::string& extension, double 
   EXPECT_EQ(json["fit"]["trianglesBefore"], tin->fit->trianglesBefore);
   EXPECT_EQ(json["fit"]["errorBefore"], tin->fit->errorBefore);
   EXPECT_LE(tin->triangles, tin->fit->trianglesBefore);
+  EXPECT_EQ(json["fit"]["meanBefore"], tin->fit->meanBefore);
+  EXPECT_EQ(json["measured"]["error"]["mean"], report->meanError);
   EXPECT_LE(tin->storedError, maxError);
+  if (fit != CutFit::unbiased) return;
+  EXPECT_EQ(tin->triangles, tin->fit->trianglesBefore);
+  EXPECT_LE(std::abs(report->meanError), 0.02 * maxError + tin->format.heightRounding);
 }
 
 TEST(ExtractTin, PutsEveryCutOfAModelAboutOneOrigin) {
@@ -127,7 +132,7 @@ TEST(ExtractTin, KeepsThePromiseInEveryFormatWithFittedHeights) {
     const auto model = build(family.make(40, 33, 2));
     ASSERT_TRUE(model) << family.name;
     for (const MeshFormat& format : meshFormats())
-      for (const CutFit fit : {CutFit::triangles, CutFit::error}) {
+      for (const CutFit fit : {CutFit::triangles, CutFit::error, CutFit::unbiased}) {
         SCOPED_TRACE(fmt::format("{} {} {}", family.name, format.name, fitName(fit)));
         expectKept(*model, std::string(format.extension), 3, fit);
       }
@@ -135,7 +140,7 @@ TEST(ExtractTin, KeepsThePromiseInEveryFormatWithFittedHeights) {
   for (const PointFamily& family : pointFamilies()) {
     const auto model = build(family.make(400, 2));
     ASSERT_TRUE(model) << family.name;
-    for (const CutFit fit : {CutFit::triangles, CutFit::error}) {
+    for (const CutFit fit : {CutFit::triangles, CutFit::error, CutFit::unbiased}) {
       SCOPED_TRACE(fmt::format("{} {}", family.name, fitName(fit)));
       expectKept(*model, ".ply", 7, fit);
     }

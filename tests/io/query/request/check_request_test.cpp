@@ -26,6 +26,7 @@ TEST(CheckRequest, RefusesWhatTheKindHasNotAndWhatExcludesEachOtherByTheNameOfTh
       {"fit", ModelKind::terrain, [](CutRequest& r) { r.fit = CutFit::rms; }},
       {"fit", ModelKind::surface, [](CutRequest& r) { r.fit = CutFit::triangles; }},
       {"fit", ModelKind::surface, [](CutRequest& r) { r.fit = CutFit::error; }},
+      {"fit", ModelKind::surface, [](CutRequest& r) { r.fit = CutFit::unbiased; }},
       {"planRegion", ModelKind::surface, [&](CutRequest& r) { r.planRegion = region; }},
       {"camera", ModelKind::surface, [](CutRequest& r) { r.camera = Camera(); }},
       {"distance", ModelKind::surface, [](CutRequest& r) { r.distance = 5; }},
@@ -53,6 +54,11 @@ TEST(CheckRequest, RefusesWhatTheKindHasNotAndWhatExcludesEachOtherByTheNameOfTh
          r.fit = CutFit::triangles;
          r.maxError.reset();
          r.maxTriangles = 100;
+       }},
+      {"fit", ModelKind::terrain,
+       [](CutRequest& r) {
+         r.fit = CutFit::unbiased;
+         r.deadlineMilliseconds = 5;
        }},
       {"fit", ModelKind::surface,
        [](CutRequest& r) {
@@ -84,6 +90,8 @@ TEST(CheckRequest, LetsEveryRequestOfItsKindThrough) {
   }
   EXPECT_TRUE(checkRequest({.maxError = 1, .distance = 4, .fit = CutFit::triangles}, ModelKind::terrain));
   EXPECT_TRUE(checkRequest({.maxTriangles = 1, .fit = CutFit::error}, ModelKind::terrain));
+  EXPECT_TRUE(
+      checkRequest({.maxTriangles = 1, .region = "0,0,1,1", .fit = CutFit::unbiased}, ModelKind::terrain));
   EXPECT_TRUE(checkRequest({.maxTriangles = 1, .fit = CutFit::rms, .dropParts = 2}, ModelKind::surface));
 }
 

@@ -139,6 +139,7 @@ TEST(CutRequest, NamesItsFits) {
   EXPECT_EQ(fitName(CutFit::none), "none");
   EXPECT_EQ(fitName(CutFit::triangles), "triangles");
   EXPECT_EQ(fitName(CutFit::error), "error");
+  EXPECT_EQ(fitName(CutFit::unbiased), "unbiased");
 }
 
 }  // namespace
