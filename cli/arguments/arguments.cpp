@@ -15,7 +15,6 @@
 #include <utility>
 #include <variant>
 
-#include "engine/base/counted.h"
 #include "io/files/file_writer.h"
 #include "io/files/output_file.h"
 #include "io/formats/exchange/mesh_formats.h"
@@ -329,17 +328,6 @@ std::string outputName(const std::string& pattern, const std::string& tag, bool 
   const std::filesystem::path path = pattern;
   return (path.parent_path() / fmt::format("{}_{}{}", path.stem().string(), tag, path.extension().string()))
       .string();
-}
-
-/// Digits stand in groups of three, with a blank between them.
-std::string grouped(std::uint64_t count) {
-  std::string text = std::to_string(count);
-  for (std::size_t i = text.size(); i > 3;) text.insert(i -= 3, 1, ' ');
-  return text;
-}
-
-std::string grouped(std::uint64_t count, std::string_view one, std::string_view many) {
-  return fmt::format("{} {}", grouped(count), agreeing(count, one, many));
 }
 
 std::string withUnit(double value, const std::string& unit) {

@@ -13,6 +13,7 @@
 #include "engine/base/float_bounds.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
+#include "python/bindings/export_files.h"
 
 namespace arete::python {
 namespace {
@@ -78,9 +79,24 @@ FileParts filePartsOf(const Tin& tin) {
   return {tin.verticalUnit, tin.verticalUnitMetres, origin, static_cast<int>(tin.up), tin.note};
 }
 
+void defineExportFiles(py::module_& module) {
+  py::class_<ExportFiles>(module, "ExportFiles")
+      .def(py::init<>())
+      .def_readwrite("output", &ExportFiles::output)
+      .def_readwrite("certificate", &ExportFiles::certificate)
+      .def_readwrite("error_raster", &ExportFiles::errorRaster)
+      .def_readwrite("map", &ExportFiles::map)
+      .def_readwrite("model", &ExportFiles::model)
+      .def_readwrite("check_before", &ExportFiles::checkBefore)
+      .def_readwrite("check_behind", &ExportFiles::checkBehind)
+      .def_readwrite("drop_attributes", &ExportFiles::dropAttributes)
+      .def_readwrite("both_ways", &ExportFiles::measuresBothWays);
+}
+
 }  // namespace
 
 void defineTin(py::module_& module) {
+  defineExportFiles(module);
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   defineRequest(module);
   py::class_<CutTin>(module, "Tin")
@@ -105,8 +121,9 @@ void defineTin(py::module_& module) {
       }))
       .def("save",
            [](const CutTin& self, const std::string& path, const py::object& progress) {
-             return call(progress, [&](const RunContext& context) { return write(self.tin, path, context); })
-                 .lost;
+             MeshWriteReport report =
+                 call(progress, [&](const RunContext& context) { return write(self.tin, path, context); });
+             return report.lost;
            })
       .def_property_readonly(
           "vertices",
