@@ -73,10 +73,14 @@ def build_points(source: Any, *, crs: Any = None, same_place: Optional[str] = No
     """
     request = _request(shape, features, ratio, max_degree, min_aspect, 0, feature_persistence, fixed, crease_angle)
     _checks.word("same_place", same_place, _RULES)
-    reading = [None, layer or "", z_field or "", same_place or ""]
     stated = None if nodata is None else float(nodata)
+
+    def read_as(own: str) -> None:
+        request.set_reading(None, layer or "", z_field or "", same_place or "", crs_text(crs) or own, stated,
+                            vertical_unit or "", _depth(positive), [])
+
     if _checks.is_path(source):
-        request.set_reading(*reading, crs_text(crs), stated, vertical_unit or "", _depth(positive), [])
+        read_as("")
         return Model(_arete.build_point_file(os.fspath(source), request, progress))
     if layer is not None:
         raise TypeError("layer is for files")
@@ -89,7 +93,7 @@ def build_points(source: Any, *, crs: Any = None, same_place: Optional[str] = No
         raise ValueError(f"point {int(np.argwhere(~np.isfinite(rows))[0][0])} is not finite")
     if len(rows) == 0:
         raise ValueError("there is no point")
-    request.set_reading(*reading, crs_text(crs) or own, stated, vertical_unit or "", _depth(positive), [])
+    read_as(own)
     return Model(_arete.build_points(rows, request, progress))
 
 

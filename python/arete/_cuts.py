@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arete, _checks
-from ._mesh import Mesh, PathLike, Progress
+from ._mesh import Mesh
+from ._mesh import PathLike as PathLike
+from ._mesh import Progress as Progress
 from ._reports import report_of
 from ._sizes import counted
 
@@ -87,6 +89,9 @@ class Tin(Mesh):
         """Writes a mesh in the format that the name says, with its CRS, unit, errors and, of a surface, attributes; of a
         raster also .tif, the TIN sampled on the source's grid.
 
+        Formats of 32-bit floats round heights by a little, which the error of the cut does not include; with a certificate the
+        cut is taken so that the promise holds all the same.
+
         certificate: True, or a path: also measures what was written, and writes what was promised and found; an error that
             breaks the promise is raised, behind the files.
         error_raster: of terrain, a GeoTIFF of the TIN minus the DEM. map: of a surface, a CSV of the vertices and faces of
@@ -99,6 +104,12 @@ class Tin(Mesh):
         is_raster = name.lower().endswith((".tif", ".tiff"))
         if not (certificate or error_raster or map or names or both_ways or is_raster):
             return list(self._tin.save(name, progress))
+        is_surface = len(self.source_vertices) > 0
+        for option, value in (("map", map), ("drop_attributes", names), ("both_ways", both_ways)):
+            if value and not is_surface:
+                raise TypeError(f"{option} is for surfaces")
+        if error_raster and is_surface:
+            raise TypeError("error_raster is for terrain")
         if self._export is None:
             raise ValueError("a Tin that was pickled, or made in another process, has no model to be measured against")
         files = _arete.ExportFiles()
@@ -123,18 +134,21 @@ class Export:
     """How a cut is taken again, to be written and measured as `arete extract` does it."""
 
     extract: Callable[[_arete.ExportFiles, Progress], str]
-    source: str
+    sources: Sequence[str]
+    """The files that the model was built from, if there are any."""
     model: str
     has_deadline: bool
-    check_options: str = ""
+    check_options: Callable[[], str] = str
+    """Further arguments of measure(), by which the export is checked."""
 
     def write(self, files: _arete.ExportFiles, progress: Progress) -> List[str]:
         if self.has_deadline:
             raise ValueError("a cut by a deadline is another one the next time: save it without certificate, map and rasters")
         files.model = self.model
-        if files.certificate:
-            files.check_before = f"arete.measure({files.output!r}, {self.source!r}, expect="
-            files.check_behind = self.check_options + ")"
+        if files.certificate and all(os.path.exists(source) or "://" in source for source in self.sources):
+            against = repr(self.sources[0]) if len(self.sources) == 1 else repr(list(self.sources))
+            files.check_before = f"arete.measure({files.output!r}, {against}, expect="
+            files.check_behind = self.check_options() + ")"
         report = report_of(self.extract(files, progress))
         if report.get("kept") is False:
             raise RuntimeError(f"{files.output}: the measurement contradicts the promised error; the files are written")
@@ -209,8 +223,8 @@ class Asked:
         request.pixel_error = None if self.pixel_error is None else float(self.pixel_error)
         request.deadline = None if self.deadline is None else float(self.deadline)
         if self.focus is not None and self.error_growth is not None:
-            x, y, z = (*self.focus, None)[:3]
-            request.set_focus(x, y, z, float(self.error_growth))
+            z = self.focus[2] if len(self.focus) > 2 else None
+            request.set_focus(self.focus[0], self.focus[1], z, float(self.error_growth))
         request.set_method(self.method)
         request.set_order(self.order or "")
         request.set_fit(self.fit or "")
@@ -267,7 +281,9 @@ def plot_cut(model: Any, by: Optional[str], ax: Any, max_triangles: Union[int, s
     """Draws a cut of a model of either kind, and says how far it is off."""
     drawn = {name: options.pop(name) for name in ("cmap", "vmin", "vmax", "edges", "colorbar", "title") if name in options}
     if not {"max_error", "camera", "deadline"} & set(options):
-        options["max_triangles"] = min(max_triangles, model.finest_triangles) if isinstance(max_triangles, int) else max_triangles
+        options["max_triangles"] = max_triangles
+        if isinstance(max_triangles, int):
+            options["max_triangles"] = max(min(max_triangles, model.finest_triangles), model._stored.root_triangle_count)
     tin = model.cut(**options)
     drawn.setdefault("title", f"{counted(len(tin.triangles), 'triangle', 'triangles')}, error {tin.error:.3g} "
                               f"{tin.vertical_unit}".rstrip())

@@ -54,12 +54,12 @@ class Model(Stored):
         An error may be a percentage of the relief ("1%": of the highest minus the lowest sample), a number of triangles one of
         the finest.
         """
-        max_error, outside_error = self._error("max_error", max_error), self._error("outside_error", outside_error)
-        max_triangles = count_of("max_triangles", max_triangles, lambda: self.finest_triangles)
+        inside, outside = self._error("max_error", max_error), self._error("outside_error", outside_error)
+        budget = count_of("max_triangles", max_triangles, lambda: self.finest_triangles)
         if where is not None and region is not None:
             raise ValueError("where is a region: not with another one")
         has_region = region is not None or where is not None
-        asked = Asked(max_error, max_triangles, has_region, outside_error, camera is not None, pixel_error,
+        asked = Asked(inside, budget, has_region, outside, camera is not None, pixel_error,
                       focus_of(focus, 2), error_growth, deadline, order, fit, method)
         asked.check()
         if fit not in (None, "triangles", "error"):
@@ -85,10 +85,15 @@ class Model(Stored):
         def extract(files: _arete.ExportFiles, export_progress: Progress) -> str:
             return self._terrain.extract(request, where_it_holds, numbers, files, export_progress)
 
-        stated = [("region", region if is_path(region) or isinstance(region, tuple) else None), ("distance", distance),
-                  ("region_crs", region_crs if isinstance(region_crs, (str, int)) else None)]
-        options = "".join(f", {name}={value!r}" for name, value in stated if value is not None)
-        return Tin(tin, Export(extract, self._terrain.source, self._path or "", deadline is not None, options))
+        def check_options() -> str:
+            stated: Dict[str, Any] = dict(report_of(self._terrain.reading()))
+            stated["region"] = os.fspath(region) if is_path(region) else tuple(region) if isinstance(region, (list, tuple)) else None
+            stated["distance"] = distance
+            stated["region_crs"] = region_crs if isinstance(region_crs, (str, int)) else None
+            return "".join(f", {name}={value!r}" for name, value in stated.items() if value is not None)
+
+        sources = [self._terrain.source, *self._terrain.other_files()]
+        return Tin(tin, Export(extract, sources, self._path or "", deadline is not None, check_options))
 
     def _region(self, region: Any, distance: Any, region_crs: Any, where: Optional[Where]) -> AskedRegion:
         if where is None:
@@ -112,21 +117,25 @@ class Model(Stored):
     def _error(self, name: str, value: Any) -> Any:
         return size_of(name, value, lambda: self._terrain.relief)
 
+    def _tolerance(self, max_error: Size) -> float:
+        tolerance = float(self._error("max_error", max_error))
+        if not tolerance >= 0:
+            raise ValueError(f"max_error={max_error} is not at least 0")
+        return tolerance
+
     def height(self, x: ArrayLike, y: ArrayLike, max_error: Size = 0, progress: Progress = None, lonlat: bool = False) -> Any:
         """The height at places in the CRS of the source, NaN where there is no terrain or a place is masked; arrays or
         numbers.
 
         max_error: the height may be off by as much, and is found sooner. lonlat: x, y are longitude and latitude.
         """
-        max_error = self._error("max_error", max_error)
-        if not max_error >= 0:
-            raise ValueError(f"max_error={max_error} is not at least 0")
+        tolerance = self._tolerance(max_error)
         (x, x_masked), (y, y_masked) = places_of(x, "x"), places_of(y, "y")
         xs, ys, masked = np.broadcast_arrays(x, y, x_masked | y_masked)
         flat_x, flat_y = np.ascontiguousarray(xs).ravel(), np.ascontiguousarray(ys).ravel()
         if lonlat:
             flat_x, flat_y = (np.ascontiguousarray(one) for one in self._places(np.column_stack([flat_x, flat_y])).T)
-        flat = self._terrain.heights(flat_x, flat_y, float(max_error), progress)
+        flat = self._terrain.heights(flat_x, flat_y, tolerance, progress)
         flat[masked.ravel()] = np.nan
         return float(flat[0]) if xs.ndim == 0 else flat.reshape(xs.shape)
 
@@ -143,9 +152,7 @@ class Model(Stored):
         frequency: in MHz, of which the part `fresnel` (0.6) of the first Fresnel zone must be clear. clutter: a height on the
         terrain, or the path of a raster of them, but within clutter_free (100) metres of the ends.
         """
-        max_error = self._error("max_error", max_error)
-        if not max_error >= 0:
-            raise ValueError(f"max_error={max_error} is not at least 0")
+        tolerance = self._tolerance(max_error)
         if fresnel is not None and frequency is None:
             raise ValueError("fresnel needs a frequency")
         if clutter_free is not None and clutter is None:
@@ -153,12 +160,14 @@ class Model(Stored):
         ends = [self._ends(name, end, lonlat) for name, end in (("observer", observer), ("target", target))]
         is_one = ends[0].ndim == 1 and ends[1].ndim == 1
         first, second = np.broadcast_arrays(np.atleast_2d(ends[0]), np.atleast_2d(ends[1]))
-        heights = "" if clutter is None else os.fspath(clutter) if is_path(clutter) else repr(number("clutter", clutter, 0))
+        heights = os.fspath(clutter) if isinstance(clutter, (str, os.PathLike)) else repr(number("clutter", clutter, 0))
+        if clutter is None:
+            heights = ""
         megahertz = number("frequency", frequency)
         if megahertz is not None and not megahertz > 0:
             raise ValueError(f"frequency={frequency!r} is not above 0")
         verdicts, rows = self._terrain.los(
-            np.ascontiguousarray(first), np.ascontiguousarray(second), float(max_error), earth or "", refraction, nodata,
+            np.ascontiguousarray(first), np.ascontiguousarray(second), tolerance, earth or "", refraction, nodata,
             method, megahertz or 0, heights, 100 if clutter_free is None else number("clutter_free", clutter_free, 0) or 0,
             progress)
         part = None if frequency is None else 0.6 if fresnel is None else number("fresnel", fresnel, 0)
@@ -182,16 +191,14 @@ class Model(Stored):
         Two rows of x, y and a height above the ground are a line of sight: `sight` is its answer, line_height it above the
         vertices; nodata, frequency and fresnel are those of los(). lonlat: x, y are longitude and latitude.
         """
-        max_error = self._error("max_error", max_error)
-        if not max_error >= 0:
-            raise ValueError(f"max_error={max_error} is not at least 0")
+        tolerance = self._tolerance(max_error)
         places = line_of(line, most=3)
         if places.shape[1] == 2 and (frequency is not None or nodata != "unknown" or fresnel is not None):
             raise ValueError("frequency, fresnel and nodata are for a line of sight: two rows of x, y, height")
         if lonlat:
             places[:, :2] = self._places(places[:, :2])
         along = np.ascontiguousarray(places[:, :2])
-        profile = Profile(*self._terrain.profile(along, float(max_error), earth or "", refraction, progress))
+        profile = Profile(*self._terrain.profile(along, tolerance, earth or "", refraction, progress))
         profile.vertical_unit, profile.is_metric = self.vertical_unit, bool(self.crs)
         if places.shape[1] == 3:
             profile.sight = self.los(places[0], places[1], 0, earth, refraction, nodata, progress, frequency=frequency,
@@ -220,7 +227,7 @@ class Model(Stored):
                   for name, one in (("azimuth", azimuth), ("elevation", elevation))]
         cells, transform, crs = self._terrain.viewshed(
             ends.tolist(), float(target_height), float(radius), number("min_distance", min_distance, 0) or 0, ranges[0],
-            ranges[1], mode, "" if like is None else os.fspath(like), float(self._error("max_error", max_error)), method,
+            ranges[1], mode, "" if like is None else os.fspath(like), self._tolerance(max_error), method,
             earth or "", refraction, nodata, progress)
         return Viewshed.of(cells, mode, None if transform is None else tuple(transform), crs or None,
                            [(float(x), float(y)) for x, y, _ in ends], self.vertical_unit)

@@ -55,7 +55,8 @@ def plot_mesh(mesh: Any, by: str, ax: Any = None, cmap: Any = None, vmin: Option
         least = min(least, 0.0)
     drawn = draw(mesh, by, values, ax, cmap or RAMPS[by], least if vmin is None else vmin, most if vmax is None else vmax, edges)
     if colorbar:
-        ax.figure.colorbar(drawn, ax=ax, label=label)
+        room = {"pad": 0.14, "shrink": 0.7} if draw is _draw_in_space else {}
+        ax.figure.colorbar(drawn, ax=ax, label=label, **room)
     if title is not None:
         ax.set_title(title)
     return ax
@@ -75,7 +76,7 @@ def _draw_map(mesh: Any, by: str, values: Any, ax: Any, cmap: Any, vmin: float, 
 
 
 def _draw_in_space(mesh: Any, by: str, values: Any, ax: Any, cmap: Any, vmin: float, vmax: float, edges: Optional[bool]) -> Any:
-    from matplotlib import cm, colors
+    from matplotlib import cm, colors, ticker
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
     if len(mesh.triangles) > _MOST_IN_SPACE:
@@ -92,12 +93,14 @@ def _draw_in_space(mesh: Any, by: str, values: Any, ax: Any, cmap: Any, vmin: fl
     light = np.abs((normals / np.where(lengths > 0, lengths, 1)) @ (np.array([2.0, -3.0, 6.0]) / 7))
     shaded = ramp.to_rgba(by_triangle)
     shaded[:, :3] *= (0.45 + 0.55 * light)[:, np.newaxis]
-    ax.add_collection3d(Poly3DCollection(corners, facecolors=shaded, edgecolors=(0, 0, 0, 0.4) if edges else "none",
-                                         linewidths=0.2 if edges else 0))
+    ax.add_collection3d(Poly3DCollection(corners, facecolors=shaded, edgecolors=(0, 0, 0, 0.4) if edges else shaded,
+                                         linewidths=0.2))
     low, high = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
     size = np.where(high > low, high - low, 1e-9)
     ax.set(xlim=(low[0], low[0] + size[0]), ylim=(low[1], low[1] + size[1]), zlim=(low[2], low[2] + size[2]),
            xlabel="x", ylabel="y", zlabel="z")
+    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
+        axis.set_major_locator(ticker.MaxNLocator(4 if axis is not ax.zaxis else 2))
     ax.set_box_aspect(size)
     return ramp
 
@@ -131,7 +134,6 @@ def plot_profile(profile: Any, ax: Any = None, color: Any = "saddlebrown") -> An
 
 def plot_viewshed(viewshed: Any, ax: Any = None, cmap: Any = None, colorbar: bool = True) -> Any:
     from matplotlib import colors
-    from matplotlib.patches import Patch
 
     ax = new_axes(ax)
     cells = np.asarray(viewshed)
@@ -139,9 +141,11 @@ def plot_viewshed(viewshed: Any, ax: Any = None, cmap: Any = None, colorbar: boo
         values = [value for value in viewshed.answers if (cells == value).any()]
         shown = np.searchsorted(sorted(values), cells)
         ramp = colors.ListedColormap([_CELLS[value] for value in sorted(values)])
-        _draw_grid(shown, viewshed, ax, cmap=ramp, vmin=-0.5, vmax=len(values) - 0.5)
-        ax.legend(handles=[Patch(facecolor=_CELLS[value], edgecolor="grey", label=viewshed.answers[value]) for value in values],
-                  loc="upper left", bbox_to_anchor=(1.02, 1), borderaxespad=0)
+        drawn = _draw_grid(shown, viewshed, ax, cmap=ramp, vmin=-0.5, vmax=len(values) - 0.5)
+        if colorbar:
+            bar = ax.figure.colorbar(drawn, ax=ax, ticks=range(len(values)))
+            bar.ax.set_yticklabels([viewshed.answers[value] for value in sorted(values)])
+            bar.ax.tick_params(length=0)
     else:
         numbers = cells.astype(np.float64)
         if cells.dtype.kind == "u":

@@ -21,6 +21,8 @@ def source_of(mesh: Any, triangles: Optional[ArrayLike]) -> Any:
         if triangles is not None:
             raise TypeError("triangles are for arrays: a file says its own")
         return os.fspath(mesh)
+    if triangles is None and isinstance(mesh, tuple) and len(mesh) == 2:
+        mesh, triangles = mesh
     return mesh_of(mesh, triangles)
 
 

@@ -15,6 +15,6 @@ def report_of(text: str) -> Dict[str, Any]:
 
 def _renamed(value: Any) -> Any:
     if isinstance(value, dict):
-        return {re.sub(r"(?<=[a-z0-9])([A-Z])", lambda found: "_" + found[1].lower(), key): _renamed(one)
+        return {re.sub(r"(?<=[a-z0-9])([A-Z])", lambda found: "_" + str(found[1]).lower(), key): _renamed(one)
                 for key, one in value.items()}
     return [_renamed(one) for one in value] if isinstance(value, list) else value

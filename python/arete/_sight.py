@@ -100,7 +100,7 @@ class Viewshed(np.ndarray):  # type: ignore[type-arg]
                 "count": "observers that see it", "server": "nearest observer that sees it"}.get(self.mode, "")
 
     def plot(self, ax: Any = None, **options: Any) -> Any:
-        """Draws it with matplotlib, with a legend of the answers or a colour bar; returns the axes. cmap, colorbar."""
+        """Draws it with matplotlib, with a colour bar that names the answers; returns the axes. cmap, colorbar."""
         from ._plot import plot_viewshed
 
         self._refuse_part()
@@ -142,9 +142,11 @@ class Viewshed(np.ndarray):  # type: ignore[type-arg]
 def sight_of(verdicts: Sequence[str], rows: NDArray[np.float64], is_one: bool, fresnel: Optional[float]) -> Sight:
     """Of the module's rows: clearance, distance, x and y of the obstruction, azimuth, elevation, Fresnel."""
     if is_one:
-        clearance, distance, x, y, azimuth, elevation, part = (float(number) for number in rows[0])
+        clearance, distance, x, y, *others = (float(number) for number in rows[0])
+        azimuth: Any = others[0]
+        elevation: Any = others[1]
+        zone: Any = others[2]
         answer = Sight(verdicts[0], clearance, distance, None if np.isnan(x) else (x, y))
-        zone: Any = part
     else:
         answer = Sight(np.array(verdicts), rows[:, 0].copy(), rows[:, 1].copy(), rows[:, 2:4].copy())
         azimuth, elevation, zone = rows[:, 4].copy(), rows[:, 5].copy(), rows[:, 6].copy()

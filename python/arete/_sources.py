@@ -59,6 +59,8 @@ def _of_rasterio(dataset: Any, nodata: Optional[float], band: Optional[int]) -> 
         heights = heights * scale + offset
     transform: Optional[Tuple[float, ...]] = geotransform_of(dataset.transform)
     if transform == (0.0, 1.0, 0.0, 0.0, 0.0, 1.0) and not dataset.crs:
+        if dataset.gcps[0] or getattr(dataset, "rpcs", None):
+            raise ValueError(f"{dataset.name} is placed by control points or RPCs: warp it first (rasterio.vrt.WarpedVRT)")
         transform = None  # rasterio's way to say that there is none
     return Grid(heights, transform, crs_text(dataset.crs) if dataset.crs else "", dataset.units[number - 1] or "",
                 str(dataset.name))

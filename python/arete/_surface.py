@@ -49,14 +49,14 @@ class Surface(Stored):
 
         An error may be a percentage of the diagonal ("1%"), a number of triangles one of the finest.
         """
-        max_error = size_of("max_error", max_error, lambda: self.diagonal)
-        outside_error = size_of("outside_error", outside_error, lambda: self.diagonal)  # type: ignore[assignment]
-        max_triangles = count_of("max_triangles", max_triangles, lambda: self.finest_triangles)
-        drop_parts = size_of("drop_parts", drop_parts, lambda: self.diagonal)  # type: ignore[assignment]
+        inside = size_of("max_error", max_error, lambda: self.diagonal)
+        outside: Any = size_of("outside_error", outside_error, lambda: self.diagonal)
+        budget = count_of("max_triangles", max_triangles, lambda: self.finest_triangles)
+        dropped = size_of("drop_parts", drop_parts, lambda: self.diagonal)
         if where is not None and region is not None:
             raise ValueError("where is a region: not with another one")
         has_region = region is not None or where is not None
-        asked = Asked(max_error, max_triangles, has_region, outside_error, camera is not None, pixel_error,
+        asked = Asked(inside, budget, has_region, outside, camera is not None, pixel_error,
                       focus_of(focus, 3), error_growth, deadline, order, fit, method)
         asked.check()
         if fit not in (None, "rms"):
@@ -66,14 +66,14 @@ class Surface(Stored):
         numbers = None if camera is None else camera.numbers()
         request = asked.request()
         request.displaced = displaced
-        request.drop_parts = float(drop_parts)
+        request.drop_parts = dropped or 0
         where_it_holds, text = self._region(region, where, progress)
         tin = self._surface.cut(request, where_it_holds, numbers, progress)
 
         def extract(files: _arete.ExportFiles, export_progress: Progress) -> str:
             return self._surface.extract(request, where_it_holds, text, numbers, files, export_progress)
 
-        return Tin(tin, Export(extract, self._surface.source, self._path or "", deadline is not None))
+        return Tin(tin, Export(extract, [self._surface.source], self._path or "", deadline is not None))
 
     def _region(self, region: Any, where: Optional[Where], progress: Progress) -> Tuple[Optional[_arete.RegionOfSpace], str]:
         if where is None:

@@ -49,7 +49,7 @@ constexpr std::array kNamesInPython = {
     std::pair{"thresholdRatio", "ratio"},
 };
 
-/// "max_triangles" of "maxTriangles"; what is no field of ours, a word in camel case, stays as it is.
+/// "max_triangles" of "maxTriangles"; a text that does not look like a field stays.
 std::string argumentOf(const std::string& field) {
   const auto isOfName = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   if (field.empty() || std::isupper(static_cast<unsigned char>(field.front())) != 0 ||

@@ -149,6 +149,8 @@ Reported decimate(const MeshSource& source, DecimationRequest request, const std
     if (before == 0) return failure(ErrorCode::invalidData, "has no faces to be decimated", name);
     if (shareOfFaces > 0)
       request.maxTriangles = static_cast<std::uint32_t>(shareOfFaces * static_cast<double>(before));
+    if (request.maxTriangles == 0u)
+      return failure(ErrorCode::usage, "is less than one triangle", "maxTriangles");
     if (Status dropped = dropAttributes(file.mesh, dropNames); !dropped)
       return failure(dropped.error().code, dropped.error().message,
                      "drop_attributes=" + dropped.error().culprit);
@@ -163,7 +165,7 @@ Reported decimate(const MeshSource& source, DecimationRequest request, const std
     ARETE_TRY(DecimatedOutcome outcome, decimateMesh(std::move(file.mesh), request, context));
     if (outcome.dropsFlatNormals)
       warnings.push_back(
-          {WarningCode::omitted, "normals of corners are left out: they are those of flat faces"});
+          {WarningCode::omitted, "normals of corners are left out: they belong to flat faces"});
     for (const std::string& lost : outcome.lost)
       warnings.push_back(
           {WarningCode::omitted, fmt::format("{} cannot carry {}: left out", request.method, lost)});
@@ -186,7 +188,8 @@ Reported decimate(const MeshSource& source, DecimationRequest request, const std
 
 /// Distances between two meshes, as `arete measure --json` has them.
 std::string measureMeshes(const MeshSource& first, const MeshSource& second, std::uint64_t samples,
-                          std::uint64_t seed, const py::object& progress) {
+                          std::uint64_t seed, const std::string& expect, bool bothWays,
+                          const py::object& progress) {
   const std::string names[] = {nameOfSource(first), nameOfSource(second)};
   std::optional<TriangleMesh> arrays[] = {arraysOf(first), arraysOf(second)};
   return call(progress, [&](const RunContext& context) -> Result<std::string> {
@@ -201,7 +204,16 @@ std::string measureMeshes(const MeshSource& first, const MeshSource& second, std
     }
     ARETE_TRY(const MeshDistanceReport report,
               measureDistance(meshes[0], meshes[1], {.samples = samples, .seed = seed}, context));
-    return toJson(report).dump();
+    Json json = toJson(report);
+    if (!expect.empty()) {
+      ARETE_TRY(const StatedSize stated, parseStatedSize(expect, "expect"));
+      const double most = stated.of(report.second.diagonal);
+      const Status kept = checkDistance(report, most, bothWays ? PromisedWay::both : PromisedWay::fromSecond);
+      json["expect"] = most;
+      json["kept"] = kept.has_value();
+      if (!kept) json["broken"] = kept.error().message;
+    }
+    return json.dump();
   });
 }
 

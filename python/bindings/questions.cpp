@@ -59,6 +59,24 @@ std::string terrainFacts(const Terrain& terrain) {
   return facts.dump();
 }
 
+/// The arguments of measure() by which the source is read as the build read it; a rim that may be moved
+/// covers NODATA.
+std::string terrainReading(const Terrain& terrain) {
+  const SourceReading& reading = terrain.model().reading;
+  Json json = Json::object();
+  if (reading.band) json["band"] = *reading.band;
+  for (const auto& [name, text] : {std::pair{"layer", &reading.layer},
+                                   {"zField", &reading.zField},
+                                   {"samePlace", &reading.samePlace},
+                                   {"crs", &reading.crs},
+                                   {"verticalUnit", &reading.verticalUnit}})
+    if (!text->empty()) json[name] = *text;
+  if (reading.nodata) json["nodata"] = *reading.nodata;
+  if (reading.isDepth) json["positive"] = *reading.isDepth ? "down" : "up";
+  if (terrain.model().options.rimTolerance > 0) json["allowCoveredNodata"] = true;
+  return json.dump();
+}
+
 std::string surfaceFacts(const SurfaceModel& model) {
   Json facts = {{"kind", "surface"},
                 {"source", model.source},
@@ -169,11 +187,21 @@ std::string validateOneSurface(const SurfaceModel& model, bool isFull, const py:
 }  // namespace
 
 void defineQuestions(py::class_<Terrain, std::shared_ptr<Terrain>>& terrain) {
-  terrain.def("facts", &terrainFacts).def("curve", &terrainCurve).def("validate", &validateTerrain);
+  terrain.def("facts", &terrainFacts)
+      .def("reading", &terrainReading)
+      .def("other_files", [](const Terrain& t) { return t.model().reading.otherFiles; })
+      .def_property_readonly("root_triangle_count",
+                             [](const Terrain& t) { return t.model().mt.rootTriangleCount(); })
+      .def("curve", &terrainCurve)
+      .def("validate", &validateTerrain);
 }
 
 void defineQuestions(py::class_<SurfaceModel, std::shared_ptr<SurfaceModel>>& surface) {
-  surface.def("facts", &surfaceFacts).def("curve", &surfaceCurve).def("validate", &validateOneSurface);
+  surface.def("facts", &surfaceFacts)
+      .def_property_readonly("root_triangle_count",
+                             [](const SurfaceModel& m) { return m.mt.rootTriangleCount(); })
+      .def("curve", &surfaceCurve)
+      .def("validate", &validateOneSurface);
 }
 
 }  // namespace arete::python

@@ -25,7 +25,7 @@ using RegionPolygons = std::vector<std::vector<std::vector<std::array<double, 2>
 using RegionOfText = std::tuple<std::string, std::string, std::string, double>;
 using AskedRegion = std::variant<RegionBox, RegionPolygons, RegionOfText>;
 
-/// The region in the plan of a model. Errors: those of readRegionArgument() and regionArgumentOf(), with the
+/// The region in the plan of a model. Errors: as readRegionArgument() and regionArgumentOf(), with the
 /// culprit "region"; usage: it does not meet the terrain.
 Result<Region> planRegionOf(const AskedRegion& asked, const TerrainModel& model, Warnings& warnings,
                             const RunContext& context);

@@ -17,6 +17,7 @@
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/position_argument.h"
 #include "io/geo/crs/transform.h"
+#include "io/geo/dem/raster_writer.h"
 #include "io/query/extract/extract.h"
 #include "io/query/extract/tin.h"
 #include "io/store/amt/file.h"
@@ -66,7 +67,7 @@ Result<Camera> cameraOf(const CameraNumbers& n, const Terrain& terrain) {
 }
 
 /// What is asked for, with the places as the library takes them.
-/// @param isFile  the region is told as text too, as an export states it
+/// @param isFile  the region is stated as text too, as an export has it
 Result<CutRequest> placedRequest(const Terrain& terrain, CutRequest request,
                                  const std::optional<AskedRegion>& region,
                                  const std::optional<CameraNumbers>& camera, bool isFile, Warnings& warnings,
@@ -121,6 +122,7 @@ std::string extractTo(const Terrain& terrain, const CutRequest& asked,
     if (!georeference.crsWkt.empty() && !tin.format.saysCrs) lost.push_back("the CRS");
     if (!georeference.verticalUnit.empty() && !tin.format.saysVerticalUnit)
       lost.push_back("the unit of the heights");
+    if (!tin.format.saysErrors && !isGeoTiffName(files.output)) lost.push_back("the error of each triangle");
     nlohmann::ordered_json report = toJson(request, ExtractReport(std::move(tin)));
     report["lost"] = std::move(lost);
     return report.dump();

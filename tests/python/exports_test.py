@@ -88,7 +88,7 @@ class Terrain(Folder):
         rows = "\n".join(" ".join(repr(z) for z in row) for row in hills().tolist())
         with open(self.path("dem.asc"), "w", encoding="utf-8") as file:
             file.write(f"ncols 80\nnrows 60\nxllcorner 500000\nyllcorner {4000000 - 60 * 30}\ncellsize 30\n{rows}\n")
-        return self.said("measure", path, self.path("dem.asc"))["maxAbsError"]
+        return self.said("measure", path, self.path("dem.asc"))["error"]["maximum"]
 
     def test_the_files_are_those_of_the_command(self):
         self.model.save(self.path("dem.amt"))
@@ -116,9 +116,27 @@ class Terrain(Folder):
         tin.save(self.path("part.ply"), certificate=True)
         text = self.bytes_of("part.certificate.json").decode()
         self.assertIn("500300", text)
-        check = re.search(r'"check": "(arete\.measure\(.*\))"', text)[1]
-        self.assertIn("expect=", check)
-        self.assertIn("region=(500300", check)
+        # Of an array there is no file to check against.
+        self.assertEqual(json.loads(text)["check"], "")
+
+    def test_the_check_of_a_certificate_runs(self):
+        rows = "\n".join(" ".join(repr(z) for z in row) for row in hills().tolist())
+        with open(self.path("dem.asc"), "w", encoding="utf-8") as file:
+            file.write(f"ncols 80\nnrows 60\nxllcorner 500000\nyllcorner {4000000 - 60 * 30}\ncellsize 30\n{rows}\n")
+        model = arete.build(self.path("dem.asc"), crs=32611, vertical_unit="ft")
+        box = (500300, 3998600, 501200, 3999500)
+        for region in (None, box):
+            model.cut(max_error=1, region=region).save(self.path("part.ply"), certificate=True)
+            check = json.loads(self.bytes_of("part.certificate.json"))["check"]
+            self.assertIn("vertical_unit='ft'", check)
+            found = eval(check, {"arete": arete})
+            self.assertTrue(found["kept"])
+            self.assertEqual(found["covered"] < 4800, region is not None)
+
+    def test_what_is_not_for_terrain_is_refused(self):
+        for options in ({"map": "m.csv"}, {"both_ways": True}, {"drop_attributes": "normal"}):
+            with self.assertRaisesRegex(TypeError, next(iter(options))):
+                self.model.cut(max_error=2).save(self.path("t.ply"), **options)
 
     def test_what_cannot_be_certified_is_refused(self):
         with self.assertRaisesRegex(ValueError, "deadline"):
@@ -272,7 +290,9 @@ class Surfaces(Folder):
                 self.assertEqual(small.report["error"], said.get("error"))
         near = arete.decimate(self.vertices, self.triangles, max_error="1%")
         found = arete.measure((self.vertices, self.triangles), near, samples=20000)
-        self.assertLessEqual(found["both_ways"]["maximum"], 0.05)
+        self.assertLessEqual(found["max_distance"], 0.05)
+        self.assertTrue(arete.measure(near, (self.vertices, self.triangles), samples=20000, expect="1%")["kept"])
+        self.assertFalse(arete.measure(near, (self.vertices, self.triangles), samples=20000, expect=1e-9)["kept"])
         for options, error, name in (
                 ({}, ValueError, "max_triangles"), ({"max_error": 1, "operator": "qem"}, ValueError, "max_error"),
                 ({"max_triangles": 50, "operator": "best"}, ValueError, "operator"),

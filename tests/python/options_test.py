@@ -16,7 +16,7 @@ COMMAND = os.environ.get("ARETE", "arete")
 EVERYWHERE = {
     "help": "help() is Python's", "help-all": "help() is Python's", "json": "answers are objects",
     "quiet": "warnings are Python's", "progress": "an argument of its own: a function",
-    "threads": "of the process: docs/topics/python.md", "no-huge-pages": "of the process", "confined": "of services",
+    "threads": "of the process", "no-huge-pages": "of the process", "confined": "of services",
     "output": "what save() writes", "format": "of the output", "overwrite": "of the output", "log": "of the terminal",
 }
 
@@ -61,7 +61,6 @@ EXCEPTED = {
     ("viewshed", "observers"): "observer may be rows", ("viewshed", "layer"): "as observers",
     ("viewshed", "observer-height"): "the third number of each row", ("viewshed", "polygons"): "output",
     ("measure", "error-raster"): "output; Tin.save() has it", ("measure", "error-mesh"): "output",
-    ("measure", "both-ways"): "both ways are in the answer",
     ("mesh decimate", "map"): "output; source_vertices of the result", ("convert", "up"): "of a file written of a file",
     ("convert", "unit"): "of a file written of a file", ("mesh repair", "up"): "of the output",
     ("mesh repair", "unit"): "of the output", ("mesh decimate", "up"): "of the output", ("mesh decimate", "unit"): "of the output",

@@ -142,7 +142,7 @@ class Plots(unittest.TestCase):
     def test_a_viewshed_names_its_answers(self):
         seen = self.model.viewshed((500600, 3999500, 10), radius=500)
         ax = seen.plot()
-        names = [text.get_text() for text in ax.get_legend().get_texts()]
+        names = [text.get_text() for text in ax.figure.axes[1].get_yticklabels()]
         self.assertEqual(sorted(names), ["hidden", "outside", "seen"])
         left, right, bottom, top = ax.images[0].get_extent()
         self.assertEqual((left, right, bottom, top), (500000, 500000 + 60 * 30, 4000000 - 40 * 30, 4000000))

@@ -198,6 +198,22 @@ class Points(Folder):
         with self.assertRaisesRegex(ValueError, "point 3 is not finite"):
             arete.build_points(rows)
 
+    @unittest.skipUnless(has("geopandas"), "geopandas is not installed")
+    def test_a_path_has_its_layer_and_its_field(self):
+        import geopandas
+
+        rows = self.points()
+        for layer, shift in (("low", 0), ("high", 100)):
+            frame = geopandas.GeoDataFrame({"top": rows[:, 2] + shift}, crs=32611,
+                                           geometry=geopandas.points_from_xy(rows[:, 0], rows[:, 1]))
+            frame.to_file(self.path("points.gpkg"), layer=layer, driver="GPKG")
+        for layer, shift in (("low", 0), ("high", 100)):
+            for build in (arete.build, arete.build_points):
+                model = build(self.path("points.gpkg"), layer=layer, z_field="top")
+                self.assertAlmostEqual(model.height(*rows[7, :2]), rows[7, 2] + shift)
+        with self.assertRaises(RuntimeError):
+            arete.build(self.path("points.gpkg"))
+
     def test_one_place_with_two_heights_needs_a_rule(self):
         rows = np.array([[0, 0, 1], [10, 0, 2], [0, 10, 3], [10, 10, 4], [5, 5, 5], [5, 5, 9.0]])
         with self.assertRaises((ValueError, RuntimeError)):

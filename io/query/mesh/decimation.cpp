@@ -114,7 +114,7 @@ Status checkDecimation(const DecimationRequest& a) {
     return failure(ErrorCode::usage, fmt::format("is for `operator` {}, not {}", method, a.method), option);
   };
   if (a.method != "measured" && std::ranges::find(kOperators, a.method, &Operator::first) == kOperators.end())
-    return failure(ErrorCode::usage, fmt::format("{} is no operator", a.method), "operator");
+    return failure(ErrorCode::usage, fmt::format("{} is unknown", a.method), "operator");
   const auto isOneOf = [](const std::string& word, std::initializer_list<const char*> words) {
     return std::ranges::find(words, word) != words.end();
   };

@@ -16,7 +16,7 @@ namespace arete {
 
 /// How a mesh is made smaller, once, in the words of docs/topics/decimation.md.
 struct DecimationRequest {
-  /// "measured": the cut of a multitriangulation that is built in memory, fitted; the others are those of
+  /// "measured": the cut of a multitriangulation that is built in memory, fitted; the others are in
   /// surface/decimate/decimate.h: "qem", "lindstrom-turk", "half-edge", "vertex-pair", "face", "cluster".
   std::string method = "measured";
   std::string queue = "lazy";               ///< or "greedy", "estimate"
@@ -50,7 +50,7 @@ struct DecimatedOutcome {
 /// others in backquotes. "operator" is the method, "keepBorders" and "noCrossings" the flags.
 Status checkDecimation(const DecimationRequest& request);
 
-/// Makes a mesh smaller. Errors: those of checkDecimation(), of buildSurface() and takeSurface() or
+/// Makes a mesh smaller. Errors: as checkDecimation(), buildSurface() and takeSurface() or
 /// decimate(); usage, culprit "maxTriangles" and the number: the method does not reach so few. O(n log n).
 Result<DecimatedOutcome> decimateMesh(SurfaceMesh mesh, const DecimationRequest& request,
                                       const RunContext& context = {});

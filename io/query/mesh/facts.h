@@ -24,7 +24,7 @@ struct MeshFacts {
   std::uint64_t seamEdges = 0;
 };
 
-/// Examines a mesh. Errors: those of diagnose(). O(n log n), as that.
+/// Examines a mesh. Errors: as diagnose(). O(n log n).
 Result<MeshFacts> meshFactsOf(const SurfaceMesh& mesh, const DiagnosisOptions& options,
                               const RunContext& context = {});
 

@@ -16,7 +16,7 @@ struct MendOptions {
   /// Border vertices within this distance are joined, in the unit of the file. Empty: within the distance
   /// that the rounding of the file explains, if there are any.
   std::optional<double> weld = {};
-  RepairOptions repair = {};  ///< its rounding and partOf are those of the file
+  RepairOptions repair = {};  ///< its rounding and partOf come from the file
 };
 
 /// How border vertices were joined.
@@ -34,7 +34,7 @@ struct MendedMesh {
 };
 
 /// Welds and mends the mesh in the input, with its attributes, and the errors of its triangles as far as they
-/// hold. The warnings of the file are replaced by those of the mending. Errors: those of joinSurface(),
+/// hold. The warnings of the file give way to what the mending warns of. Errors: as joinSurface(),
 /// repair() and diagnose(); invalidData: no face is left. O(n log n).
 Result<MendedMesh> mendMesh(MeshInput& input, const MendOptions& options, const RunContext& context = {});
 
