@@ -388,17 +388,6 @@ std::string outputName(const std::string& pattern, const std::string& tag, bool 
       .string();
 }
 
-/// Digits stand in groups of three, with a blank between them.
-std::string grouped(std::uint64_t count) {
-  std::string text = std::to_string(count);
-  for (std::size_t i = text.size(); i > 3;) text.insert(i -= 3, 1, ' ');
-  return text;
-}
-
-std::string grouped(std::uint64_t count, std::string_view one, std::string_view many) {
-  return fmt::format("{} {}", grouped(count), agreeing(count, one, many));
-}
-
 std::string withUnit(double value, const std::string& unit) {
   return unit.empty() ? fmt::format("{:.6g}", value) : fmt::format("{:.6g} {}", value, unit);
 }

@@ -12,6 +12,7 @@
 #include "cli/session/session.h"
 #include "engine/base/result.h"
 #include "io/files/existing_file.h"
+#include "io/files/text/grouped.h"
 #include "io/geo/crs/transform.h"
 #include "io/geo/dem/dem_reader.h"
 #include "terrain/model/source_reading.h"
@@ -117,10 +118,6 @@ std::string outputName(const std::string& pattern, const std::string& tag, bool 
 /// The option --overwrite of a command that may write a GeoPackage.
 void addOverwriteTo(CLI::App& command, ExistingFile& existing);
 
-/// 769671 as "769 671".
-std::string grouped(std::uint64_t count);
-/// "769 671 triangles", "1 triangle": with the words of engine/base/counted.h.
-std::string grouped(std::uint64_t count, std::string_view one, std::string_view many);
 /// "5 m", or "5" where the unit is not known.
 std::string withUnit(double value, const std::string& unit);
 /// "12.3 m", and "12.3 m (1.5 % of the relief)" where the relief is known.

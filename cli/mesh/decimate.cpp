@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// `measured` builds the multitriangulation in memory, takes the cut that is wanted and fits it; the other
-// operators are those of surface/decimate/decimate.h.
+// Without its small components, made smaller (io/query/mesh/decimation.h), and written as a conversion is.
 #include "cli/mesh/decimate.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -19,38 +16,26 @@
 #include "cli/arguments/drop_attributes.h"
 #include "cli/arguments/mesh_options.h"
 #include "cli/mesh/tolerance.h"
+#include "cli/session/option_names.h"
 #include "engine/base/stopwatch.h"
 #include "io/formats/exchange/convert.h"
 #include "io/formats/exchange/mesh_formats.h"
+#include "io/query/mesh/decimation.h"
 #include "io/query/surface/map_file.h"
 #include "io/query/surface/mesh_input.h"
-#include "io/query/surface/take_surface.h"
-#include "surface/builder/build.h"
-#include "surface/decimate/decimate.h"
 #include "surface/edit/small_components.h"
-#include "surface/front/face_map.h"
-#include "surface/front/front.h"
 
 namespace arete {
 namespace {
 
 struct DecimateArguments {
   std::string input, maxTriangles, maxError, map, dropParts;
-  std::string method = "measured", queue = "lazy", weight = "area", clusterVertices = "quadric";
+  DecimationRequest request;
   MeshOutput output;
   MeshPlacing placing;
-  bool keepsBorders = false, forbidsCrossings = false;
   std::vector<std::string> dropAttributes;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
-
-constexpr std::array<std::pair<const char*, DecimateOperator>, 6> kOperators = {
-    {{"qem", DecimateOperator::edge},
-     {"lindstrom-turk", DecimateOperator::lindstromTurk},
-     {"half-edge", DecimateOperator::halfEdge},
-     {"vertex-pair", DecimateOperator::vertexPair},
-     {"face", DecimateOperator::face},
-     {"cluster", DecimateOperator::cluster}}};
 
 /// "5000", or "10%" or "10%f" of the faces.
 Result<std::uint32_t> triangleBudget(const std::string& text, std::uint64_t faces) {
@@ -67,124 +52,7 @@ Result<std::uint32_t> triangleBudget(const std::string& text, std::uint64_t face
   return static_cast<std::uint32_t>(count);
 }
 
-/// What is made of the mesh, whatever the method.
-struct Outcome {
-  SurfaceMesh mesh;
-  std::vector<std::uint32_t> vertexOf;  ///< by vertex: of the input
-  /// By face of the input: the triangle that stands for it, or MeshAttributes::kNone. Of a measured one only
-  /// for --map.
-  std::vector<std::uint32_t> triangleFor;
-  std::optional<std::uint64_t> crossings = {},
-                               sourceCrossings = {};  ///< pairs of triangles; the source's if there are any
-  std::vector<std::string> lost = {};
-  std::uint64_t evaluations = 0, steps = 0;
-  std::optional<FitOutcome> fit = {};
-  std::optional<double> maxError = {};  ///< the tolerance that was stated
-  bool isComplete = true;               ///< false: the budget ended it before the tolerance was reached
-  bool dropsFlatNormals = false;
-  std::string seams = {};  ///< seamsOf() where they keep most of the mesh from being smaller
-};
-
-Status checkArguments(const DecimateArguments& a) {
-  const auto refuse = [&](const char* option, const std::string& method) {
-    return failure(ErrorCode::usage, fmt::format("is for --operator {}, not {}", method, a.method), option);
-  };
-  if (a.maxTriangles.empty() && a.maxError.empty())
-    return failure(ErrorCode::usage, "one of --max-triangles and --max-error is required");
-  if (!a.maxError.empty() && a.method != "measured") return refuse("--max-error", "measured, which measures");
-  const bool hasQueue =
-      a.method == "qem" || a.method == "half-edge" || a.method == "vertex-pair" || a.method == "face";
-  if (a.queue != "lazy" && !hasQueue) return refuse("--queue", "qem, half-edge, vertex-pair or face");
-  if (a.weight != "area" && !hasQueue && a.method != "cluster")
-    return refuse("--quadric-weight", "qem, half-edge, vertex-pair, face or cluster");
-  if (a.forbidsCrossings && (!hasQueue || a.method == "vertex-pair"))
-    return refuse("--no-crossings", "qem, half-edge or face");
-  if (a.clusterVertices != "quadric" && a.method != "cluster") return refuse("--cluster-vertices", "cluster");
-  if (a.keepsBorders && a.method == "cluster")
-    return failure(ErrorCode::usage, "cannot be combined with --operator cluster", "--keep-borders");
-  return {};
-}
-
-/// @param mesh whose attributes and parts keep more.
-Error tooFew(const std::string& budget, std::uint64_t least, const std::string& method,
-             const SurfaceMesh& mesh) {
-  return {ErrorCode::usage,
-          fmt::format(
-              "the least that {} reaches is {}: components, handles, borders, seams and edges between "
-              "objects, materials or labels of faces stay, edges of more than two faces too, and no triangle "
-              "turns over{}",
-              method, grouped(least, "triangle", "triangles"), seamsOf(mesh)),
-          fmt::format("--max-triangles {}", budget)};
-}
-
-Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
-                         std::optional<std::uint32_t> maxTriangles, const DataUnit& unit, Session& session) {
-  SurfaceBuildOptions options;
-  options.keepsBorders = arguments.keepsBorders;
-  // A cut of so many triangles has what is coarser than a quarter of them whole.
-  ARETE_TRY(const SurfaceModel model,
-            buildSurface(std::move(mesh), options, session.context(), maxTriangles.value_or(0) / 4));
-  CutRequest request;
-  request.fit = CutFit::rms;
-  request.maxTriangles = maxTriangles;
-  if (maxTriangles && *maxTriangles < model.mt.rootTriangleCount())
-    return tl::unexpected(tooFew(arguments.maxTriangles, model.mt.rootTriangleCount(), "measured",
-                                 finestSurfaceOf(model).mesh));
-  if (!arguments.maxError.empty()) {
-    ARETE_TRY(const auto tolerances,
-              parseSurfaceTolerances("--max-error", arguments.maxError, model.diagonal, unit));
-    if (tolerances.size() != 1) return failure(ErrorCode::usage, "takes one distance", "--max-error");
-    request.maxError = tolerances.front().distance;
-  }
-  ARETE_TRY(TakenSurface taken, takeSurface(model, request, nullptr, session.context()));
-  Outcome outcome;
-  if (!arguments.map.empty()) outcome.triangleFor = facesOf(model, taken.whole);
-  outcome.mesh = std::move(taken.front.mesh);
-  outcome.vertexOf = std::move(taken.front.vertexOf);
-  outcome.fit = taken.fit;
-  ARETE_TRY(const std::uint64_t crossings, crossingsOf(outcome.mesh, session.context()));
-  outcome.crossings = crossings;
-  if (crossings > 0) {
-    ARETE_TRY(const std::uint64_t ofSource, crossingsOf(finestSurfaceOf(model).mesh, session.context()));
-    outcome.sourceCrossings = ofSource;
-  }
-  outcome.isComplete = taken.whole.isComplete;
-  if (2 * model.mt.rootTriangleCount() > model.mt.finestTriangleCount())
-    outcome.seams = seamsOf(finestSurfaceOf(model).mesh);
-  outcome.maxError = request.maxError;
-  outcome.dropsFlatNormals = model.mending.dropsFlatNormals;
-  return outcome;
-}
-
-Result<Outcome> contracted(const SurfaceMesh& mesh, const DecimateArguments& arguments,
-                           std::uint32_t maxTriangles, Session& session) {
-  DecimateOptions options;
-  for (const auto& [name, method] : kOperators)
-    if (arguments.method == name) options.method = method;
-  options.queue = arguments.queue == "greedy"     ? DecimateQueue::greedy
-                  : arguments.queue == "estimate" ? DecimateQueue::estimate
-                                                  : DecimateQueue::lazy;
-  options.maxTriangles = maxTriangles;
-  options.weighsByArea = arguments.weight == "area";
-  options.keepsClusterVertices = arguments.clusterVertices == "original";
-  options.keepsBorders = arguments.keepsBorders;
-  options.forbidsCrossings = arguments.forbidsCrossings;
-  ARETE_TRY(DecimatedMesh decimated, decimate(mesh, options, session.context()));
-  if (decimated.mesh.triangles.size() > maxTriangles)
-    return tl::unexpected(
-        tooFew(arguments.maxTriangles, decimated.mesh.triangles.size(), arguments.method, decimated.mesh));
-  Outcome outcome;
-  outcome.mesh = std::move(decimated.mesh);
-  outcome.vertexOf = std::move(decimated.vertexOf);
-  outcome.triangleFor = std::move(decimated.triangleFor);
-  outcome.lost = std::move(decimated.lost);
-  outcome.evaluations = decimated.evaluations;
-  outcome.steps = decimated.steps;
-  outcome.dropsFlatNormals = decimated.dropsFlatNormals;
-  return outcome;
-}
-
-Status writeNumbers(const std::string& path, const Outcome& outcome, const MeshInput& input,
+Status writeNumbers(const std::string& path, const DecimatedOutcome& outcome, const MeshInput& input,
                     const std::vector<std::uint32_t>& vertexBefore,
                     const std::vector<std::uint32_t>& faceBefore) {
   const auto through = [](const std::vector<std::uint32_t>& map, std::uint32_t i) {
@@ -199,8 +67,28 @@ Status writeNumbers(const std::string& path, const Outcome& outcome, const MeshI
        .faceOfFile = [&](std::uint32_t f) { return through(input.numbers.faceOf, through(faceBefore, f)); }});
 }
 
+Result<StatedSize> distanceOf(const std::string& text, const DataUnit& unit) {
+  ARETE_TRY(const auto sizes, parseStatedSizes(text, "--max-error", &unit));
+  if (sizes.size() != 1) return failure(ErrorCode::usage, "takes one distance", "--max-error");
+  return sizes.front();
+}
+
+/// What is asked for, as far as the mesh does not decide it: a share of its faces is 1 here.
+Result<DecimationRequest> requestOf(const DecimateArguments& arguments) {
+  DecimationRequest request = arguments.request;
+  request.wantsFaces = !arguments.map.empty();
+  if (!arguments.maxTriangles.empty()) request.maxTriangles = 1;
+  if (!arguments.maxError.empty()) {
+    // Whether it is a distance is checked before the mesh, and thus its unit, is read.
+    const DataUnit metre{1};
+    ARETE_TRY(request.maxError, distanceOf(arguments.maxError, metre));
+  }
+  ARETE_CHECK(checkDecimation(request));
+  return request;
+}
+
 Status runDecimate(const DecimateArguments& arguments, Session& session) {
-  ARETE_CHECK(checkArguments(arguments));
+  ARETE_TRY(DecimationRequest request, requestOf(arguments));
   ARETE_TRY(const MeshTarget target, meshTarget(arguments.output, arguments.input, session));
   if (!arguments.map.empty())
     ARETE_CHECK(checkOutput("--map", arguments.map, {arguments.input}, {target.path}));
@@ -226,20 +114,21 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
                      fmt::format("--drop-parts {}", arguments.dropParts));
     file.mesh = std::exchange(dropped.mesh, {});
   }
-  std::optional<std::uint32_t> maxTriangles;
   if (!arguments.maxTriangles.empty()) {
-    ARETE_TRY(const std::uint32_t budget, triangleBudget(arguments.maxTriangles, facesBefore));
-    maxTriangles = budget;
+    ARETE_TRY(request.maxTriangles, triangleBudget(arguments.maxTriangles, facesBefore));
+  }
+  if (!arguments.maxError.empty()) {
+    ARETE_TRY(request.maxError, distanceOf(arguments.maxError, spaceUnitOf(file)));
   }
   Stopwatch working;
   const double diagonal = diagonalOf(file.mesh);
-  Result<Outcome> outcome =
-      arguments.method == "measured"
-          ? measured(std::move(file.mesh), arguments, maxTriangles, spaceUnitOf(file), session)
-          : contracted(file.mesh, arguments, *maxTriangles, session);
+  Result<DecimatedOutcome> outcome = decimateMesh(std::move(file.mesh), request, session.context());
   if (!outcome) {
     Error error = outcome.error();
     if (error.culprit.empty()) error.culprit = arguments.input;
+    // As it was stated, perhaps as a share.
+    if (error.culprit.starts_with("maxTriangles"))
+      error.culprit = fmt::format("--max-triangles {}", arguments.maxTriangles);
     return tl::unexpected(std::move(error));
   }
   const double seconds = working.seconds();
@@ -253,7 +142,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
         {WarningCode::omitted, "normals of corners are left out: they are those of flat faces"});
   for (const std::string& lost : outcome->lost)
     result.warnings.push_back(
-        {WarningCode::omitted, fmt::format("{} cannot carry {}: left out", arguments.method, lost)});
+        {WarningCode::omitted, fmt::format("{} cannot carry {}: left out", request.method, lost)});
   ARETE_TRY(const ConvertedMesh converted, convertMesh(std::move(result), target.path,
                                                        {.format = arguments.output.format,
                                                         .existing = arguments.existing,
@@ -267,7 +156,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
   std::string text = writtenText(target.path, converted);
   const double percent = 100 * static_cast<double>(triangles) / static_cast<double>(facesBefore);
   text += fmt::format("  of         {}, {:.4g} % of them, by {} in {:.2f} s\n",
-                      grouped(facesBefore, "triangle", "triangles"), percent, arguments.method, seconds);
+                      grouped(facesBefore, "triangle", "triangles"), percent, request.method, seconds);
   if (dropped.components > 0)
     text += fmt::format("  left out   {} of {}\n", grouped(dropped.components, "component", "components"),
                         grouped(dropped.triangles, "face", "faces"));
@@ -276,7 +165,8 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
     text += fmt::format("  distance   no point of the source{} farther than {}\n",
                         dropped.components > 0 ? " but what is left out" : "",
                         withShare(outcome->fit->distance, diagonal));
-  if (outcome->seams.size() > 2) text += fmt::format("  seams      {}\n", outcome->seams.substr(2));
+  if (outcome->seams.size() > 2)
+    text += fmt::format("  seams      {}\n", withOptionNames(outcome->seams).substr(2));
   if (hasBoth)
     text += fmt::format("  ended by   {}\n", outcome->isComplete ? "--max-error" : "--max-triangles");
   if (outcome->sourceCrossings)
@@ -284,14 +174,14 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
                         grouped(*outcome->crossings, "pair", "pairs"), grouped(*outcome->sourceCrossings));
   if (outcome->evaluations > 0)
     text += fmt::format("  steps      {}; costs computed {} ({} queue)\n", grouped(outcome->steps),
-                        grouped(outcome->evaluations, "time", "times"), arguments.queue);
+                        grouped(outcome->evaluations, "time", "times"), request.queue);
   session.say(text);
   Json json = writtenJson(arguments.input, target.path, target.format.name, converted);
-  json["operator"] = arguments.method;
+  json["operator"] = request.method;
   json["trianglesBefore"] = facesBefore;
   json["trianglesPercent"] = percent;
   json["diagonal"] = diagonal;
-  if (maxTriangles) json["maxTriangles"] = *maxTriangles;
+  if (request.maxTriangles) json["maxTriangles"] = *request.maxTriangles;
   if (outcome->maxError && std::isfinite(*outcome->maxError)) {
     json["maxError"] = *outcome->maxError;
     json["maxErrorPercent"] = 100 * *outcome->maxError / diagonal;
@@ -342,7 +232,7 @@ void addMeshDecimateCommand(CLI::App& mesh, Session& session) {
       ->type_name("E|P%");
   command
       ->add_option(
-          "--operator", arguments->method,
+          "--operator", arguments->request.method,
           "measured: the multitriangulation's cut, fitted (default, the closest; two to seven times the "
           "processor time\n"
           "of qem); qem: edges, at the least of their quadric; lindstrom-turk: edges, memoryless (CGAL); "
@@ -355,21 +245,24 @@ void addMeshDecimateCommand(CLI::App& mesh, Session& session) {
       ->type_name("NAME");
   command
       ->add_option(
-          "--queue", arguments->queue,
+          "--queue", arguments->request.queue,
           "When costs are computed anew: lazy, where they would be the least (default); greedy, at once;\n"
           "estimate: their estimates, lazily")
       ->check(oneOf({"lazy", "greedy", "estimate"}))
       ->type_name("NAME");
-  command->add_option("--quadric-weight", arguments->weight, "Of a quadric's planes: area (default) or none")
+  command
+      ->add_option("--quadric-weight", arguments->request.quadricWeight,
+                   "Of a quadric's planes: area (default) or none")
       ->check(oneOf({"area", "none"}))
       ->type_name("NAME");
   command
-      ->add_option("--cluster-vertices", arguments->clusterVertices,
+      ->add_option("--cluster-vertices", arguments->request.clusterVertices,
                    "Of a cluster: quadric, the least of it (default), or original, the best of its vertices")
       ->check(oneOf({"quadric", "original"}))
       ->type_name("NAME");
-  command->add_flag("--keep-borders", arguments->keepsBorders, "Vertices on borders stay, to the bit");
-  command->add_flag("--no-crossings", arguments->forbidsCrossings,
+  command->add_flag("--keep-borders", arguments->request.keepsBorders,
+                    "Vertices on borders stay, to the bit");
+  command->add_flag("--no-crossings", arguments->request.forbidsCrossings,
                     "Refuse steps that make the surface cross itself (qem, half-edge, face)");
   command
       ->add_option(

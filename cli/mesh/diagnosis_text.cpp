@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
-#include "cli/mesh/findings.h"
+#include "io/query/mesh/findings.h"
 
 namespace arete {
 namespace {

@@ -8,56 +8,28 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <limits>
 #include <memory>
-#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "cli/arguments/arguments.h"
-#include "cli/mesh/diagnosis_json.h"
 #include "cli/mesh/diagnosis_text.h"
-#include "cli/mesh/findings.h"
-#include "io/formats/common/files_beside.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/geo/crs/names.h"
+#include "io/query/mesh/facts.h"
+#include "io/query/mesh/findings.h"
 #include "io/query/surface/mesh_input.h"
 #include "surface/diagnosis/diagnosis.h"
-#include "surface/diagnosis/sizes.h"
-#include "surface/edit/joined_surface.h"
 
 namespace arete {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct InfoArguments {
   std::string input;
   bool leavesOutSelfIntersections = false;
 };
-
-struct Facts {
-  MeshDiagnosis diagnosis;
-  double area = 0;
-  std::optional<double> volume;
-  std::uint64_t seamEdges = 0;
-};
-
-constexpr std::array kTypeNames = {"int8",  "uint8",  "int16",   "uint16",
-                                   "int32", "uint32", "float32", "float64"};
-
-/// Whether a picture is in the mesh or a file in its folder or below.
-bool isThere(const MeshFile& file, const std::string& picture) {
-  if (picture.starts_with('#')) {
-    const std::string number = picture.substr(1);
-    for (std::size_t i = 0; i < file.mesh.pictures.size(); ++i)
-      if (std::to_string(i) == number) return true;
-    return false;
-  }
-  const Result<std::string> found = FilesBeside(file.folder).find(picture);
-  std::error_code ignored;
-  return found && fs::is_regular_file(file.folder / *found, ignored);
-}
 
 /// "3: a, b, c", of long lists the first.
 std::string listText(const std::vector<std::string>& names) {
@@ -75,15 +47,14 @@ std::vector<std::string> materialTexts(const MeshFile& file) {
     std::string text = fmt::format("\"{}\"", material.name);
     for (const TextureUse& texture : material.textures)
       text += fmt::format(", {} {}{}", texture.role, texture.picture,
-                          isThere(file, texture.picture) ? "" : " (missing)");
+                          hasPicture(file, texture.picture) ? "" : " (missing)");
     texts.push_back(std::move(text));
   }
   return texts;
 }
 
 std::string attributeText(const Attribute& attribute) {
-  return fmt::format("{} ({} {})", attribute.name, attribute.components,
-                     kTypeNames[static_cast<std::size_t>(attribute.type)]);
+  return fmt::format("{} ({} {})", attribute.name, attribute.components, nameOf(attribute.type));
 }
 
 std::string attributesText(const std::vector<Attribute>& attributes) {
@@ -96,7 +67,7 @@ std::string positionText(const Vec3& p) {
   return fmt::format("{:.9g}, {:.9g}, {:.9g}", p.x, p.y, p.z);
 }
 
-std::string factsText(const MeshInput& input, const Facts& facts) {
+std::string factsText(const MeshInput& input, const MeshFacts& facts) {
   std::string text;
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<11} {}\n", what, value);
@@ -139,66 +110,6 @@ std::string factsText(const MeshInput& input, const Facts& facts) {
   return text;
 }
 
-Json attributesJson(const std::vector<Attribute>& attributes) {
-  Json json = Json::array();
-  for (const Attribute& a : attributes)
-    json.push_back({{"name", a.name},
-                    {"type", kTypeNames[static_cast<std::size_t>(a.type)]},
-                    {"components", a.components},
-                    {"isNormalized", a.isNormalized}});
-  return json;
-}
-
-Json factsJson(const std::string& path, const MeshInput& input, const Facts& facts) {
-  const SurfaceMesh& mesh = input.file.mesh;
-  Json materials = Json::array();
-  for (const Material& material : mesh.materials) {
-    Json textures = Json::array();
-    for (const TextureUse& texture : material.textures)
-      textures.push_back({{"role", texture.role},
-                          {"picture", texture.picture},
-                          {"isThere", isThere(input.file, texture.picture)}});
-    materials.push_back({{"name", material.name}, {"textures", std::move(textures)}});
-  }
-  const MeshDiagnosis& d = facts.diagnosis;
-  const MeshUp up = input.file.up;
-  Json json = {{"file", path},
-               {"format", input.format},
-               {"countsFrom", input.numbers.first},
-               {"vertices", input.fileVertices},
-               {"faces", input.fileFaces},
-               {"triangles", mesh.triangles.size()},
-               {"joinedVertices", input.file.joinedVertices},
-               {"joinedAtSeams", input.joinedAtSeams},
-               {"seamEdges", facts.seamEdges},
-               {"objects", mesh.objects},
-               {"groups", mesh.groups},
-               {"materials", std::move(materials)},
-               {"embeddedPictures", mesh.pictures.size()},
-               {"attributes",
-                {{"vertices", attributesJson(mesh.vertexAttributes)},
-                 {"corners", attributesJson(mesh.wedgeAttributes)},
-                 {"faces", attributesJson(mesh.triangleAttributes)}}},
-               {"crs", crsName(input.file.crsWkt)},
-               {"verticalUnit", input.file.verticalUnit},
-               {"up", up == MeshUp::y   ? "y"
-                      : up == MeshUp::z ? "z"
-                                        : "unknown"},
-               {"box", {{"low", toJson(d.boxLow)}, {"high", toJson(d.boxHigh)}}},
-               {"diagonal", d.diagonal},
-               {"area", facts.area},
-               {"volume", facts.volume ? Json(*facts.volume) : Json()}};
-  // The findings name vertices and faces by the numbers of the file, as the text does.
-  json.update(diagnosisJson(d, input.numbers));
-  json["warnings"] = Json::array();
-  json["warningCodes"] = Json::array();
-  for (const Warning& warning : input.file.warnings) {
-    json["warnings"].push_back(warning.sentence);
-    json["warningCodes"].push_back(nameOf(warning.code));
-  }
-  return json;
-}
-
 Status runInfo(const InfoArguments& arguments, Session& session) {
   ARETE_TRY(const MeshInput input, readMeshInput(arguments.input, session.context()));
   session.warn(input.file.warnings, arguments.input);
@@ -207,15 +118,10 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
                            .rounding = input.rounding};
   // The text shows the first places of a finding, JSON lists all of them.
   if (session.wantsJson()) options.mostPlaces = std::numeric_limits<std::size_t>::max();
-  ARETE_TRY(MeshDiagnosis diagnosis, diagnose(mesh, options, session.context()));
-  Facts facts;
-  facts.diagnosis = std::move(diagnosis);
-  facts.area = areaOf(mesh);
-  if (isSolid(facts.diagnosis)) facts.volume = volumeOf(mesh);
-  facts.seamEdges = countSeamEdges(mesh);
+  ARETE_TRY(const MeshFacts facts, meshFactsOf(mesh, options, session.context()));
   session.say(fmt::format("{}: {}\n{}{}", arguments.input, verdictOf(facts.diagnosis),
                           factsText(input, facts), diagnosisText(facts.diagnosis, input.numbers)));
-  if (session.wantsJson()) session.answer(factsJson(arguments.input, input, facts));
+  if (session.wantsJson()) session.answer(meshFactsJson(arguments.input, input, facts));
   return {};
 }
 

@@ -5,10 +5,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,17 +14,16 @@
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/conversion_report.h"
 #include "cli/arguments/mesh_options.h"
-#include "cli/mesh/diagnosis_json.h"
 #include "cli/mesh/diagnosis_text.h"
-#include "cli/mesh/findings.h"
 #include "engine/base/counted.h"
 #include "io/files/text/length_unit.h"
 #include "io/formats/exchange/convert.h"
 #include "io/formats/exchange/mesh_formats.h"
+#include "io/query/mesh/diagnosis_json.h"
+#include "io/query/mesh/findings.h"
+#include "io/query/mesh/mend.h"
 #include "io/query/surface/mesh_input.h"
-#include "surface/edit/joined_surface.h"
 #include "surface/edit/small_components.h"
-#include "surface/model/transfer.h"
 #include "surface/repair/repair.h"
 
 namespace arete {
@@ -68,52 +65,6 @@ Result<WeldDistance> weldDistance(const std::string& text, const MeshFile& file)
   return distance;
 }
 
-struct Welded {
-  WeldDistance distance;
-  bool isOfRounding = false;  ///< not stated: what rounding has moved apart
-  double diagonal = 0;
-  std::uint64_t vertices = 0, edges = 0;
-  double farthestMove = 0;
-};
-
-/// Errors that the file states of its triangles, for the triangles that were made of them.
-void carryErrors(MeshFile& file, const std::vector<std::uint32_t>& triangleOf, bool hasMoved) {
-  if (file.triangleErrors.empty()) return;
-  if (hasMoved || std::ranges::find(triangleOf, RepairedMesh::kNone) != triangleOf.end()) {
-    file.triangleErrors.clear();
-    file.warnings.push_back(
-        {WarningCode::omitted, "the errors of its triangles do not hold for the mended surface: left out"});
-    return;
-  }
-  std::vector<float> errors;
-  for (const std::uint32_t t : triangleOf) errors.push_back(file.triangleErrors[t]);
-  file.triangleErrors = std::move(errors);
-}
-
-/// Mends the mesh in the file.
-Result<RepairedMesh> mend(MeshInput& input, const RepairArguments& arguments, bool hasMoved,
-                          Session& session) {
-  MeshFile& file = input.file;
-  RepairOptions options = arguments.options;
-  options.rounding = input.rounding;
-  options.partOf = file.mesh.objectOf;
-  Result<RepairedMesh> repaired = repair(file.mesh, options, session.context());
-  if (!repaired) return repaired;
-  file.warnings.clear();  // written already
-  if (!repaired->counts.isNothing()) {
-    carryErrors(file, repaired->triangleOf, hasMoved);
-    ARETE_TRY(SurfaceMesh mended,
-              transferAttributes(file.mesh, repaired->mesh, repaired->vertexOf, repaired->triangleOf));
-    file.mesh = std::move(mended);
-  } else if (hasMoved) {
-    std::vector<std::uint32_t> same(file.mesh.triangles.size());
-    std::iota(same.begin(), same.end(), 0u);
-    carryErrors(file, same, hasMoved);
-  }
-  file.mesh.faceOf.clear();  // the triangles are the faces of what is written
-  return repaired;
-}
-
 using Line = std::pair<std::uint64_t, const char*>;
 
 /// Every count has its words here; mendedText() leaves out what did not occur.
@@ -134,8 +85,8 @@ std::vector<Line> mendedLines(const RepairCounts& c) {
 
 // A weld is said with its distance, also one that the rounding of the file has called for; then it would be
 // wrong to say that there was nothing to mend.
-std::string mendedText(const MeshInput& input, const std::optional<Welded>& welded,
-                       const RepairedMesh& repaired) {
+std::string mendedText(const MeshInput& input, const std::optional<WeldOutcome>& welded,
+                       std::optional<double> share, const RepairedMesh& repaired) {
   std::string text;
   const auto line = [&](std::uint64_t count, const std::string& what) {
     if (count > 0) text += fmt::format("  {}: {}\n", what, grouped(count));
@@ -145,10 +96,10 @@ std::string mendedText(const MeshInput& input, const std::optional<Welded>& weld
     text += fmt::format(
         "  {} joined within {:.6g}{} ({:.6g} % of the diagonal, {:.6g}); none moved farther than "
         "{:.6g}\n",
-        grouped(welded->vertices, "vertex", "vertices"), welded->distance.size,
+        grouped(welded->vertices, "vertex", "vertices"), welded->distance,
         welded->isOfRounding ? ", which rounding to the numbers of the file moves apart" : "",
-        welded->distance.share ? *welded->distance.share
-        : welded->diagonal > 0 ? 100 * welded->distance.size / welded->diagonal
+        share                  ? *share
+        : welded->diagonal > 0 ? 100 * welded->distance / welded->diagonal
                                : 0,
         welded->diagonal, welded->farthestMove);
   for (const auto& [count, what] : mendedLines(repaired.counts)) line(count, what);
@@ -166,66 +117,23 @@ std::string mendedText(const MeshInput& input, const std::optional<Welded>& weld
   return text;
 }
 
-// The JSON has every count, zeros included, so that programs need no defaults.
-Json mendedJson(const RepairCounts& c) {
-  return {{"turnedSolids", c.turnedSolids},         {"turnedCavities", c.turnedCavities},
-          {"duplicateFaces", c.duplicateTriangles}, {"degenerateFaces", c.degenerateTriangles},
-          {"joinedVertices", c.joinedVertices},     {"tJunctions", c.tJunctions},
-          {"splitSheetEdges", c.splitSheetEdges},   {"turnedFaces", c.turnedTriangles},
-          {"addedVertices", c.addedVertices},       {"filledHoles", c.filledHoles},
-          {"fillingTriangles", c.fillingTriangles}, {"unusedVertices", c.unusedVertices}};
-}
-
-Json weldedJson(const Welded& welded) {
-  return {{"distance", welded.distance.size},
-          {"diagonal", welded.diagonal},
-          {"isOfRounding", welded.isOfRounding},
-          {"vertices", welded.vertices},
-          {"edges", welded.edges},
-          {"farthestMove", welded.farthestMove}};
-}
-
-/// How far apart the borders are that are one but for the rounding of the file; 0: there are none, or edges
-/// of borders are too short for it.
-Result<double> distanceOfNearBorders(const MeshInput& input, const RunContext& context) {
-  const TriangleMesh& mesh = input.file.mesh;
-  ARETE_TRY(
-      const MeshDiagnosis d,
-      diagnose(mesh, {.mostPlaces = 0, .selfIntersections = false, .rounding = input.rounding}, context));
-  return d.farthestNear <= d.shortestBorderEdge / 4 ? d.farthestNear : 0;
-}
-
 // Borders are welded by a stated distance, or else by the distance that the rounding of the file explains.
 Status runRepair(const RepairArguments& arguments, Session& session) {
   ARETE_TRY(const MeshTarget target, meshTarget(arguments.output, arguments.input, session));
   ARETE_TRY(MeshInput input, readMeshInput(arguments.input, session.context()));
   const bool isOfFloats = movedByFloats(input.file.mesh) == 0;
   session.warn(input.file.warnings, arguments.input);
-  std::optional<Welded> welded;
+  MendOptions options{.weld = {}, .repair = arguments.options};
+  std::optional<double> share;
   if (!arguments.weld.empty()) {
-    SurfaceMesh& mesh = input.file.mesh;
     ARETE_TRY(const WeldDistance distance, weldDistance(arguments.weld, input.file));
-    welded = Welded{.distance = distance, .diagonal = diagonalOf(mesh)};
-  } else if (const auto distance = distanceOfNearBorders(input, session.context()); !distance) {
-    return tl::unexpected(distance.error());
-  } else if (*distance > 0) {
-    welded = Welded{.distance = {.size = *distance, .share = {}},
-                    .isOfRounding = true,
-                    .diagonal = diagonalOf(input.file.mesh)};
+    options.weld = distance.size;
+    share = distance.share;
   }
-  if (welded) {
-    SurfaceMesh& mesh = input.file.mesh;
-    ARETE_TRY(
-        const JoinedSurface joined,
-        joinSurface(mesh, {.distance = welded->distance.size, .partOf = mesh.objectOf}, session.context()));
-    welded->vertices = joined.joinedVertices;
-    welded->edges = joined.joinedEdges;
-    welded->farthestMove = joined.farthestMove;
-  }
-  // Errors that the mesh carries no longer hold where welding has moved a vertex, so mending is given that.
-  ARETE_TRY(const RepairedMesh repaired, mend(input, arguments, welded && welded->farthestMove > 0, session));
-  if (input.file.mesh.triangles.empty())
-    return failure(ErrorCode::invalidData, "no face is left: all were without area", arguments.input);
+  Result<MendedMesh> mended = mendMesh(input, options, session.context());
+  if (!mended && mended.error().culprit.empty()) mended.error().culprit = arguments.input;
+  if (!mended) return tl::unexpected(mended.error());
+  const RepairedMesh& repaired = mended->repaired;
   // The report of the repair holds examples only; JSON lists all, so the result is examined once more.
   Result<MeshDiagnosis> diagnosis = repaired.diagnosis;
   if (session.wantsJson())
@@ -243,16 +151,12 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
                                                        session.context()));
   warnOfConversion(converted, arguments.input, target.format.name, session);
   const MeshNumbers numbers{.first = target.format.holds.firstIndex, .vertexOf = {}, .faceOf = {}};
-  session.say(writtenText(target.path, converted) + mendedText(input, welded, repaired) +
+  session.say(writtenText(target.path, converted) + mendedText(input, mended->welded, share, repaired) +
               fmt::format("now: {}\n", verdictOf(*diagnosis)) + diagnosisText(*diagnosis, numbers));
   if (session.wantsJson()) {
     Json json = writtenJson(arguments.input, target.path, target.format.name, converted);
     json["joinedAtSeams"] = input.joinedAtSeams;
-    json["welded"] = welded ? weldedJson(*welded) : Json();
-    json["mended"] = mendedJson(repaired.counts);
-    json["rounding"] = input.rounding;
-    json["openHoles"] = repaired.openHoles;
-    json["crossingParts"] = repaired.crossingParts;
+    json.update(mendJson(*mended, input.rounding));
     json["result"] = diagnosisJson(*diagnosis, numbers);
     session.answer(json);
   }

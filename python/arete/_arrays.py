@@ -6,7 +6,7 @@ A form that is not understood is refused. Nothing is rounded: a number that floa
 
 import math
 import numbers
-from typing import Any, Iterator, List, Optional, Tuple, Union
+from typing import Any, Optional, Tuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -161,56 +161,3 @@ def _parts_of(mesh: Any) -> Tuple[Any, Any]:
             raise ValueError(f"the mesh has cells that are no triangles: {', '.join(others)}")
         return mesh.points, mesh.cells_dict.get("triangle", np.empty((0, 3), dtype=np.uint32))
     raise TypeError("a mesh is vertices with triangles, or an object of meshio or trimesh")
-
-
-Rings = Tuple[Tuple[Tuple[float, float], ...], ...]
-Box = Tuple[float, float, float, float]
-
-
-def region_of(region: Any) -> Union[None, Box, List[Rings]]:
-    """A box (xmin, ymin, xmax, ymax), or the polygons of an object with __geo_interface__ (shapely, geopandas): each its
-    outer ring and its holes. None for None."""
-    if region is None:
-        return None
-    geometry = getattr(region, "__geo_interface__", region if isinstance(region, dict) else None)
-    if geometry is not None:
-        return list(_polygons_of(geometry))
-    try:
-        left, bottom, right, top = (float(number) for number in region)
-    except (TypeError, ValueError):
-        raise TypeError("a region is a box (xmin, ymin, xmax, ymax) or a polygon of shapely") from None
-    return (left, bottom, right, top)
-
-
-def _polygons_of(geometry: Any) -> Iterator[Rings]:
-    kind = None if geometry is None else geometry.get("type")
-    if kind == "Polygon":
-        yield tuple(tuple((float(p[0]), float(p[1])) for p in ring) for ring in geometry["coordinates"])
-    elif kind == "MultiPolygon":
-        for polygon in geometry["coordinates"]:
-            yield from _polygons_of({"type": "Polygon", "coordinates": polygon})
-    elif kind == "GeometryCollection":
-        for part in geometry["geometries"]:
-            yield from _polygons_of(part)
-    elif kind == "Feature" and geometry.get("geometry") is not None:
-        yield from _polygons_of(geometry["geometry"])
-    elif kind == "FeatureCollection":
-        for feature in geometry["features"]:
-            yield from _polygons_of(feature)
-    elif kind != "Feature":
-        raise ValueError(f"a region is a Polygon or a MultiPolygon, not a {kind}")
-
-
-def line_of(line: Any) -> NDArray[np.float64]:
-    """The places (n, 2) of rows of x, y or of a line with __geo_interface__ (shapely)."""
-    geometry = getattr(line, "__geo_interface__", line if isinstance(line, dict) else None)
-    if geometry is not None:
-        if geometry.get("type") != "LineString":
-            raise ValueError(f"a line is a LineString, not a {geometry.get('type')}")
-        line = [place[:2] for place in geometry["coordinates"]]
-    places = np.ascontiguousarray(unmasked_places(line, "place"))
-    if places.ndim != 2 or places.shape[1] != 2 or len(places) < 2:
-        raise ValueError("a line is two or more rows of x, y")
-    if not np.isfinite(places).all():
-        raise ValueError("a place of the line is not finite")
-    return places

@@ -4,16 +4,17 @@
 import dataclasses
 import math
 import os
-from typing import Any, Callable, List, Optional, Tuple, Union
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _arete
+from . import _arete, _checks
+from ._mesh import Mesh
+from ._mesh import PathLike as PathLike
+from ._mesh import Progress as Progress
+from ._reports import report_of
 from ._sizes import counted
-
-PathLike = Union[str, "os.PathLike[str]"]
-Progress = Optional[Callable[[str, float], object]]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -55,31 +56,17 @@ class SurfaceCamera:
                                            _of_camera("viewport", self.viewport, 2))
 
 
-class Tin:
+class Tin(Mesh):
     """The triangles of a cut. Arrays are read-only views of its memory, and keep it alive."""
 
-    def __init__(self, tin: _arete.Tin):
-        self._tin = tin
-
-    @property
-    def vertices(self) -> NDArray[np.float64]:
-        """(n, 3): x, y, z in the CRS and the unit of the source."""
-        return self._tin.vertices
-
-    @property
-    def triangles(self) -> NDArray[np.uint32]:
-        """(m, 3): vertices, counter-clockwise seen from above; of a surface from outside."""
-        return self._tin.triangles
+    def __init__(self, tin: _arete.Tin, export: Optional["Export"] = None):
+        super().__init__(tin)
+        self._export = export
 
     @property
     def errors(self) -> NDArray[np.float32]:
         """(m,): no sample that the triangle stands for is farther from it."""
         return self._tin.errors
-
-    @property
-    def source_vertices(self) -> NDArray[np.uint32]:
-        """Of a surface, (n,): the vertex of the source that each one is. Empty of terrain."""
-        return self._tin.source_vertices
 
     @property
     def error(self) -> float:
@@ -96,31 +83,77 @@ class Tin:
         """False where a number of triangles or a deadline ended the refinement before the error was reached."""
         return self._tin.is_complete
 
-    @property
-    def crs(self) -> Optional[str]:
-        """WKT, as pyproj, rasterio and geopandas take it; None where the source has no CRS."""
-        return self._tin.crs_wkt or None
+    def save(self, path: PathLike, progress: Progress = None, *, certificate: Union[bool, PathLike, None] = None,
+             error_raster: Optional[PathLike] = None, map: Optional[PathLike] = None,
+             drop_attributes: Union[str, Sequence[str]] = (), both_ways: bool = False) -> List[str]:
+        """Writes a mesh in the format that the name says, with its CRS, unit, errors and, of a surface, attributes; of a
+        raster also .tif, the TIN sampled on the source's grid.
 
-    def __reduce__(self) -> Tuple[Callable[..., Any], Tuple[Any, ...]]:
-        tin = self._tin
-        return _tin_of, (np.array(tin.vertices), np.array(tin.triangles), np.array(tin.errors), tin.error, tin.is_complete,
-                         tin.pixels, tin.crs_wkt, tin.file_parts, np.array(tin.source_vertices))
+        Formats of 32-bit floats round heights by a little, which the error of the cut does not include; with a certificate the
+        cut is taken so that the promise holds all the same.
 
-    def save(self, path: PathLike, progress: Progress = None) -> List[str]:
-        """Writes a mesh in the format that the name says, with its CRS, unit, errors and, of a surface, attributes.
+        certificate: True, or a path: also measures what was written, and writes what was promised and found; an error that
+            breaks the promise is raised, behind the files.
+        error_raster: of terrain, a GeoTIFF of the TIN minus the DEM. map: of a surface, a CSV of the vertices and faces of
+            the source. drop_attributes: of a surface, names to leave out. both_ways: measures a surface that way too.
 
         Returns what the format cannot hold: ["the CRS"].
         """
-        return list(self._tin.save(os.fspath(path), progress))
+        name = os.fspath(path)
+        names = _checks.names_of(drop_attributes)
+        is_raster = name.lower().endswith((".tif", ".tiff"))
+        if not (certificate or error_raster or map or names or both_ways or is_raster):
+            return list(self._tin.save(name, progress))
+        is_surface = len(self.source_vertices) > 0
+        for option, value in (("map", map), ("drop_attributes", names), ("both_ways", both_ways)):
+            if value and not is_surface:
+                raise TypeError(f"{option} is for surfaces")
+        if error_raster and is_surface:
+            raise TypeError("error_raster is for terrain")
+        if self._export is None:
+            raise ValueError("a Tin that was pickled, or made in another process, has no model to be measured against")
+        files = _arete.ExportFiles()
+        files.output = name
+        if certificate:
+            files.certificate = os.path.splitext(name)[0] + ".certificate.json" if certificate is True else os.fspath(certificate)
+        files.error_raster = "" if error_raster is None else os.fspath(error_raster)
+        files.map = "" if map is None else os.fspath(map)
+        files.drop_attributes = names
+        files.both_ways = both_ways
+        return self._export.write(files, progress)
 
-    def to_meshio(self) -> Any:
-        """A meshio.Mesh with the data "error" of each cell."""
-        import meshio
-
-        return meshio.Mesh(self.vertices, [("triangle", self.triangles)], cell_data={"error": [self.errors]})
+    def __reduce__(self) -> Tuple[Callable[..., Any], Tuple[Any, ...]]:
+        return _tin_of, self._parts()
 
     def __repr__(self) -> str:
         return f"<arete.Tin of {counted(len(self.triangles), 'triangle', 'triangles')}, error {self.error:g}>"
+
+
+@dataclasses.dataclass(frozen=True)
+class Export:
+    """How a cut is taken again, to be written and measured as `arete extract` does it."""
+
+    extract: Callable[[_arete.ExportFiles, Progress], str]
+    sources: Sequence[str]
+    """The files that the model was built from, if there are any."""
+    model: str
+    has_deadline: bool
+    check_options: Callable[[], str] = str
+    """Further arguments of measure(), by which the export is checked."""
+
+    def write(self, files: _arete.ExportFiles, progress: Progress) -> List[str]:
+        if self.has_deadline:
+            raise ValueError("a cut by a deadline is another one the next time: save it without certificate, map and rasters")
+        files.model = self.model
+        if files.certificate and all(os.path.exists(source) or "://" in source for source in self.sources):
+            against = repr(self.sources[0]) if len(self.sources) == 1 else repr(list(self.sources))
+            files.check_before = f"arete.measure({files.output!r}, {against}, expect="
+            files.check_behind = self.check_options() + ")"
+        report = report_of(self.extract(files, progress))
+        if report.get("kept") is False:
+            raise RuntimeError(f"{files.output}: the measurement contradicts the promised error; the files are written")
+        lost = report.get("lost")
+        return list(lost) if isinstance(lost, list) else []
 
 
 @dataclasses.dataclass(frozen=True)
@@ -138,6 +171,7 @@ class Asked:
     deadline: Optional[float] = None
     order: Optional[str] = None
     fit: Optional[str] = None
+    method: str = "minimal"
 
     def check(self) -> None:
         if self.max_error is None and self.max_triangles is None and not self.has_camera and self.deadline is None:
@@ -163,6 +197,12 @@ class Asked:
             raise ValueError("order needs max_triangles or a deadline")
         if self.order == "two-queues" and not self.has_camera:
             raise ValueError("order=\"two-queues\" needs a camera")
+        if self.method not in ("minimal", "saturated"):
+            raise ValueError(f"method={self.method!r} is neither \"minimal\" nor \"saturated\"")
+        if self.method == "saturated" and (self.deadline is not None or self.order is not None):
+            raise ValueError("method=\"saturated\" is not for a deadline or an order")
+        if self.method == "saturated" and self.fit == "triangles":
+            raise ValueError("fit=\"triangles\" is not for method=\"saturated\"")
         if self.fit is not None and (self.focus is not None or self.deadline is not None):
             raise ValueError("a fit is not for a focus or a deadline")
 
@@ -183,8 +223,9 @@ class Asked:
         request.pixel_error = None if self.pixel_error is None else float(self.pixel_error)
         request.deadline = None if self.deadline is None else float(self.deadline)
         if self.focus is not None and self.error_growth is not None:
-            x, y, z = (*self.focus, None)[:3]
-            request.set_focus(x, y, z, float(self.error_growth))
+            z = self.focus[2] if len(self.focus) > 2 else None
+            request.set_focus(self.focus[0], self.focus[1], z, float(self.error_growth))
+        request.set_method(self.method)
         request.set_order(self.order or "")
         request.set_fit(self.fit or "")
         return request
@@ -192,11 +233,13 @@ class Asked:
 
 def focus_of(focus: Any, count: int) -> Optional[Tuple[float, ...]]:
     """The place of a focus, checked."""
-    return None if focus is None else _numbers("a focus", focus, count)
+    return None if focus is None else _checks.numbers_of("a focus", focus, count)
 
 
 class Stored:
     """A model of terrain or of a surface. It may have a file, by which it is pickled."""
+
+    _path: Optional[str]
 
     def __init__(self, model: Union[_arete.Terrain, _arete.Surface], path: Optional[str] = None):
         self._stored = model
@@ -217,6 +260,15 @@ class Stored:
         """Triangles of the cut without error."""
         return self._stored.finest_triangle_count
 
+    def info(self) -> Dict[str, Any]:
+        """What is in it: source, CRS, numbers of triangles, how it was built."""
+        return report_of(self._stored.facts())
+
+    def _repr_html_(self) -> str:
+        from ._html import html_of_model
+
+        return html_of_model(self)
+
     def __reduce__(self) -> Tuple[Callable[[str], Any], Tuple[str]]:
         if self._path is None:
             raise TypeError("a model is pickled by its file: save() it first")
@@ -225,19 +277,22 @@ class Stored:
         return open_model, (self._path,)
 
 
+def plot_cut(model: Any, by: Optional[str], ax: Any, max_triangles: Union[int, str], options: Dict[str, Any]) -> Any:
+    """Draws a cut of a model of either kind, and says how far it is off."""
+    drawn = {name: options.pop(name) for name in ("cmap", "vmin", "vmax", "edges", "colorbar", "title") if name in options}
+    if not {"max_error", "camera", "deadline"} & set(options):
+        options["max_triangles"] = max_triangles
+        if isinstance(max_triangles, int):
+            options["max_triangles"] = max(min(max_triangles, model.finest_triangles), model._stored.root_triangle_count)
+    tin = model.cut(**options)
+    drawn.setdefault("title", f"{counted(len(tin.triangles), 'triangle', 'triangles')}, error {tin.error:.3g} "
+                              f"{tin.vertical_unit}".rstrip())
+    return tin.plot(by, ax, **drawn)
+
+
 def _tin_of(*parts: Any) -> Tin:
     return Tin(_arete.Tin(*parts))
 
 
 def _of_camera(name: str, values: Any, count: int) -> Tuple[float, ...]:
-    return _numbers(f"the {name} of a camera", values, count)
-
-
-def _numbers(what: str, values: Any, count: int) -> Tuple[float, ...]:
-    try:
-        numbers = tuple(float(value) for value in values)
-    except (TypeError, ValueError):
-        raise TypeError(f"{what} is {count} numbers, not {values!r}") from None
-    if len(numbers) != count or not all(math.isfinite(number) for number in numbers):
-        raise ValueError(f"{what} is {count} numbers, not {values!r}")
-    return numbers
+    return _checks.numbers_of(f"the {name} of a camera", values, count)

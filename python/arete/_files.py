@@ -15,3 +15,19 @@ def open(path: PathLike, progress: Progress = None) -> Union[Model, Surface]:  #
     name = os.path.abspath(os.fspath(path))
     model = _arete.open_model(name, progress)
     return Surface(model, name) if isinstance(model, _arete.Surface) else Model(model, name)
+
+
+def open_model(path: PathLike, progress: Progress = None) -> Model:
+    """Opens an .amt file of terrain; one of a surface is a TypeError."""
+    model = open(path, progress)
+    if not isinstance(model, Model):
+        raise TypeError(f"{os.fspath(path)}: holds a surface: arete.open_surface() opens it")
+    return model
+
+
+def open_surface(path: PathLike, progress: Progress = None) -> Surface:
+    """Opens an .amt file of a surface; one of terrain is a TypeError."""
+    model = open(path, progress)
+    if not isinstance(model, Surface):
+        raise TypeError(f"{os.fspath(path)}: holds terrain: arete.open_model() opens it")
+    return model

@@ -5,6 +5,8 @@ import math
 import numbers
 from typing import Any, Callable, Optional, Union
 
+from ._checks import whole as whole_number
+
 Size = Union[float, str]
 """A number, or a percentage as text: "1%"."""
 
@@ -28,11 +30,11 @@ def size_of(name: str, value: Any, whole: Callable[[], float]) -> Optional[float
     return float(value)
 
 
-def count_of(name: str, value: Any, whole: Callable[[], int]) -> Optional[int]:
+def count_of(name: str, value: Any, total: Callable[[], int]) -> Optional[int]:
     """The same of a whole number, at least 1; a percentage is rounded down."""
     if not isinstance(value, str):
-        return value  # type: ignore[no-any-return]
-    size = size_of(name, value, whole)
+        return whole_number(name, value, 1, 0xFFFFFFFE)
+    size = size_of(name, value, total)
     assert size is not None
     if size < 1:
         raise ValueError(f"{name}={value!r} is less than one triangle")

@@ -3,13 +3,17 @@
 
 import math
 import os
-from typing import Any, Dict, Optional, Sequence, Union
+from typing import Any, Dict, Optional, Sequence, Tuple, Union
 
 from numpy.typing import ArrayLike
 
 from . import _arete
 from ._arrays import mesh_of, some_mesh_of
-from ._cuts import Asked, PathLike, Progress, Stored, SurfaceCamera, Tin, focus_of
+from ._checks import names_of, number, whole
+from ._curve import Curve, curve_of
+from ._cuts import Asked, Export, PathLike, Progress, Stored, SurfaceCamera, Tin, focus_of, plot_cut
+from ._regions import Where, boxes_where, space_region_of
+from ._reports import report_of
 from ._sizes import Size, count_of, counted, size_of
 
 
@@ -24,13 +28,17 @@ class Surface(Stored):
             outside_error: Size = math.inf, camera: Optional[SurfaceCamera] = None, pixel_error: Optional[float] = None,
             displaced: bool = True, fit: Optional[str] = None, progress: Progress = None,
             focus: Optional[Sequence[float]] = None, error_growth: Optional[float] = None, deadline: Optional[float] = None,
-            order: Optional[str] = None, drop_parts: Size = 0) -> Tin:
+            order: Optional[str] = None, drop_parts: Size = 0, method: str = "minimal",
+            where: Optional[Where] = None) -> Tin:
         """The fewest triangles of which no point of the source is farther than `max_error`, or the best of at most
         `max_triangles`.
 
         region: where max_error holds: a box (x0, y0, z0, x1, y1, z1), a ball (x, y, z, r), or a closed mesh, as a file
             or as build_surface() takes it; elsewhere outside_error does.
+        where: the same by a function of x0, y0, z0, x1, y1, z1: True: all of that box is meant, False: nothing, None: it is
+            asked again of eighths.
         camera: the error is at most pixel_error (1 by default) in its picture.
+        method: "saturated" takes a few more triangles, sooner.
         focus: x, y, z of a place where max_error holds; from there the error grows by error_growth per unit.
         deadline: milliseconds after which the refinement ends as far as it is; the mesh conforms.
         order: what is refined first under max_triangles or a deadline: "worst", "breadth", "depth", or "two-queues"; by
@@ -41,32 +49,75 @@ class Surface(Stored):
 
         An error may be a percentage of the diagonal ("1%"), a number of triangles one of the finest.
         """
-        max_error = size_of("max_error", max_error, lambda: self.diagonal)
-        outside_error = size_of("outside_error", outside_error, lambda: self.diagonal)  # type: ignore[assignment]
-        max_triangles = count_of("max_triangles", max_triangles, lambda: self.finest_triangles)
-        drop_parts = size_of("drop_parts", drop_parts, lambda: self.diagonal)  # type: ignore[assignment]
-        asked = Asked(max_error, max_triangles, region is not None, outside_error, camera is not None, pixel_error,
-                      focus_of(focus, 3), error_growth, deadline, order, fit)
+        inside = size_of("max_error", max_error, lambda: self.diagonal)
+        outside: Any = size_of("outside_error", outside_error, lambda: self.diagonal)
+        budget = count_of("max_triangles", max_triangles, lambda: self.finest_triangles)
+        dropped = size_of("drop_parts", drop_parts, lambda: self.diagonal)
+        if where is not None and region is not None:
+            raise ValueError("where is a region: not with another one")
+        has_region = region is not None or where is not None
+        asked = Asked(inside, budget, has_region, outside, camera is not None, pixel_error,
+                      focus_of(focus, 3), error_growth, deadline, order, fit, method)
         asked.check()
         if fit not in (None, "rms"):
             raise ValueError(f"fit={fit!r} is not \"rms\"")
-        if fit is not None and (region is not None or camera is not None):
+        if fit is not None and (has_region or camera is not None):
             raise ValueError("a fit is for a cut by max_error or max_triangles everywhere")
         numbers = None if camera is None else camera.numbers()
         request = asked.request()
         request.displaced = displaced
-        request.drop_parts = float(drop_parts)
-        return Tin(self._surface.cut(request, _region_of(region, progress), numbers, progress))
+        request.drop_parts = dropped or 0
+        where_it_holds, text = self._region(region, where, progress)
+        tin = self._surface.cut(request, where_it_holds, numbers, progress)
+
+        def extract(files: _arete.ExportFiles, export_progress: Progress) -> str:
+            return self._surface.extract(request, where_it_holds, text, numbers, files, export_progress)
+
+        return Tin(tin, Export(extract, [self._surface.source], self._path or "", deadline is not None))
+
+    def _region(self, region: Any, where: Optional[Where], progress: Progress) -> Tuple[Optional[_arete.RegionOfSpace], str]:
+        if where is None:
+            return space_region_of(region, progress)
+        sides = self._surface.box
+        low, high = sides[:3], sides[3:]
+        boxes = boxes_where(where, low, high, [self.diagonal / 4096] * 3)
+        if len(boxes) == 0:
+            raise ValueError("where means nothing of the surface")
+        return _arete.region_of_boxes(boxes), "a function of boxes"
+
+    def curve(self, curve: int = 12, at: Optional[Sequence[Size]] = None, progress: Progress = None) -> Curve:
+        """How many triangles which error takes: at round shares of the diagonal, the smallest as many as `curve` says, or at
+        the errors stated."""
+        most = whole("curve", curve, 1, 1000) or 12
+        if at is None:
+            shares = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
+            errors = [share / 100 * self.diagonal for share in shares if share / 100 * self.diagonal < self.largest_error][:most]
+        else:
+            stated = [at] if isinstance(at, (str, float, int)) else at
+            errors = [size_of("at", one, lambda: self.diagonal) or 0.0 for one in stated]
+        return curve_of(self._surface.curve(errors, progress), "")
+
+    def validate(self, full: bool = False, progress: Progress = None) -> Dict[str, Any]:
+        """Checks every law of a multitriangulation of a surface. "holds" says whether all do, "laws" which they are,
+        "violation" what breaks one. full: the error at more samples."""
+        return report_of(self._surface.validate(full, progress))
+
+    def plot(self, by: Optional[str] = None, ax: Any = None, max_triangles: Union[int, str] = 10000, **options: Any) -> Any:
+        """Draws a cut in space with matplotlib, of as many triangles; returns the axes.
+
+        by: "height" (by default), "error", or "slope" in degrees. The other options are those of Tin.plot(), and of cut().
+        """
+        return plot_cut(self, by, ax, max_triangles, options)
 
     def measure(self, mesh: Any, triangles: Optional[ArrayLike] = None, samples: int = 0,
-                progress: Progress = None) -> Dict[str, Any]:
+                progress: Progress = None, seed: int = 1) -> Dict[str, Any]:
         """The distances between the source and a mesh, both ways, by code that the build does not share.
 
         mesh: as build_surface() takes it, or a Tin. samples: on each, as many as `arete measure` takes by default.
         Each way has the largest distance found, what no point exceeds, the mean and the root mean square. Where position
         bits rounded the model, every distance is raised by "position_error": the source itself is no farther.
         """
-        return self._surface.measure(*some_mesh_of(mesh, triangles), int(samples), progress)
+        return self._surface.measure(*some_mesh_of(mesh, triangles), int(samples), int(seed), progress)
 
     def save(self, path: PathLike, packed: bool = False, position_bits: int = 0, progress: Progress = None) -> None:
         """Writes the .amt file, whole or not at all. position_bits: of a packed file, the bits of each coordinate; 0: all."""
@@ -96,7 +147,7 @@ class Surface(Stored):
 
 def build_surface(source: Any, triangles: Optional[ArrayLike] = None, *, displacement: bool = False,
                   keep_borders: bool = False, drop_attributes: Union[str, Sequence[str]] = (),
-                  progress: Progress = None) -> Surface:
+                  progress: Progress = None, ratio: Optional[float] = None, max_degree: Optional[int] = None) -> Surface:
     """Builds the multitriangulation of a triangle mesh.
 
     source: a file that `arete build` takes for a surface; vertices (n, 3) with triangles (m, 3); or a mesh of meshio
@@ -105,28 +156,14 @@ def build_surface(source: Any, triangles: Optional[ArrayLike] = None, *, displac
     keep_borders: vertices of borders stay in every cut.
     drop_attributes: names of attributes of a file to leave out, and "objects", "groups", "materials": seams and edges
         between parts keep vertices in every cut.
+    ratio, max_degree: how levels grow, and the most neighbours of a vertex that is removed.
     """
-    names = [drop_attributes] if isinstance(drop_attributes, str) else [str(name) for name in drop_attributes]
+    names = names_of(drop_attributes)
+    growth, degree = number("ratio", ratio), whole("max_degree", max_degree, 6, 32)
     if isinstance(source, (str, os.PathLike)):
         if triangles is not None:
             raise TypeError("triangles are for arrays: a file says its own")
-        return Surface(_arete.build_surface_file(os.fspath(source), displacement, keep_borders, names, progress))
+        return Surface(_arete.build_surface_file(os.fspath(source), displacement, keep_borders, growth, degree, names, progress))
     if names:
         raise ValueError("drop_attributes is for files: arrays have no attributes")
-    return Surface(_arete.build_surface_arrays(*mesh_of(source, triangles), displacement, keep_borders, progress))
-
-
-def _region_of(region: Any, progress: Progress) -> Optional[_arete.RegionOfSpace]:
-    if region is None:
-        return None
-    if isinstance(region, (str, os.PathLike)):
-        return _arete.region_of_file(os.fspath(region), progress)
-    if isinstance(region, (tuple, list)) and len(region) == 2:
-        return _arete.region_of_mesh(*mesh_of(*region))
-    if hasattr(region, "vertices") or hasattr(region, "points"):
-        return _arete.region_of_mesh(*mesh_of(region, None))
-    try:
-        numbers = [float(number) for number in region]
-    except (TypeError, ValueError):
-        raise TypeError("a region is a box (x0, y0, z0, x1, y1, z1), a ball (x, y, z, r) or a closed mesh") from None
-    return _arete.region_of_numbers(numbers)
+    return Surface(_arete.build_surface_arrays(*mesh_of(source, triangles), displacement, keep_borders, growth, degree, progress))

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "python/bindings/calls.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cctype>
 #include <chrono>
@@ -10,6 +13,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "engine/parallel/guest_work.h"
 #include "io/files/text/address_text.h"
@@ -24,6 +28,57 @@ namespace {
 py::str asText(const std::string& text) {
   return py::reinterpret_steal<py::str>(
       PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));
+}
+
+}  // namespace
+
+namespace {
+
+/// Fields whose argument has another name.
+constexpr std::array kNamesInPython = {
+    std::pair{"creaseAngleDegrees", "crease_angle"},
+    std::pair{"deadlineMilliseconds", "deadline"},
+    std::pair{"featureCount", "features"},
+    std::pair{"fieldOfView", "fov"},
+    std::pair{"fixedVertices", "fixed"},
+    std::pair{"growth", "error_growth"},
+    std::pair{"isDepth", "positive"},
+    std::pair{"isLonLat", "lonlat"},
+    std::pair{"lonLat", "lonlat"},
+    std::pair{"minimumAspect", "min_aspect"},
+    std::pair{"thresholdRatio", "ratio"},
+};
+
+/// "max_triangles" of "maxTriangles"; a text that does not look like a field stays.
+std::string argumentOf(const std::string& field) {
+  const auto isOfName = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  if (field.empty() || std::isupper(static_cast<unsigned char>(field.front())) != 0 ||
+      !std::ranges::all_of(field, isOfName))
+    return field;
+  for (const auto& [known, argument] : kNamesInPython)
+    if (field == known) return argument;
+  std::string name;
+  for (const char c : field) {
+    if (std::isupper(static_cast<unsigned char>(c)) != 0) name += '_';
+    name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return name;
+}
+
+/// A sentence whose fields, in backquotes, are named as arguments; other words in backquotes stay.
+std::string sentenceInPython(std::string sentence) {
+  for (std::size_t at = 0; (at = sentence.find('`', at)) != std::string::npos;) {
+    const std::size_t behind = sentence.find('`', at + 1);
+    if (behind == std::string::npos) break;
+    const std::string field = sentence.substr(at + 1, behind - at - 1);
+    const bool isField = !field.empty() && std::ranges::all_of(field, [](char c) {
+      return std::isalpha(static_cast<unsigned char>(c)) != 0;
+    });
+    const std::string name = isField ? argumentOf(field) : fmt::format("`{}`", field);
+    sentence.replace(at, behind + 1 - at, name);
+    at += name.size();
+  }
+  return sentence;
 }
 
 }  // namespace
@@ -60,22 +115,16 @@ void warn(const Warnings& warnings) {
   using namespace py::literals;
   // A stack level of 2 names the line that called this module.
   for (const Warning& warning : warnings)
-    warnPython(category(asText(withoutQueries(warning.sentence)), nameOf(warning.code)), "stacklevel"_a = 2);
+    warnPython(category(asText(withoutQueries(sentenceInPython(warning.sentence))), nameOf(warning.code)),
+               "stacklevel"_a = 2);
 }
 
 Error inPython(Error error) {
-  // A culprit of letters in camel case is an option, which Python spells in snake case; others stay as they
-  // are.
-  const auto isOfName = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
-  if (error.culprit.empty() || std::isupper(static_cast<unsigned char>(error.culprit.front())) != 0 ||
-      !std::ranges::all_of(error.culprit, isOfName))
-    return error;
-  std::string name;
-  for (const char c : error.culprit) {
-    if (std::isupper(static_cast<unsigned char>(c)) != 0) name += '_';
-    name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  error.culprit = name;
+  // "maxTriangles 5": a field and its value. The name of a file may look like one.
+  const std::size_t end = error.code == ErrorCode::usage ? error.culprit.find(' ') : error.culprit.npos;
+  const std::string value = end == error.culprit.npos ? "" : error.culprit.substr(end);
+  error.culprit = argumentOf(error.culprit.substr(0, end)) + value;
+  error.message = sentenceInPython(error.message);
   return error;
 }
 

@@ -15,26 +15,22 @@
 #include "io/geo/crs/ellipsoid_earth.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/position_argument.h"
+#include "io/geo/dem/clutter_raster.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
+#include "python/bindings/region.h"
+#include "python/bindings/viewshed.h"
 #include "terrain/measure/measure.h"
 #include "terrain/model/plan_box.h"
 #include "terrain/sight/earth.h"
 #include "terrain/sight/engine.h"
+#include "terrain/sight/fresnel.h"
 #include "terrain/sight/paths.h"
 #include "terrain/sight/profile.h"
-#include "terrain/viewshed/viewshed.h"
 
 namespace arete::python {
-namespace {
 
 namespace py = pybind11;
-
-/// How lines of sight are taken.
-struct SightRequest {
-  std::string earth, nodata;
-  std::optional<double> refraction;
-};
 
 Result<std::unique_ptr<SightEarth>> makeEarth(const SightRequest& request, const TerrainModel& model) {
   if (!request.earth.empty() && request.earth != "plane" && request.earth != "ellipsoid")
@@ -69,17 +65,53 @@ Result<std::pair<Vec2, double>> endOf(const Terrain& terrain, const LongitudeTur
   return std::pair{sightPlan(terrain.model(), xy), *height};
 }
 
+namespace {
+
+/// What los() takes beside its ends.
+struct LosRequest {
+  SightRequest sight;
+  double maxError = 0, frequency = 0, clutterFree = 100;
+  std::string method = "auto", clutter;
+};
+
+Result<SightMethod> methodOf(const LosRequest& request, std::size_t count, const TerrainModel& model) {
+  if (request.method == "auto") return methodFor(count, request.maxError, model);
+  for (const SightMethod method :
+       {SightMethod::descent, SightMethod::pyramid, SightMethod::scan, SightMethod::embree})
+    if (toString(method) == request.method) {
+      if (model.isRaster || method == SightMethod::descent) return method;
+      return failure(ErrorCode::usage, "requires a raster; the model is made of points",
+                     "method=" + request.method);
+    }
+  return failure(ErrorCode::usage, "is not one of auto, descent, pyramid, scan, embree",
+                 "method=" + request.method);
+}
+
+Result<SightPathOptions> pathOptionsOf(const LosRequest& request, const TerrainModel& model,
+                                       const RunContext& context) {
+  SightPathOptions options;
+  ARETE_TRY(options.sight.nodata, nodataOf(request.sight));
+  options.sight.maxError = request.maxError;
+  options.frequencyMegahertz = request.frequency;
+  if (!request.clutter.empty()) {
+    if (request.maxError > 0)
+      return failure(ErrorCode::usage, "cannot be combined with max_error", "clutter");
+    ARETE_TRY(options.clutter, readClutter(request.clutter, model, context));
+    options.clutter.freeMetres = request.clutterFree;
+  }
+  return options;
+}
+
 /// @param from,to rows of x, y, height above the ground
-/// @return verdicts, clearances, distances and places of obstructions
-py::tuple los(const Terrain& terrain, const Doubles& from, const Doubles& to, double maxError,
-              const std::string& earthName, std::optional<double> refraction, const std::string& nodata,
+/// @return verdicts, and rows of clearance, distance, x and y of the obstruction, azimuth, elevation and part
+/// of the Fresnel zone
+py::tuple los(const Terrain& terrain, const Doubles& from, const Doubles& to, const LosRequest& request,
               const py::object& progress) {
   const auto count = static_cast<std::size_t>(from.shape(0));
   const auto answers = call(progress, [&](const RunContext& context) -> Result<std::vector<SightPathAnswer>> {
     const TerrainModel& model = terrain.model();
-    const SightRequest request{earthName, nodata, refraction};
-    ARETE_TRY(const auto earth, makeEarth(request, model));
-    ARETE_TRY(const auto gaps, nodataOf(request));
+    ARETE_TRY(const auto earth, makeEarth(request.sight, model));
+    ARETE_TRY(const SightPathOptions options, pathOptionsOf(request, model, context));
     const LongitudeTurns turns(model);
     std::vector<SightPath> paths;
     for (std::size_t i = 0; i < count; ++i) {
@@ -87,11 +119,12 @@ py::tuple los(const Terrain& terrain, const Doubles& from, const Doubles& to, do
       ARETE_TRY(const auto second, endOf(terrain, turns, to.data() + 3 * i, fmt::format("target {}", i)));
       paths.push_back({first.first, second.first, first.second, second.second});
     }
-    ARETE_TRY(const auto engine, makeSightEngine(methodFor(count, maxError, model), model, {}, context));
-    const Profiles profiles(model, nullptr);
-    SightPathOptions options;
-    options.sight.nodata = gaps;
-    options.sight.maxError = maxError;
+    // Profiles at full resolution walk over the cells of a raster.
+    const bool hasProfiles = request.frequency > 0 || options.clutter.height;
+    const auto grid = hasProfiles && model.isRaster ? std::make_shared<const SightGrid>(model) : nullptr;
+    ARETE_TRY(const SightMethod method, methodOf(request, count, model));
+    ARETE_TRY(const auto engine, makeSightEngine(method, model, grid, context));
+    const Profiles profiles(model, grid);
     ARETE_TRY(const auto found, answerPaths(paths, *earth, *engine, profiles, options, context));
     std::vector<SightPathAnswer> all;
     for (std::size_t i = 0; i < count; ++i) {
@@ -104,20 +137,45 @@ py::tuple los(const Terrain& terrain, const Doubles& from, const Doubles& to, do
     return all;
   });
   std::vector<std::string> verdicts;
-  Doubles clearances(static_cast<py::ssize_t>(count)), distances(static_cast<py::ssize_t>(count)),
-      obstructions(std::vector<py::ssize_t>{static_cast<py::ssize_t>(count), 2});
+  constexpr py::ssize_t kColumns = 7;
+  Doubles numbers(std::vector<py::ssize_t>{static_cast<py::ssize_t>(count), kColumns});
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < count; ++i) {
-    const SightAnswer& answer = answers[i].sight;
+  double* to_ = numbers.mutable_data();
+  for (const SightPathAnswer& path : answers) {
+    const SightAnswer& answer = path.sight;
     verdicts.emplace_back(toString(answer.verdict));
-    clearances.mutable_data()[i] = answer.clearance.value_or(kNone);
-    distances.mutable_data()[i] = answers[i].distanceMetres;
     const Vec2 at =
         answer.obstruction ? terrain.model().toSource(answer.obstruction->plan) : Vec2{kNone, kNone};
-    obstructions.mutable_data()[2 * i] = at.x;
-    obstructions.mutable_data()[2 * i + 1] = at.y;
+    for (const double number :
+         {answer.clearance.value_or(kNone), path.distanceMetres, at.x, at.y, path.azimuthDegrees,
+          path.elevationDegrees, path.fresnel ? path.fresnel->fraction : kNone})
+      *to_++ = number;
   }
-  return py::make_tuple(verdicts, clearances, distances, obstructions);
+  return py::make_tuple(verdicts, numbers);
+}
+
+/// The straight line between two ends at the vertices of a profile: its height, and the radius of the first
+/// Fresnel zone there, in the unit of heights.
+/// @param ends two rows of x, y, height above the ground
+py::tuple sightOver(const Terrain& terrain, const Doubles& ends, const Doubles& distances,
+                    const std::string& earthName, std::optional<double> refraction, double frequency) {
+  const TerrainModel& model = terrain.model();
+  const Result<SightLine> line = [&]() -> Result<SightLine> {
+    ARETE_TRY(const auto earth, makeEarth({earthName, "unknown", refraction}, model));
+    const LongitudeTurns turns(model);
+    ARETE_TRY(const auto first, endOf(terrain, turns, ends.data(), "observer"));
+    ARETE_TRY(const auto second, endOf(terrain, turns, ends.data() + 3, "target"));
+    return sightLine({first.first, second.first, first.second, second.second}, *earth, model);
+  }();
+  if (!line) raise(line.error());
+  Doubles heights(distances.size()), radii(distances.size());
+  const double wavelength = frequency > 0 ? wavelengthMetres(frequency) : 0;
+  for (py::ssize_t i = 0; i < distances.size(); ++i) {
+    const double s = distances.data()[i];
+    heights.mutable_data()[i] = line->height(s);
+    radii.mutable_data()[i] = fresnelRadius(wavelength, s, line->length()) / line->heightUnitMetres();
+  }
+  return py::make_tuple(heights, radii);
 }
 
 /// @param line rows of x, y
@@ -155,47 +213,24 @@ py::tuple profile(const Terrain& terrain, const Doubles& line, double maxError, 
   return py::make_tuple(distances, places, heights, parts, found.length, found.gapMetres);
 }
 
-py::array_t<std::uint8_t> viewshed(const Terrain& terrain, const std::array<double, 3>& observer,
-                                   double targetHeight, double radius, const std::string& earthName,
-                                   std::optional<double> refraction, const std::string& nodata,
-                                   const py::object& progress) {
-  const Viewshed seen = call(progress, [&](const RunContext& context) -> Result<Viewshed> {
-    const TerrainModel& model = terrain.model();
-    const SightRequest request{earthName, nodata, refraction};
-    ARETE_TRY(const auto earth, makeEarth(request, model));
-    ARETE_TRY(const auto gaps, nodataOf(request));
-    ARETE_TRY(const auto end, endOf(terrain, LongitudeTurns(model), observer.data(), "observer"));
-    ARETE_TRY(const auto maker, ViewshedMaker::make(model, *earth, {}, context));
-    ViewshedOptions options;
-    options.targetHeight = targetHeight;
-    options.field.greatestMetres = radius;
-    options.nodata = gaps;
-    return maker.from({end.first, end.second}, options, context);
-  });
-  if (seen.withoutLine > 0)
-    warn({{WarningCode::omitted,
-           fmt::format("{} passes a pole or a seam of the CRS",
-                       counted(seen.withoutLine, "sample is unknown: the shortest way to it",
-                               "samples are unknown: the shortest way to them"))}});
-  // Of the source's columns: a first one that is repeated is left out.
-  const std::uint32_t columns = sourceColumns(terrain.model());
-  py::array_t<std::uint8_t> cells(
-      std::vector<py::ssize_t>{static_cast<py::ssize_t>(seen.rows), static_cast<py::ssize_t>(columns)});
-  std::uint8_t* to = cells.mutable_data();
-  for (std::size_t row = 0; row < seen.rows; ++row)
-    for (std::size_t column = 0; column < columns; ++column)
-      *to++ = byteOf(seen.cells[row * seen.columns + column]);
-  return cells;
-}
-
 py::dict measureMesh(const Terrain& terrain, const Doubles& vertices, const Indices& triangles,
-                     const py::object& progress) {
+                     const std::optional<AskedRegion>& region, const py::object& progress) {
+  Warnings warnings;
   const MeasureReport report = call(progress, [&](const RunContext& context) -> Result<MeasureReport> {
     const TriangleMesh mesh = meshOf(vertices, triangles);
     const TerrainModel& model = terrain.model();
-    return model.isRaster ? measure(mesh, model.rasterSamples(), {}, context)
-                          : measure(mesh, model.pointSamples(), {}, context);
+    const auto against = [&](const auto& samples) -> Result<MeasureReport> {
+      std::vector<std::uint8_t> mask;
+      if (region) {
+        ARETE_TRY(mask, samplesIn(*region, samples, warnings, context));
+      }
+      MeasureOptions options;
+      options.mask = mask;
+      return measure(mesh, samples, options, context);
+    };
+    return model.isRaster ? against(model.rasterSamples()) : against(model.pointSamples());
   });
+  warn(warnings);
   py::dict found;
   // An error of nothing is no number.
   const auto ofSome = [&](double error) {
@@ -215,7 +250,20 @@ py::dict measureMesh(const Terrain& terrain, const Doubles& vertices, const Indi
 }  // namespace
 
 void defineSight(py::class_<Terrain, std::shared_ptr<Terrain>>& terrain) {
-  terrain.def("los", &los).def("profile", &profile).def("viewshed", &viewshed).def("measure", &measureMesh);
+  terrain
+      .def("los",
+           [](const Terrain& self, const Doubles& from, const Doubles& to, double maxError,
+              const std::string& earth, std::optional<double> refraction, const std::string& nodata,
+              const std::string& method, double frequency, const std::string& clutter, double clutterFree,
+              const py::object& progress) {
+             return los(self, from, to,
+                        {{earth, nodata, refraction}, maxError, frequency, clutterFree, method, clutter},
+                        progress);
+           })
+      .def("profile", &profile)
+      .def("sight_over", &sightOver)
+      .def("measure", &measureMesh);
+  defineViewshed(terrain);
 }
 
 }  // namespace arete::python

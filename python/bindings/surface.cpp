@@ -4,24 +4,32 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
 #include <variant>
 
+#include "io/query/extract/extract.h"
 #include "io/query/extract/model.h"
 #include "io/query/surface/build_model.h"
+#include "io/query/surface/extractor.h"
 #include "io/query/surface/region.h"
 #include "io/query/surface/write_model.h"
 #include "measure/mesh_distance.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
+#include "python/bindings/export_files.h"
+#include "python/bindings/questions.h"
 #include "python/bindings/terrain.h"
 #include "python/bindings/tin.h"
 #include "surface/front/front.h"
+#include "surface/region/boxes_region.h"
 #include "surface/region/closed_mesh_region.h"
 
 namespace arete::python {
@@ -80,6 +88,30 @@ CutTin takeSurfaceTin(const SurfaceModel& model, CutRequest request,
   return CutTin(std::move(tin));
 }
 
+/// Cuts, writes and measures as `arete extract` does. Returns its report as JSON.
+std::string extractSurfaceTo(const SurfaceModel& model, CutRequest asked,
+                             const std::optional<RegionOfSpace>& region, const std::string& regionText,
+                             const std::optional<SurfaceCamera>& camera, const ExportFiles& files,
+                             const py::object& progress) {
+  if (region) asked.spaceRegion = region->region;
+  asked.region = regionText;
+  asked.spaceCamera = camera;
+  return call(progress, [&](const RunContext& context) -> Result<std::string> {
+    ExtractRequest request;
+    request.criterion = asked;
+    request.output = files.output;
+    request.certificate = files.certificate;
+    request.map = files.map;
+    request.dropAttributes = files.dropAttributes;
+    request.measuresBothWays = files.measuresBothWays;
+    SurfaceExtractor extractor(
+        model, files.model,
+        [&](const ExtractRequest&, double promised, std::uint64_t) { return files.check(promised); });
+    ARETE_TRY(ExtractedSurface surface, extractor.extract(request, context));
+    return toJson(request, ExtractReport(std::move(surface))).dump();
+  });
+}
+
 py::dict oneWay(const DistanceOneWay& way) {
   py::dict found;
   found["max_distance"] = way.maximum;
@@ -92,12 +124,12 @@ py::dict oneWay(const DistanceOneWay& way) {
 /// From the source to the mesh, from the mesh to the source, and both together; each with how far rounding
 /// may have moved the source.
 py::dict measureSurfaceMesh(const SurfaceModel& model, const Doubles& vertices, const Indices& triangles,
-                            std::uint64_t samples, const py::object& progress) {
+                            std::uint64_t samples, std::uint64_t seed, const py::object& progress) {
   const MeshDistanceReport report =
       call(progress, [&](const RunContext& context) -> Result<MeshDistanceReport> {
         const SurfaceFront source = finestSurfaceOf(model);
-        auto measured =
-            measureDistance(source.mesh.shape(), meshOf(vertices, triangles), {.samples = samples}, context);
+        auto measured = measureDistance(source.mesh.shape(), meshOf(vertices, triangles),
+                                        {.samples = samples, .seed = seed}, context);
         // "second" is its name there.
         if (!measured && measured.error().culprit == "second")
           return failure(measured.error().code, measured.error().message, "mesh");
@@ -115,6 +147,17 @@ py::dict measureSurfaceMesh(const SurfaceModel& model, const Doubles& vertices, 
   return found;
 }
 
+/// The least and the largest coordinates of the vertices.
+std::array<Vec3, 2> boxOfSource(const SurfaceModel& model) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Vec3 low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
+  for (const Vec3& p : finestSurfaceOf(model).mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return {low, high};
+}
+
 void defineRegion(py::module_& module) {
   py::class_<RegionOfSpace>(module, "RegionOfSpace");
   const auto regionOrRaise = [](const auto& region) {
@@ -126,6 +169,14 @@ void defineRegion(py::module_& module) {
   module.def("region_of_file", [](const std::string& path, const py::object& progress) {
     return RegionOfSpace{
         call(progress, [&](const RunContext& context) { return readRegionMesh(path, context); })};
+  });
+  module.def("region_of_boxes", [](const Doubles& boxes) {
+    std::vector<std::array<Vec3, 2>> all;
+    for (py::ssize_t i = 0; i < boxes.shape(0); ++i) {
+      const double* const b = boxes.data() + 6 * i;
+      all.push_back({Vec3{b[0], b[1], b[2]}, Vec3{b[3], b[4], b[5]}});
+    }
+    return RegionOfSpace{std::make_shared<BoxesRegion>(std::move(all))};
   });
   module.def("region_of_mesh", [=](const Doubles& vertices, const Indices& triangles) {
     return RegionOfSpace{call(py::none(), [&](const RunContext&) {
@@ -141,8 +192,10 @@ void defineModel(py::module_& module) {
         return SurfaceCamera{
             {eye[0], eye[1], eye[2]}, {target[0], target[1], target[2]}, fieldOfView, size[0], size[1]};
       }));
-  py::class_<SurfaceModel, SurfacePtr>(module, "Surface")
-      .def("cut", &takeSurfaceTin)
+  py::class_<SurfaceModel, SurfacePtr> surface(module, "Surface");
+  defineQuestions(surface);
+  surface.def("cut", &takeSurfaceTin)
+      .def("extract", &extractSurfaceTo)
       .def("measure", &measureSurfaceMesh)
       .def("save",
            [](const SurfaceModel& model, const std::string& path, bool isPacked, int positionBits,
@@ -152,6 +205,11 @@ void defineModel(py::module_& module) {
                                         {.isPacked = isPacked, .positionBits = positionBits});
              });
            })
+      .def_property_readonly("box",
+                             [](const SurfaceModel& m) {
+                               const auto box = boxOfSource(m);
+                               return std::array{box[0].x, box[0].y, box[0].z, box[1].x, box[1].y, box[1].z};
+                             })
       .def_property_readonly("diagonal", [](const SurfaceModel& m) { return m.diagonal; })
       .def_property_readonly("crs_wkt", [](const SurfaceModel& m) { return m.crsWkt; })
       .def_property_readonly("source", [](const SurfaceModel& m) { return m.source; })
@@ -163,11 +221,13 @@ void defineModel(py::module_& module) {
                              [](const SurfaceModel& m) { return m.mt.finestTriangleCount(); });
 }
 
-SurfaceFileOptions optionsOf(bool isDisplaced, bool keepsBorders,
+SurfaceFileOptions optionsOf(bool isDisplaced, bool keepsBorders, std::optional<double> ratio,
+                             std::optional<std::uint32_t> maxDegree,
                              std::vector<std::string> dropAttributes = {}) {
-  return {.build = {.keepsBorders = keepsBorders},
-          .isDisplaced = isDisplaced,
-          .dropAttributes = std::move(dropAttributes)};
+  SurfaceBuildOptions build{.keepsBorders = keepsBorders};
+  build.thresholdRatio = ratio.value_or(build.thresholdRatio);
+  build.maxDegree = maxDegree.value_or(build.maxDegree);
+  return {.build = build, .isDisplaced = isDisplaced, .dropAttributes = std::move(dropAttributes)};
 }
 
 }  // namespace
@@ -175,14 +235,16 @@ SurfaceFileOptions optionsOf(bool isDisplaced, bool keepsBorders,
 void defineSurface(py::module_& module) {
   defineRegion(module);
   defineModel(module);
-  module.def("build_surface_file",
-             [](const std::string& path, bool isDisplaced, bool keepsBorders,
-                const std::vector<std::string>& dropAttributes, const py::object& progress) {
-               return buildFile(path, optionsOf(isDisplaced, keepsBorders, dropAttributes), progress);
-             });
+  module.def("build_surface_file", [](const std::string& path, bool isDisplaced, bool keepsBorders,
+                                      std::optional<double> ratio, std::optional<std::uint32_t> maxDegree,
+                                      const std::vector<std::string>& dropAttributes,
+                                      const py::object& progress) {
+    return buildFile(path, optionsOf(isDisplaced, keepsBorders, ratio, maxDegree, dropAttributes), progress);
+  });
   module.def("build_surface_arrays", [](const Doubles& vertices, const Indices& triangles, bool isDisplaced,
-                                        bool keepsBorders, const py::object& progress) {
-    return buildArrays(vertices, triangles, optionsOf(isDisplaced, keepsBorders), progress);
+                                        bool keepsBorders, std::optional<double> ratio,
+                                        std::optional<std::uint32_t> maxDegree, const py::object& progress) {
+    return buildArrays(vertices, triangles, optionsOf(isDisplaced, keepsBorders, ratio, maxDegree), progress);
   });
   module.def("open_model", [](const std::string& path, const py::object& progress) -> AnyModel {
     // Not mapped: another program may truncate the file while this one goes on.

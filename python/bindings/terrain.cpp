@@ -6,106 +6,36 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <variant>
 
-#include "io/formats/exchange/mesh_formats.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/position_argument.h"
-#include "io/geo/dem/dem_reader.h"
-#include "io/query/extract/region_argument.h"
+#include "io/geo/crs/transform.h"
+#include "io/geo/dem/raster_writer.h"
+#include "io/query/extract/extract.h"
+#include "io/query/extract/tin.h"
 #include "io/store/amt/file.h"
-#include "python/bindings/array_file.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
+#include "python/bindings/export_files.h"
+#include "python/bindings/questions.h"
+#include "python/bindings/region.h"
 #include "python/bindings/sight.h"
 #include "python/bindings/tin.h"
-#include "terrain/builder/build.h"
-#include "terrain/features/fixed_vertices.h"
 #include "terrain/model/cell_grid.h"
 #include "terrain/model/plan_box.h"
-#include "terrain/model/plan_region.h"
 
 namespace arete::python {
 namespace {
 
 namespace py = pybind11;
-using Box = std::array<double, 4>;
-using Polygons = std::vector<std::vector<std::vector<std::array<double, 2>>>>;
-/// A box, or polygons of an outer ring and holes.
-using AskedRegion = std::variant<Box, Polygons>;
-
 using TerrainPtr = std::shared_ptr<Terrain>;
-
-struct BuildRequest {
-  std::string shape = "delaunay";
-  std::size_t features = 64;
-};
-
-/// As `arete build` does it.
-Result<TerrainModel> buildFrom(DemRead dem, const std::string& source, const BuildRequest& request,
-                               const RunContext& context) {
-  BuildOptions options;
-  if (request.shape == "fidelity")
-    options.shape = HoleShape::dataDependent;
-  else if (request.shape != "delaunay")
-    return failure(ErrorCode::usage, "is neither delaunay nor fidelity", "shape=" + request.shape);
-  FixedVertexOptions fixedOptions;
-  fixedOptions.features->count = request.features;
-  return std::visit(
-      [&](auto& field) -> Result<TerrainModel> {
-        if (!source.empty()) field.source = source;
-        ARETE_TRY(const FixedVertices fixed, chooseFixedVertices(field, fixedOptions, context));
-        options.fixedVertices = fixed.vertices;
-        return build(field, options, context);
-      },
-      dem.heightfield);
-}
-
-/// The error of a build from an array, whose file in memory the caller never saw.
-Error ofArray(Error error, const std::string& path) {
-  if (error.culprit == path) error.culprit = "array";
-  for (std::size_t at = error.message.find(path); at != std::string::npos; at = error.message.find(path))
-    error.message.replace(at, path.size(), "the array");
-  return error;
-}
-
-/// @param hasPlace false: warnings about its position are left out
-TerrainPtr buildFile(const std::string& path, const BuildRequest& request, const std::string& source,
-                     bool hasPlace, const py::object& progress) {
-  Warnings warnings;
-  TerrainModel model = call(progress, [&](const RunContext& context) -> Result<TerrainModel> {
-    // Its vertices alone are another thing.
-    if (const Result<MeshFormat> format = meshFormatOf(path);
-        format && format->read && !format->holds.sharesFile)
-      return failure(ErrorCode::unsupported, "is a mesh: arete.build_surface() builds from it", path);
-    Result<DemRead> dem = readDem(path, {}, context);
-    if (!dem) return tl::unexpected(source.empty() ? dem.error() : ofArray(dem.error(), path));
-    warnings = std::move(dem->warnings);
-    Result<TerrainModel> built = buildFrom(std::move(*dem), source, request, context);
-    if (!built && !source.empty()) return tl::unexpected(ofArray(built.error(), path));
-    return built;
-  });
-  if (!source.empty())
-    for (Warning& warning : warnings)
-      warning.sentence = ofArray({ErrorCode::internal, warning.sentence, {}}, path).message;
-  // An array without a transform has no position, and its caller knows it.
-  if (!hasPlace) std::erase_if(warnings, [](const Warning& w) { return w.code == WarningCode::position; });
-  warn(warnings);
-  return std::make_shared<Terrain>(std::move(model));
-}
-
-TerrainPtr buildArray(const Doubles& heights, const std::optional<std::array<double, 6>>& transform,
-                      const std::string& crs, const BuildRequest& request, const py::object& progress) {
-  const HeightArray array{heights.data(), static_cast<std::size_t>(heights.shape(0)),
-                          static_cast<std::size_t>(heights.shape(1)), transform, crs};
-  const Result<ArrayFile> file = ArrayFile::write(array);
-  if (!file) raise(file.error());
-  return buildFile(file->path(), request, "array", transform.has_value(), progress);
-}
 
 /// How a camera comes from Python: its place, and how high it is of what ("agl", "msl", "ell").
 struct CameraNumbers {
@@ -136,45 +66,70 @@ Result<Camera> cameraOf(const CameraNumbers& n, const Terrain& terrain) {
                 .heightPixels = n.heightOfPicture};
 }
 
-Result<Region> planRegionOf(const AskedRegion& asked, const TerrainModel& model, Warnings& warnings) {
-  StatedRegion stated;
-  if (const Box* box = std::get_if<Box>(&asked)) {
-    stated.box = *box;
-  } else {
-    for (const auto& polygon : std::get<Polygons>(asked)) {
-      auto& rings = stated.polygons.emplace_back();
-      for (const auto& ring : polygon) {
-        auto& points = rings.emplace_back();
-        for (const auto& [x, y] : ring) points.push_back({x, y});
-      }
-    }
+/// What is asked for, with the places as the library takes them.
+/// @param isFile  the region is stated as text too, as an export has it
+Result<CutRequest> placedRequest(const Terrain& terrain, CutRequest request,
+                                 const std::optional<AskedRegion>& region,
+                                 const std::optional<CameraNumbers>& camera, bool isFile, Warnings& warnings,
+                                 const RunContext& context) {
+  if (region) {
+    ARETE_TRY(Region inPlan, planRegionOf(*region, terrain.model(), warnings, context));
+    request.planRegion = std::make_shared<const Region>(std::move(inPlan));
+    if (isFile) stateRegion(*region, request);
   }
-  ARETE_TRY(auto argument, regionArgumentOf(stated, model.georeference, LongitudeTurns(model)));
-  warnings = std::move(argument.warnings);
-  Region region = planRegion(std::move(argument.shape), model);
-  if (region.isEmpty() || !meetsDomain(region, model.mt))
-    return failure(ErrorCode::usage, "does not meet the terrain", "region");
-  return region;
+  if (camera) {
+    ARETE_TRY(const auto placed, cameraOf(*camera, terrain));
+    request.camera = placed;
+  }
+  if (request.focus) request.focus->xy = LongitudeTurns(terrain.model())(request.focus->xy);
+  return request;
 }
 
-CutTin takeTinOf(const Terrain& terrain, CutRequest request, const std::optional<AskedRegion>& region,
+CutTin takeTinOf(const Terrain& terrain, const CutRequest& asked, const std::optional<AskedRegion>& region,
                  const std::optional<CameraNumbers>& camera, const py::object& progress) {
   Warnings warnings;
   Tin taken = call(progress, [&](const RunContext& context) -> Result<Tin> {
-    if (region) {
-      ARETE_TRY(Region inPlan, planRegionOf(*region, terrain.model(), warnings));
-      request.planRegion = std::make_shared<const Region>(std::move(inPlan));
-    }
-    if (camera) {
-      ARETE_TRY(const auto placed, cameraOf(*camera, terrain));
-      request.camera = placed;
-    }
-    if (request.focus) request.focus->xy = LongitudeTurns(terrain.model())(request.focus->xy);
+    ARETE_TRY(const CutRequest request,
+              placedRequest(terrain, asked, region, camera, false, warnings, context));
     return cut(terrain.model(), request, context);
   });
   for (Warning& warning : warnings) warning = warning.behind("region: ");
   warn(warnings);
   return CutTin(std::move(taken));
+}
+
+/// Cuts, writes and measures as `arete extract` does. Returns its report as JSON.
+std::string extractTo(const Terrain& terrain, const CutRequest& asked,
+                      const std::optional<AskedRegion>& region, const std::optional<CameraNumbers>& camera,
+                      const ExportFiles& files, const py::object& progress) {
+  Warnings warnings;
+  std::string answer = call(progress, [&](const RunContext& context) -> Result<std::string> {
+    ExtractRequest request;
+    request.output = files.output;
+    request.certificate = files.certificate;
+    request.errorRaster = files.errorRaster;
+    ARETE_TRY(request.criterion, placedRequest(terrain, asked, region, camera, true, warnings, context));
+    if (request.criterion.camera && !request.criterion.pixelError && !request.criterion.maxTriangles)
+      request.criterion.pixelError = 1;
+    if (request.criterion.planRegion) request.region = *request.criterion.planRegion;
+    for (const std::string& name : {files.output, files.errorRaster})
+      if (!name.empty()) ARETE_CHECK(checkExtractOutput(name, terrain.model()));
+    TinExtractor extractor(terrain.shared(), files.model, {},
+                           [&](const ExtractRequest&, double promised) { return files.check(promised); });
+    ARETE_TRY(ExtractedTin tin, extractor.extract(request, context));
+    const Georeference& georeference = terrain.model().georeference;
+    nlohmann::ordered_json lost = nlohmann::ordered_json::array();
+    if (!georeference.crsWkt.empty() && !tin.format.saysCrs) lost.push_back("the CRS");
+    if (!georeference.verticalUnit.empty() && !tin.format.saysVerticalUnit)
+      lost.push_back("the unit of the heights");
+    if (!tin.format.saysErrors && !isGeoTiffName(files.output)) lost.push_back("the error of each triangle");
+    nlohmann::ordered_json report = toJson(request, ExtractReport(std::move(tin)));
+    report["lost"] = std::move(lost);
+    return report.dump();
+  });
+  for (Warning& warning : warnings) warning = warning.behind("region: ");
+  warn(warnings);
+  return answer;
 }
 
 /// NaN where there is no terrain.
@@ -215,6 +170,23 @@ double Terrain::relief() const {
 
 namespace {
 
+/// Places of longitude and latitude in the CRS of the source: rows of x, y.
+Doubles fromLonLat(const Terrain& terrain, const Doubles& places) {
+  Result<CrsTransform> toSource = CrsTransform::fromLonLat(terrain.model().georeference);
+  if (!toSource && toSource.error().culprit.empty()) toSource.error().culprit = "lonlat";
+  if (!toSource) raise(toSource.error());
+  std::vector<Vec2> all;
+  for (py::ssize_t i = 0; i < places.shape(0); ++i)
+    all.push_back({places.data()[2 * i], places.data()[2 * i + 1]});
+  toSource->apply(all);
+  Doubles moved(std::vector<py::ssize_t>{static_cast<py::ssize_t>(all.size()), 2});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    moved.mutable_data()[2 * i] = all[i].x;
+    moved.mutable_data()[2 * i + 1] = all[i].y;
+  }
+  return moved;
+}
+
 /// Columns, rows and GDAL's six numbers.
 py::tuple gridOf(const Terrain& terrain, double cell) {
   const Result<CellGrid> grid = cellGridOf(terrain.model(), cell);
@@ -239,6 +211,7 @@ py::tuple isolatedOf(const Terrain& terrain) {
 void defineTerrain(py::module_& module) {
   py::class_<Terrain, TerrainPtr> its(module, "Terrain");
   defineSight(its);
+  defineQuestions(its);
   py::class_<CameraNumbers>(module, "CameraNumbers")
       .def(py::init([](const std::array<double, 3>& place, std::string kind, double azimuth, double pitch,
                        double fieldOfView, const std::array<double, 2>& size) {
@@ -246,6 +219,8 @@ void defineTerrain(py::module_& module) {
                              pitch,    fieldOfView, size[0],  size[1]};
       }));
   its.def("cut", &takeTinOf)
+      .def("extract", &extractTo)
+      .def("from_lonlat", &fromLonLat)
       .def("heights", &heightsAt)
       .def("grid_of", &gridOf)
       .def("isolated", &isolatedOf)
@@ -277,15 +252,6 @@ void defineTerrain(py::module_& module) {
       .def_property_readonly("vertex_count", [](const Terrain& t) { return t.model().mt.vertexCount(); })
       .def_property_readonly("finest_triangle_count",
                              [](const Terrain& t) { return t.model().mt.finestTriangleCount(); });
-  module.def("build_file", [](const std::string& path, const std::string& shape, std::size_t features,
-                              const py::object& progress) {
-    return buildFile(path, {shape, features}, {}, true, progress);
-  });
-  module.def("build_array", [](const Doubles& heights, const std::optional<std::array<double, 6>>& transform,
-                               const std::string& crs, const std::string& shape, std::size_t features,
-                               const py::object& progress) {
-    return buildArray(heights, transform, crs, {shape, features}, progress);
-  });
 }
 
 }  // namespace arete::python

@@ -18,6 +18,7 @@ class Terrain {
       : model_(std::make_shared<const TerrainModel>(std::move(model))), heights_(*model_) {}
 
   const TerrainModel& model() const { return *model_; }
+  std::shared_ptr<const TerrainModel> shared() const { return model_; }
   const GroundHeights& heights() const { return heights_; }
   /// The highest minus the lowest sample: what a percentage of an error is of. O(samples).
   double relief() const;

@@ -11,8 +11,10 @@
 #include <utility>
 
 #include "engine/base/float_bounds.h"
+#include "io/formats/exchange/mesh_formats.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
+#include "python/bindings/export_files.h"
 
 namespace arete::python {
 namespace {
@@ -78,9 +80,38 @@ FileParts filePartsOf(const Tin& tin) {
   return {tin.verticalUnit, tin.verticalUnitMetres, origin, static_cast<int>(tin.up), tin.note};
 }
 
+/// What a file does not hold, in the words of a conversion.
+std::vector<std::string> lostOf(const CutTin& tin, const std::string& path, std::vector<std::string> lost) {
+  const Result<MeshFormat> format = meshFormatOf(path);
+  if (!format) return lost;
+  const auto lose = [&](bool isHeld, bool isThere, const char* what) {
+    if (!isHeld && isThere) lost.emplace_back(what);
+  };
+  lose(format->holds.holdsCrs, !tin.tin.crsWkt.empty(), "the CRS");
+  lose(format->holds.holdsVerticalUnit, !tin.tin.verticalUnit.empty(), "the unit of the heights");
+  lose(format->holds.holdsErrors, !tin.tin.errors.empty() && tin.tin.vertexOf.empty(),
+       "the error of each triangle");
+  return lost;
+}
+
+void defineExportFiles(py::module_& module) {
+  py::class_<ExportFiles>(module, "ExportFiles")
+      .def(py::init<>())
+      .def_readwrite("output", &ExportFiles::output)
+      .def_readwrite("certificate", &ExportFiles::certificate)
+      .def_readwrite("error_raster", &ExportFiles::errorRaster)
+      .def_readwrite("map", &ExportFiles::map)
+      .def_readwrite("model", &ExportFiles::model)
+      .def_readwrite("check_before", &ExportFiles::checkBefore)
+      .def_readwrite("check_behind", &ExportFiles::checkBehind)
+      .def_readwrite("drop_attributes", &ExportFiles::dropAttributes)
+      .def_readwrite("both_ways", &ExportFiles::measuresBothWays);
+}
+
 }  // namespace
 
 void defineTin(py::module_& module) {
+  defineExportFiles(module);
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   defineRequest(module);
   py::class_<CutTin>(module, "Tin")
@@ -105,8 +136,9 @@ void defineTin(py::module_& module) {
       }))
       .def("save",
            [](const CutTin& self, const std::string& path, const py::object& progress) {
-             return call(progress, [&](const RunContext& context) { return write(self.tin, path, context); })
-                 .lost;
+             const MeshWriteReport report =
+                 call(progress, [&](const RunContext& context) { return write(self.tin, path, context); });
+             return lostOf(self, path, report.lost);
            })
       .def_property_readonly(
           "vertices",

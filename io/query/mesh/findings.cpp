@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/mesh/findings.h"
+#include "io/query/mesh/findings.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "cli/arguments/arguments.h"
+#include "io/files/text/grouped.h"
 
 namespace arete {
 namespace {
@@ -52,10 +52,6 @@ constexpr std::array kKinds = {
                 "vertices without a face", false},
 };
 
-std::string counted(std::uint64_t count, const char* one, const char* several) {
-  return fmt::format("{} {}", grouped(count), count == 1 ? one : several);
-}
-
 }  // namespace
 
 std::span<const FindingKind> findingKinds() {
@@ -63,7 +59,7 @@ std::span<const FindingKind> findingKinds() {
 }
 
 std::string countText(const FindingKind& kind, std::uint64_t count) {
-  return counted(count, kind.one, kind.several);
+  return grouped(count, kind.one, kind.several);
 }
 
 bool isManifold(const MeshDiagnosis& d) {
@@ -88,10 +84,10 @@ std::string verdictOf(const MeshDiagnosis& d) {
   for (const FindingKind& kind : kKinds)
     if (const MeshFindings* found = kind.of(d); kind.isFault && found && found->count > 0)
       faults.push_back(countText(kind, found->count));
-  std::string parts = counted(d.components.size(), "component", "components");
+  std::string parts = grouped(d.components.size(), "component", "components");
   if (d.components.size() == 1 && d.components[0].genus)
     parts += fmt::format(", genus {}", *d.components[0].genus);
-  if (!d.borders.empty()) parts += fmt::format(", {}", counted(d.borders.size(), "border", "borders"));
+  if (!d.borders.empty()) parts += fmt::format(", {}", grouped(d.borders.size(), "border", "borders"));
   if (!isManifold(d)) return fmt::format("not manifold: {}; {}", fmt::join(faults, ", "), parts);
   std::string text = fmt::format("{}manifold, {}", isClosed(d) ? "closed " : "", parts);
   if (!faults.empty()) text += fmt::format(": {}", fmt::join(faults, ", "));

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/mesh/diagnosis_json.h"
+#include "io/query/mesh/diagnosis_json.h"
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
-#include "cli/mesh/findings.h"
+#include "io/query/mesh/findings.h"
 
 namespace arete {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 Json findingJson(FindingElements kind, const MeshFinding& finding, const MeshNumbers& numbers) {
   Json named = Json::array();
@@ -27,13 +30,13 @@ Json findingJson(FindingElements kind, const MeshFinding& finding, const MeshNum
     default:
       json["vertices"] = std::move(named);
   }
-  json["at"] = toJson(finding.place);
+  json["at"] = positionJson(finding.place);
   return json;
 }
 
 }  // namespace
 
-Json toJson(const Vec3& p) {
+Json positionJson(const Vec3& p) {
   return Json::array({p.x, p.y, p.z});
 }
 

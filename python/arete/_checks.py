@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Arguments as the module takes them; what does not fit is an error that names the argument."""
+
+import math
+import numbers
+import os
+import warnings
+from typing import Any, Iterable, List, Optional, Tuple
+
+from ._warning import AreteWarning
+
+
+def number(name: str, value: Any, least: float = -math.inf, most: float = math.inf) -> Optional[float]:
+    """A finite number; None for None."""
+    if value is None:
+        return None
+    if isinstance(value, bool) or not (isinstance(value, numbers.Real) or (hasattr(value, "ndim") and value.ndim == 0)):
+        raise TypeError(f"{name}={value!r} is no number")
+    real = float(value)
+    if not math.isfinite(real) or not least <= real <= most:
+        raise ValueError(f"{name}={value!r} is not {_between(least, most)}")
+    return real
+
+
+def whole(name: str, value: Any, least: int, most: int) -> Optional[int]:
+    """A whole number; None for None. 5e4 is one."""
+    real = number(name, value)
+    if real is None:
+        return None
+    if real != int(real):
+        raise ValueError(f"{name}={value!r} is no whole number")
+    if not least <= int(value) <= most:
+        raise ValueError(f"{name}={value!r} is not {_between(least, most)}")
+    return int(value)
+
+
+def word(name: str, value: Any, words: Iterable[str]) -> Any:
+    """One of some words, or None."""
+    known = list(words)
+    if value is not None and value not in known:
+        raise ValueError(f"{name}={value!r} is not one of {', '.join(known)}")
+    return value
+
+
+def numbers_of(what: str, values: Any, count: int) -> Tuple[float, ...]:
+    """So many finite numbers."""
+    try:
+        found = tuple(float(value) for value in values)
+    except (TypeError, ValueError):
+        raise TypeError(f"{what} is {count} numbers, not {values!r}") from None
+    if len(found) != count or not all(math.isfinite(one) for one in found):
+        raise ValueError(f"{what} is {count} numbers, not {values!r}")
+    return found
+
+
+def size_text(name: str, value: Any) -> str:
+    """A length, or a percentage as text ("5%"), as the library parses it; "" for None."""
+    if value is None:
+        return ""
+    if isinstance(value, str):
+        if not value.strip().endswith("%"):
+            raise TypeError(f"{name}={value!r} is no number and no percentage (\"1%\")")
+        return value.strip()
+    real = number(name, value, 0)
+    return repr(real)
+
+
+def names_of(names: Any) -> List[str]:
+    """One name, or several."""
+    return [names] if isinstance(names, str) else [str(name) for name in names]
+
+
+def is_path(source: Any) -> bool:
+    return isinstance(source, (str, os.PathLike))
+
+
+def warn(sentence: str, code: str, stacklevel: int = 3) -> None:
+    """A warning of the line that called the function that calls this."""
+    warnings.warn(AreteWarning(sentence, code), stacklevel=stacklevel)
+
+
+def _between(least: float, most: float) -> str:
+    if math.isinf(most):
+        return "finite" if math.isinf(least) else f"at least {least:g}"
+    return f"between {least:g} and {most:g}"

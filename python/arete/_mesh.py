@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A triangle mesh: its arrays, its files, its pictures, and what it is to other modules."""
+
+import os
+from typing import Any, Callable, Dict, List, Optional, Tuple, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arete
+from ._sizes import counted
+
+PathLike = Union[str, "os.PathLike[str]"]
+Progress = Optional[Callable[[str, float], object]]
+
+
+class Mesh:
+    """A triangle mesh. Arrays are read-only views of its memory, and keep it alive."""
+
+    def __init__(self, mesh: _arete.Tin, report: Optional[Dict[str, Any]] = None):
+        self._tin = mesh
+        self.report = report
+        """What repair() or decimate() did; None of other meshes."""
+
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """(n, 3): x, y, z in the CRS and the unit of the source."""
+        return self._tin.vertices
+
+    @property
+    def triangles(self) -> NDArray[np.uint32]:
+        """(m, 3): vertices, counter-clockwise seen from above; of a surface from outside."""
+        return self._tin.triangles
+
+    @property
+    def source_vertices(self) -> NDArray[np.uint32]:
+        """Of a surface, (n,): the vertex of the source that each one is. Empty of terrain."""
+        return self._tin.source_vertices
+
+    @property
+    def crs(self) -> Optional[str]:
+        """WKT, as pyproj, rasterio and geopandas take it; None where the source has no CRS."""
+        return self._tin.crs_wkt or None
+
+    @property
+    def vertical_unit(self) -> str:
+        """Of z, as the source states it; may be empty."""
+        return self._tin.file_parts[0]
+
+    def save(self, path: PathLike, progress: Progress = None) -> List[str]:
+        """Writes a mesh in the format that the name says, with its CRS, unit and attributes.
+
+        Returns what the format cannot hold: ["the CRS"].
+        """
+        return list(self._tin.save(os.fspath(path), progress))
+
+    def slopes(self) -> NDArray[np.float64]:
+        """(m,): how steep each triangle is, in degrees from the horizontal, on the ground: degrees and feet are taken as
+        the metres that they are."""
+        from ._slopes import slopes_of
+
+        return slopes_of(self)
+
+    def plot(self, by: Optional[str] = None, ax: Any = None, **options: Any) -> Any:
+        """Draws it with matplotlib; returns the axes. A terrain is a map, a surface a view in space.
+
+        by: "height" (by default), or "slope" in degrees, or, of a cut, "error".
+        ax: where to draw. cmap, vmin, vmax, edges (True: with the edges of triangles), colorbar (False: without), title.
+        """
+        from ._plot import plot_mesh
+
+        return plot_mesh(self, "height" if by is None else by, ax, **options)
+
+    def to_meshio(self) -> Any:
+        """A meshio.Mesh; of a cut with the data "error" of each cell."""
+        from ._export import to_meshio
+
+        return to_meshio(self)
+
+    def to_trimesh(self) -> Any:
+        """A trimesh.Trimesh with the same vertices and faces in the same order; of a cut with the face attribute "error"."""
+        from ._export import to_trimesh
+
+        return to_trimesh(self)
+
+    def to_pyvista(self) -> Any:
+        """A pyvista.PolyData; of a cut with the cell data "error"."""
+        from ._export import to_pyvista
+
+        return to_pyvista(self)
+
+    def to_geopandas(self) -> Any:
+        """A GeoDataFrame: one polygon with heights for each triangle, the CRS, and of a cut the column "error"."""
+        from ._export import to_geopandas
+
+        return to_geopandas(self)
+
+    def _repr_html_(self) -> str:
+        from ._html import html_of_mesh
+
+        return html_of_mesh(self)
+
+    def _parts(self) -> Tuple[Any, ...]:
+        tin = self._tin
+        return (np.array(tin.vertices), np.array(tin.triangles), np.array(tin.errors), tin.error, tin.is_complete,
+                tin.pixels, tin.crs_wkt, tin.file_parts, np.array(tin.source_vertices))
+
+    def __reduce__(self) -> Tuple[Callable[..., Any], Tuple[Any, ...]]:
+        return _mesh_of, (self.report, *self._parts())
+
+    def __repr__(self) -> str:
+        return f"<arete.Mesh of {counted(len(self.triangles), 'triangle', 'triangles')}>"
+
+
+def _mesh_of(report: Optional[Dict[str, Any]], *parts: Any) -> Mesh:
+    return Mesh(_arete.Tin(*parts), report)

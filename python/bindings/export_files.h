@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+namespace arete::python {
+
+/// What an export writes; empty: not that.
+struct ExportFiles {
+  std::string output, certificate, errorRaster, map;
+  std::string model;                             ///< the .amt, for the certificate
+  std::string checkBefore, checkBehind;          ///< the call that checks it, around the promised error
+  std::vector<std::string> dropAttributes = {};  ///< of a surface
+  bool measuresBothWays = false;                 ///< of a surface
+
+  std::string check(double promised) const {
+    return fmt::format("{}{}{}", checkBefore, promised, checkBehind);
+  }
+};
+
+}  // namespace arete::python

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+
+#include "python/bindings/terrain.h"
+#include "surface/model/surface_model.h"
+
+namespace arete::python {
+
+/// What is in a model, how many triangles which error takes, which laws hold.
+void defineQuestions(pybind11::class_<Terrain, std::shared_ptr<Terrain>>& terrain);
+void defineQuestions(pybind11::class_<SurfaceModel, std::shared_ptr<SurfaceModel>>& surface);
+
+}  // namespace arete::python
