@@ -18,6 +18,8 @@
 #include "cli/mesh/tolerance.h"
 #include "cli/session/option_names.h"
 #include "engine/base/stopwatch.h"
+#include "io/files/text/stated_size.h"
+#include "io/formats/common/file.h"
 #include "io/formats/exchange/convert.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/query/mesh/decimation.h"

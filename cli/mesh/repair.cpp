@@ -15,6 +15,7 @@
 #include "cli/arguments/conversion_report.h"
 #include "cli/arguments/mesh_options.h"
 #include "cli/mesh/diagnosis_text.h"
+#include "cli/mesh/tolerance.h"
 #include "engine/base/counted.h"
 #include "io/files/text/length_unit.h"
 #include "io/formats/exchange/convert.h"
