@@ -147,7 +147,9 @@ TEST_F(OutputArgument, FilesBesideAMeshAreNamedToo) {
 }
 
 TEST_F(OutputArgument, AGeoPackageThatKeepsItsOtherLayersIsAddedTo) {
-  ASSERT_EQ(run({"convert", "tin.ply", "all.gpkg"}).code, 0);
+  write("places.csv", "x,y\n" + middle() + "\n");
+  const Outcome places = run({"height", "dem.amt", "--points", "places.csv", "-o", "all.gpkg"});
+  ASSERT_EQ(places.code, 0) << places.err;
   const Outcome added = run({"convert", "tin.ply", "all.gpkg"});
   EXPECT_NE(added.out.find("Added to all.gpkg ("), std::string::npos) << added.out << added.err;
   const Outcome replaced = run({"convert", "tin.ply", "all.gpkg", "--overwrite"});
