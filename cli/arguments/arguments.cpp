@@ -49,7 +49,7 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
   return parts;
 }
 
-/// A number, perhaps with a unit; whether that of the data is known is seen when the data is.
+/// A number, perhaps with a unit; whether the data's unit is known is seen when the data is read.
 std::string toleranceProblem(const std::string& text) {
   std::optional<double> value = numberOf(text);
   if (!value) {

@@ -32,8 +32,15 @@ std::vector<std::string_view> wordsOf(std::string_view text) {
   }
 }
 
-/// As much of a word as fits: to the last punctuation, if that is in the second half of what fits.
-std::size_t pieceOf(std::string_view word, std::size_t room) {
+/// As many bytes of a word as fit: to the last punctuation, if that is in the second half of what fits.
+/// Precondition: it fills more columns.
+std::size_t pieceOf(std::string_view word, std::size_t columns) {
+  std::size_t room = 0;
+  for (std::size_t filled = 0; room < word.size(); ++room) {
+    const bool begins = columnsOf(word.substr(room, 1)) == 1;
+    if (begins && filled == columns) break;
+    filled += begins ? 1 : 0;
+  }
   const std::size_t at = word.substr(0, room).find_last_of(",|[]=/:;.");
   return at != word.npos && at + 1 > room / 2 ? at + 1 : room;
 }
@@ -81,7 +88,7 @@ std::string wrapped(std::string_view text, std::size_t columns, std::size_t firs
       lines += ' ';
       ++filled;
     }
-    while (word.size() > columns - std::min(filled, columns - 1)) {
+    while (columnsOf(word) > columns - std::min(filled, columns - 1)) {
       const std::size_t piece = pieceOf(word, columns - std::min(filled, columns - 1));
       lines += word.substr(0, piece);
       word.remove_prefix(piece);

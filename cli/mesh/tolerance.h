@@ -22,7 +22,7 @@ struct SurfaceTolerance {
 ///
 /// @param unit of the mesh.
 /// Errors: usage, naming the option and the part that is no distance, or whose unit cannot be turned into
-/// that of the mesh.
+/// the mesh's.
 Result<std::vector<SurfaceTolerance>> parseSurfaceTolerances(const std::string& option,
                                                              const std::string& text, double diagonal,
                                                              const DataUnit& unit);

@@ -55,7 +55,7 @@ std::string insteadOfModel(const std::string& path, const std::string& command) 
   return text;
 }
 
-/// What to do with a file that is no mesh, as its name says.
+/// What to do with a file whose name is not that of a mesh.
 std::string insteadOfMesh(const std::string& path, const std::string& command) {
   if (command == "measure") return "measure takes the mesh first, and then what it is compared with";
   return fmt::format("of a DEM '{}' makes an .amt, and arete extract takes meshes from that",
@@ -70,7 +70,7 @@ std::string insteadOfDem(const std::string& path) {
 
 }  // namespace
 
-// The sentences are those of the readers. A name that is stated but does not exist is that of an output.
+// The readers' sentences are recognized. A name that does not exist belongs to an output.
 Error withNextStep(Error error, const std::string& command) {
   std::error_code ignored;
   if (error.code != ErrorCode::unsupported || !fs::exists(error.culprit, ignored)) return error;

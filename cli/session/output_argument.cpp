@@ -35,7 +35,7 @@ void addOutputArgument(CLI::App& command, std::string& path, std::vector<std::st
     // All words are known by now: with --output this one is too many.
     if (command.get_option("--output")->count() > 0)
       throw CLI::ExtrasError(command.get_name(), std::vector<std::string>{text});
-    return fmt::format("'{}' is no output, as it does not end in {}; --output states another name", text,
+    return fmt::format("'{}' does not end in {}; an output of another name is stated with --output", text,
                        known);
   };
   command

@@ -35,7 +35,7 @@ Result<DriverOptions> readOpenOptions(CSLConstList options) {
   ARETE_TRY(const auto maxError, numberOf(options, "MAX_ERROR", true));
   ARETE_TRY(const auto older, numberOf(options, "TOLERANCE", true));
   if (maxError && older && *maxError != *older)
-    return failure(ErrorCode::usage, "is another error than that of TOLERANCE, its older name",
+    return failure(ErrorCode::usage, "differs from TOLERANCE, its older name",
                    fmt::format("MAX_ERROR={}", *maxError));
   const auto tolerance = maxError ? maxError : older;
   ARETE_TRY(const auto cell, numberOf(options, "CELL", false));

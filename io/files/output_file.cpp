@@ -49,7 +49,7 @@ fs::path followed(fs::path path) {
   return path;
 }
 
-/// Nothing where there is no such file.
+/// Nothing where the file does not exist.
 std::optional<std::uint64_t> sizeOf(const fs::path& path) {
   std::error_code error;
   const auto size = fs::file_size(path, error);

@@ -31,7 +31,7 @@ std::vector<WrittenFile> writtenFiles() {
   return writtenList().files;
 }
 
-// The file has its name already, so that a list that cannot grow is no reason to fail.
+// The file has its name already, so a list that cannot grow does not fail the write.
 void noteWritten(WrittenFile file) try {
   WrittenList& list = writtenList();
   const std::lock_guard lock(list.mutex);

@@ -11,7 +11,7 @@ namespace arete {
 
 // A program that answers a question and ends says in the end which files it wrote, and which of them replaced
 // older ones. It begins a list; OutputFile adds to it when a file gets its name. Without listWrittenFiles(),
-// as in a library that runs for days, there is no list.
+// as in a library that runs for days, nothing is listed.
 
 /// A file that has got its name.
 struct WrittenFile {

@@ -25,9 +25,9 @@ struct StatedSize {
 /// Parses a size.
 ///
 /// @param unit of the data, for a length ("5m", which becomes 16.4 where heights are in feet); null: the size
-/// is no length, and has no unit.
+/// is a count, without a unit.
 ///
-/// Errors: usage, with the culprit given: it is no number, NaN, below zero, or an infinite share; those of
+/// Errors: usage, with the culprit given: it is no number, NaN, below zero, or an infinite share; as
 /// parseLength() and inDataUnit().
 Result<StatedSize> parseStatedSize(std::string_view text, const std::string& culprit,
                                    const DataUnit* unit = nullptr);

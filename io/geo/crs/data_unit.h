@@ -11,7 +11,7 @@ namespace arete {
 // What the units of stated lengths are turned into.
 
 /// The unit of heights, and of vertical errors. Not known where the source does not state it, or states what
-/// is no unit of length.
+/// does not measure lengths.
 DataUnit heightUnitOf(const Georeference& georeference);
 
 /// The metre of distances along the ground. Not known without a CRS, where they are in the units of the map.

@@ -98,7 +98,7 @@ Result<StatedHeight> readHeightText(std::string_view text, const DataUnit* unit)
     if (length && length->hasUnit()) {
       ARETE_TRY(const double inUnit, inDataUnit(*length, *unit, std::string(text)));
       value = inUnit;
-    } else if (!length && text::parseNumber(height.substr(0, 1))) {  // a number, and what is no unit
+    } else if (!length && text::parseNumber(height.substr(0, 1))) {  // a number and an unknown unit
       return failure(ErrorCode::usage, length.error().message);
     }
   }

@@ -57,7 +57,7 @@ TEST_F(Units, OfAnErrorAreTurnedIntoThatOfHeights) {
   const Outcome several = run({"extract", "feet.amt", "-o", "tin.ply", "--max-error", "2m,20ft,9", "-q"});
   EXPECT_EQ(several.code, 0) << several.err;
   EXPECT_TRUE(exists("tin_2m.ply") && exists("tin_20ft.ply") && exists("tin_9.ply"));
-  EXPECT_EQ(ask({"info", "feet.amt", "--at", "3.048m"})["curve"][0]["error"], 10.0);
+  EXPECT_NEAR(ask({"info", "feet.amt", "--at", "3.048m"})["curve"][0]["maxError"].get<double>(), 10, 1e-12);
 }
 
 TEST_F(Units, OfHeightsAndDistancesGiveTheSameViewshed) {

@@ -48,11 +48,12 @@ TEST_F(OutputArgument, TakesTheNamesOfSeveralTolerances) {
 
 TEST_F(OutputArgument, IsRefusedWhereItIsNoOutput) {
   const std::string model = read("dem.amt"), tin = read("tin.ply");
-  expectRefusal({"extract", "dem.amt", "out", "--max-error", "2"}, 2, "'out' is no output");
-  expectRefusal({"extract", "dem.amt", "other.amt", "--max-error", "2"}, 2, "'other.amt' is no output");
-  expectRefusal({"extract", "dem.amt", ".ply", "--max-error", "2"}, 2, "'.ply' is no output");
-  expectRefusal({"convert", "tin.ply", "-", "--format", "ply"}, 2, "'-' is no output");
-  expectRefusal({"viewshed", "dem.amt", "seen.ply", "--observer", "1,1,2"}, 2, "'seen.ply' is no output");
+  expectRefusal({"extract", "dem.amt", "out", "--max-error", "2"}, 2, "'out' does not end in .");
+  expectRefusal({"extract", "dem.amt", "other.amt", "--max-error", "2"}, 2, "'other.amt' does not end in .");
+  expectRefusal({"extract", "dem.amt", ".ply", "--max-error", "2"}, 2, "'.ply' does not end in .");
+  expectRefusal({"convert", "tin.ply", "-", "--format", "ply"}, 2, "'-' does not end in .");
+  expectRefusal({"viewshed", "dem.amt", "seen.ply", "--observer", "1,1,2"}, 2,
+                "'seen.ply' does not end in .");
   expectRefusal({"convert", "tin.ply", "a.obj", "-o", "b.obj"}, 2, "two outputs, a.obj and --output b.obj");
   expectRefusal({"convert", "tin.ply", "-o", "b.obj", "a.obj"}, 2, "two outputs, a.obj and --output b.obj");
   expectRefusal({"convert", "tin.ply", "a.obj", "b.obj"}, 2, "b.obj");
@@ -147,7 +148,9 @@ TEST_F(OutputArgument, FilesBesideAMeshAreNamedToo) {
 }
 
 TEST_F(OutputArgument, AGeoPackageThatKeepsItsOtherLayersIsAddedTo) {
-  ASSERT_EQ(run({"convert", "tin.ply", "all.gpkg"}).code, 0);
+  write("places.csv", "x,y\n" + middle() + "\n");
+  const Outcome places = run({"height", "dem.amt", "--points", "places.csv", "-o", "all.gpkg"});
+  ASSERT_EQ(places.code, 0) << places.err;
   const Outcome added = run({"convert", "tin.ply", "all.gpkg"});
   EXPECT_NE(added.out.find("Added to all.gpkg ("), std::string::npos) << added.out << added.err;
   const Outcome replaced = run({"convert", "tin.ply", "all.gpkg", "--overwrite"});
@@ -157,7 +160,7 @@ TEST_F(OutputArgument, AGeoPackageThatKeepsItsOtherLayersIsAddedTo) {
 TEST_F(OutputArgument, FilesOfABrokenPromiseAreNamedAsWell) {
   const Outcome stdoutOnly = run({"extract", "dem.amt", "-o", "-", "--format", "ply", "--max-error", "2"});
   EXPECT_EQ(stdoutOnly.code, 0);
-  EXPECT_EQ(stdoutOnly.err.find("Wrote"), std::string::npos) << "stdout is no file";
+  EXPECT_EQ(stdoutOnly.err.find("Wrote"), std::string::npos) << "stdout has no name";
   EXPECT_EQ(stdoutOnly.out.rfind("ply\n", 0), 0u);
   EXPECT_EQ(stdoutOnly.out.find("Wrote"), std::string::npos);
 }
