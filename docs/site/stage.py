@@ -37,7 +37,7 @@ CONTACT = {"ARETE_TRACKER_URL": "Faults are reported at", "ARETE_CONTACT": "The 
 FOLDERS = "bench|cli|cmake|datasets|docs|engine|examples|gis|io|measure|surface|terrain|tests|viewer"
 # A path from the root of the repository, in the text or in backticks.
 # `arete/engine/...` is an installed header.
-PATH = re.compile(rf"`((?:arete/)?(?:{FOLDERS})/[\w./-]*)`|(?<![\w/.`<(\[\"-])((?:{FOLDERS})/[\w./-]*\w|[A-Z]+\.md)\b/?")
+PATH = re.compile(rf"`((?:arete/)?(?:{FOLDERS})/[\w./-]*)`|(?<![\w/.`<\[\"-])((?:{FOLDERS})/[\w./-]*\w|[A-Z]+\.md)\b/?")
 # A file without its folder, as in "and cut.h".
 BARE = re.compile(r"(?<![\w/.<*-])`?([a-z0-9_]+\.(?:h|cpp|py|md))\b`?")
 DECISION = re.compile(r"\b([Dd]ecision )(\d+)\b")

@@ -61,6 +61,18 @@ class Blocks(unittest.TestCase):
                       and blocks.in_a_list(lines, i)]
             self.assertEqual(hidden, [], page)
 
+    def test_no_page_names_a_person_to_write_to(self):
+        # ARETE_CONTACT and ARETE_TRACKER_URL do, for the build that sets them (docs/site/stage.py).
+        for page in (*blocks.pages(), blocks.ROOT / "CITATION.cff"):
+            self.assertEqual(re.findall(r"[\w.+-]+@[\w-]+\.\w+|https?://\S*(?:issues|tracker)\b\S*", page.read_text(encoding="utf-8")), [], page)
+
+    def test_pages_for_newcomers_load_fast(self):
+        for page in (blocks.ROOT / "README.md", *(blocks.ROOT / "docs/start").glob("*.md")):
+            text = page.read_text(encoding="utf-8")
+            self.assertLess(text.count("\n"), 200, page)
+            for picture in re.findall(r"!\[[^\]]+\]\(([^)]+)\)", text):
+                self.assertLess((page.parent / picture).stat().st_size, 150_000, picture)
+
     def test_the_citation_is_of_the_version_that_is_built(self):
         version = re.search(r"project\(arete VERSION ([\d.]+)", (blocks.ROOT / "CMakeLists.txt").read_text())[1]
         self.assertIn(f"\nversion: {version}\n", (blocks.ROOT / "CITATION.cff").read_text())

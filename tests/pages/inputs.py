@@ -109,8 +109,8 @@ def make(folder, arete):
     (folder / "points.csv").write_text("x,y,z\n" + "".join(f"{x(c)},{y(r)},{heights[r * COLUMNS + c]}\n"
                                                          for r in range(0, ROWS, 2) for c in range(0, COLUMNS, 2)))
     with zipfile.ZipFile(folder / "N46E008.zip", "w", zipfile.ZIP_DEFLATED) as archive:
-        row = struct.pack(">1201h", *(int(500 + 300 * math.sin(c / 90)) for c in range(1201)))
-        archive.writestr("N46E008.hgt", row * 1201)
+        void, part = [-32768] * 1001, [int(500 + 300 * math.sin(c / 40)) for c in range(200)]
+        archive.writestr("N46E008.hgt", struct.pack(">1201h", *part, *void) * 200 + struct.pack(">h", -32768) * 1201 * 1001)
     scan(folder / "scan.ply")
     run("convert", "scan.ply", "-o", "scan.obj")
     run("convert", "scan.ply", "-o", "scan.glb")

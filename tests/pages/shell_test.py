@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every line of the shell that a page shows runs, in a folder of its page, and writes the file that it names.
+"""Every line of the shell that a page shows runs, and every flight in JSON is flown, in a folder of its page, and writes the file that it names.
 
 Each page starts with the inputs of inputs.py. What is not run is counted with its reason (marks.py)."""
 import collections
@@ -18,6 +18,9 @@ import marks
 
 BUILD = pathlib.Path(os.environ["ARETE_BUILD"])
 OUTPUT = re.compile(r"(?:^|\s)(?:-o|--output|--screenshot|--png|--figures|--film|--certificate|--map|--error-raster|--error-mesh)\s+([\w./-]+\.\w+)")
+
+# What is done with a block of JSON: it is a flight.
+FLY = "arete view dem.amt --headless --path flight.json --frames frames --fps 1 --size 96x54"
 
 
 def environment(scratch):
@@ -50,7 +53,10 @@ def run_page(page, page_blocks, made, variables, scratch):
     (folder / "build" / "release").symlink_to(BUILD)
     run, left, failures = 0, [], []
     for block in page_blocks:
-        for line, command in blocks.commands_of(block):
+        commands = blocks.commands_of(block) if block.kind == "shell" else [(block.line, FLY)]
+        if block.kind == "json":
+            (folder / "flight.json").write_text(block.text)
+        for line, command in commands:
             reason = marks.reason_not_to_run(command)
             if not reason and (lacking := missing_program(command)):
                 reason = f"needs {lacking}, which is not here"
@@ -76,7 +82,7 @@ def run_page(page, page_blocks, made, variables, scratch):
 def main():
     of_page = collections.defaultdict(list)
     for block in blocks.all_blocks():
-        if block.kind == "shell" and (len(sys.argv) < 2 or block.page in sys.argv[1:]):
+        if block.kind in ("shell", "json") and (len(sys.argv) < 2 or block.page in sys.argv[1:]):
             of_page[block.page].append(block)
     total, left_out, failed = 0, collections.Counter(), []
     with tempfile.TemporaryDirectory(prefix="arete-pages-") as name:
