@@ -206,7 +206,7 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
   DiagnosisOptions options{.selfIntersections = !arguments.leavesOutSelfIntersections,
                            .rounding = input.rounding};
   // The text shows the first places of a finding, JSON lists all of them.
-  if (session.wantsJson()) options.mostPlaces = std::numeric_limits<std::size_t>::max();
+  if (session.wantsAnswer()) options.mostPlaces = std::numeric_limits<std::size_t>::max();
   ARETE_TRY(MeshDiagnosis diagnosis, diagnose(mesh, options, session.context()));
   Facts facts;
   facts.diagnosis = std::move(diagnosis);
@@ -215,7 +215,7 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
   facts.seamEdges = countSeamEdges(mesh);
   session.say(fmt::format("{}: {}\n{}{}", arguments.input, verdictOf(facts.diagnosis),
                           factsText(input, facts), diagnosisText(facts.diagnosis, input.numbers)));
-  if (session.wantsJson()) session.answer(factsJson(arguments.input, input, facts));
+  if (session.wantsAnswer()) session.answer(factsJson(arguments.input, input, facts));
   return {};
 }
 

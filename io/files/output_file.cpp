@@ -201,6 +201,7 @@ Status OutputFile::rename() {
     fs::remove(stale, ignored);
   for (const fs::path& side : sides) fs::remove(side, ignored);
   discard();
+  noteWrittenFile(path_.string());
   return {};
 }
 

@@ -6,6 +6,7 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstring>
@@ -25,6 +26,7 @@ struct Watched {
 std::array<Watched, kMostFiles> files;
 std::atomic<bool> isWatching = false;
 std::mutex mutex;
+std::vector<std::string> written;
 
 bool isSameFile(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
@@ -65,6 +67,19 @@ void forgetInputFile(const std::string& path) noexcept {
   const std::lock_guard lock(mutex);
   for (Watched& file : files)
     if (file.isSet && isSameFile(file.status, now)) file.isSet = false;
+}
+
+void noteWrittenFile(const std::string& path) noexcept try {
+  if (!isWatching) return;
+  const std::lock_guard lock(mutex);
+  if (std::find(written.begin(), written.end(), path) == written.end()) written.push_back(path);
+} catch (...) {
+  // Without memory for its name the file is there all the same.
+}
+
+std::vector<std::string> writtenFiles() {
+  const std::lock_guard lock(mutex);
+  return written;
 }
 
 const char* changedInputFile() noexcept {

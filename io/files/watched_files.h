@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace arete {
 
@@ -19,6 +20,12 @@ void watchInputFile(const std::string& path) noexcept;
 
 /// Forgets a file that this process is about to replace itself. Thread-safe.
 void forgetInputFile(const std::string& path) noexcept;
+
+/// Notes a file that this process has written. Does nothing before watchInputFiles(). Thread-safe.
+void noteWrittenFile(const std::string& path) noexcept;
+
+/// The files that this process has written so far, in their order, each once. Thread-safe.
+std::vector<std::string> writtenFiles();
 
 /// Finds a watched file that has been changed, replaced or removed. A signal handler may call it.
 ///
