@@ -19,9 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 12> kOutputs = {
-    "--output", "--certificate", "--error-raster", "--error-mesh",        "--screenshot", "--frames",
-    "--film",   "--figures",     "--png",          "--window-screenshot", "--polygons",   "--man"};
+constexpr std::array<std::string_view, 13> kOutputs = {
+    "--log",  "--output",  "--certificate", "--error-raster",      "--error-mesh", "--screenshot", "--frames",
+    "--film", "--figures", "--png",         "--window-screenshot", "--polygons",   "--man"};
 
 /// "--output", or the name of an argument.
 std::string optionName(const CLI::Option& option) {

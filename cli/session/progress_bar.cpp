@@ -31,6 +31,7 @@ void ProgressBar::report(std::string_view stage, double fraction) {
     finishLine();
     stage_ = stage;
     ticks_ = -1;
+    saidAt_ = clock_();
   }
   // Within a tick nothing is written: the clock is asked for ticks alone.
   if (now == ticks_) return;

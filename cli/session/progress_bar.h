@@ -45,7 +45,8 @@ class ProgressBar {
   int ticks_ = -1;  // of 40 written so far; -1 = no line is open
   std::function<double()> clock_;
   TimeLeft timeLeft_;
-  double now_ = 0, saidAt_ = 0;  // seconds of the last report, and of the last time left that was said
+  double now_ = 0,
+         saidAt_ = 0;  // seconds: of the last report; of the last time left that was said, or of the stage
 };
 
 }  // namespace arete

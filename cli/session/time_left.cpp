@@ -19,14 +19,14 @@ constexpr std::size_t kMostReports = 256;
 constexpr PlannedStage kBuild[] = {PlannedStage{"reading", 2},
                                    {"reading the mesh", 2},
                                    {"ranking features", 2},
-                                   {"triangulate", 6},
+                                   {"triangulate", 5},
                                    {"diagnose", 1},
                                    {"repair", 1},
                                    {"simplify", 80},
-                                   {"finish", 3},
+                                   {"finish", 8},
                                    {"pack", 3},
                                    {"checksum", 1},
-                                   {"write", 2}};
+                                   {"write", 4}};
 
 }  // namespace
 

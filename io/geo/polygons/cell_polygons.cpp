@@ -81,7 +81,7 @@ class Runs {
         if (upper.begin >= own.end) break;
         if (raster_.at(upper.begin, row - 1) != raster_.at(own.begin, row)) continue;
         // The root is the first run of all.
-        const auto [low, high] = std::minmax(rootOf(std::uint32_t(run)), rootOf(std::uint32_t(other)));
+        const auto [low, high] = std::minmax({rootOf(std::uint32_t(run)), rootOf(std::uint32_t(other))});
         parents_[high] = low;
       }
     }
