@@ -12,10 +12,10 @@ struct ExpectedAmtSize {
 
 /// Foretells the size of a file before the model is built.
 ///
-/// Of rasters of 10 000 samples and more, the plain form is within a tenth and the packed one within a third;
-/// of smaller ones both are within a factor of 2. Of scattered points, whose coordinates may have any number
-/// of digits, the packed form is within a factor of 2. Measured on 14 public DEMs and on the generated
-/// families of the tests, shapes delaunay and fidelity. O(heights).
+/// Of rasters of 10 000 samples and more, the plain form is within a tenth, and the packed one of terrain
+/// within a third; of smaller ones, and of generated surfaces that repeat themselves, within a factor of 2.
+/// So is the packed form of scattered points, whose coordinates may have any number of digits. Measured on 13
+/// public DEMs of 14 641 to 1 442 401 samples, in the shapes delaunay and fidelity. O(heights).
 ExpectedAmtSize expectedAmtSize(const RasterHeightfield& field);
 ExpectedAmtSize expectedAmtSize(const PointHeightfield& field);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // arete viewshed --polygons, and the colours of its raster.
 #include <fmt/format.h>
+#include <gdal_alg.h>
 #include <gdal_priv.h>
 #include <gdal_utils.h>
 #include <ogrsf_frmts.h>
@@ -120,7 +121,7 @@ TEST_F(ViewshedPolygons, OfSeveralObserversHaveOneValueEach) {
       if (value < 65533) ++raster[int(value)];
     const Dataset vectors = open("many.gpkg", GDAL_OF_VECTOR);
     for (const auto& feature : vectors->GetLayer(0)) {
-      if (!feature->IsFieldSetAndNotNull(mode)) continue;
+      if (!feature->IsFieldSetAndNotNull(feature->GetFieldIndex(mode))) continue;
       polygons[feature->GetFieldAsInteger(mode)] += feature->GetFieldAsInteger64("cells");
       EXPECT_STREQ(feature->GetFieldAsString("answer"),
                    feature->GetFieldAsInteger(mode) > 0 ? "seen" : "hidden");
@@ -136,7 +137,8 @@ TEST_F(ViewshedPolygons, WithoutACrsHaveNoAreas) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("areas are left out"), std::string::npos) << outcome.err;
   const Dataset vectors = open("seen.gpkg", GDAL_OF_VECTOR);
-  for (const auto& feature : vectors->GetLayer(0)) EXPECT_FALSE(feature->IsFieldSetAndNotNull("area_m2"));
+  for (const auto& feature : vectors->GetLayer(0))
+    EXPECT_FALSE(feature->IsFieldSetAndNotNull(feature->GetFieldIndex("area_m2")));
 }
 
 TEST_F(ViewshedPolygons, AreRefusedWhereTheyMeanNothing) {
