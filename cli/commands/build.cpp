@@ -57,6 +57,7 @@ struct BuildArguments {
   const CLI::App* command = nullptr;
   std::vector<std::string> dropAttributes;
   OptionKinds kinds;
+  ExpectedAmtSize expected;  // once the source is read
 };
 
 /// What a build needs at the least; rough terrain takes up to twice as much (terrain/builder/build.h).
@@ -104,7 +105,7 @@ void report(Session& session, const BuildArguments& arguments, const TerrainMode
   const std::uint64_t bytes = error ? 0 : size;
   const double count = static_cast<double>(samples), rate = count / seconds.build;
   const double bytesPerSample = static_cast<double>(bytes) / count;
-  if (session.wantsJson()) {
+  if (session.wantsAnswer())
     session.answer({{"file", arguments.output},
                     {"source", model.source},
                     {"sourceChecksum", model.sourceChecksum},
@@ -128,10 +129,11 @@ void report(Session& session, const BuildArguments& arguments, const TerrainMode
                       {"build", seconds.build},
                       {"write", seconds.write}}},
                     {"samplesPerSecond", rate},
+                    {"expectedBytes",
+                     {{"plain", std::round(arguments.expected.plain)},
+                      {"packed", std::round(arguments.expected.packed)}}},
                     {"bytes", bytes},
                     {"bytesPerSample", bytesPerSample}});
-    return;
-  }
   session.say(fmt::format(
       "{}\n"
       "  samples    {}{}\n"
@@ -247,6 +249,7 @@ Status runBuild(BuildArguments& arguments, Session& session) {
   Stopwatch reading;
   ARETE_TRY(DemRead dem, readSource(arguments.dem, arguments.kind, session));
   seconds.read = reading.seconds();
+  arguments.expected = announceSize(dem, arguments.output, arguments.isPacked, session);
   return std::visit(
       [&](const auto& field) -> Status {
         ARETE_TRY(const auto fixedChoice,

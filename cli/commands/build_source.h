@@ -6,6 +6,7 @@
 #include "cli/arguments/arguments.h"
 #include "cli/session/session.h"
 #include "io/geo/dem/dem_reader.h"
+#include "io/store/amt/expected_size.h"
 
 namespace arete {
 
@@ -21,5 +22,9 @@ bool isMesh(const DemArguments& dem);
 /// Errors: those of DemArguments::read() and readMesh(). usage: `kind` contradicts the file.
 /// Precondition: it is no mesh with faces, unless `kind` says what its vertices are.
 Result<DemRead> readSource(const DemArguments& dem, const std::string& kind, Session& session);
+
+/// Says, before the work, about how large the file will be in its plain and in its packed form; with --json
+/// the answer says it. Warns where the file system of the output has less room than that.
+ExpectedAmtSize announceSize(const DemRead& dem, const std::string& output, bool isPacked, Session& session);
 
 }  // namespace arete

@@ -117,11 +117,11 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
   DiagnosisOptions options{.selfIntersections = !arguments.leavesOutSelfIntersections,
                            .rounding = input.rounding};
   // The text shows the first places of a finding, JSON lists all of them.
-  if (session.wantsJson()) options.mostPlaces = std::numeric_limits<std::size_t>::max();
+  if (session.wantsAnswer()) options.mostPlaces = std::numeric_limits<std::size_t>::max();
   ARETE_TRY(const MeshFacts facts, meshFactsOf(mesh, options, session.context()));
   session.say(fmt::format("{}: {}\n{}{}", arguments.input, verdictOf(facts.diagnosis),
                           factsText(input, facts), diagnosisText(facts.diagnosis, input.numbers)));
-  if (session.wantsJson()) session.answer(meshFactsJson(arguments.input, input, facts));
+  if (session.wantsAnswer()) session.answer(meshFactsJson(arguments.input, input, facts));
   return {};
 }
 

@@ -137,7 +137,7 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
   const RepairedMesh& repaired = mended->repaired;
   // The report of the repair holds examples only; JSON lists all, so the result is examined once more.
   Result<MeshDiagnosis> diagnosis = repaired.diagnosis;
-  if (session.wantsJson())
+  if (session.wantsAnswer())
     diagnosis = diagnose(repaired.mesh,
                          {.mostPlaces = std::numeric_limits<std::size_t>::max(),
                           .selfIntersections = false,
@@ -154,7 +154,7 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
   const MeshNumbers numbers{.first = target.format.holds.firstIndex, .vertexOf = {}, .faceOf = {}};
   session.say(writtenText(target.path, converted) + mendedText(input, mended->welded, share, repaired) +
               fmt::format("now: {}\n", verdictOf(*diagnosis)) + diagnosisText(*diagnosis, numbers));
-  if (session.wantsJson()) {
+  if (session.wantsAnswer()) {
     Json json = writtenJson(arguments.input, target.path, target.format.name, converted);
     json["joinedAtSeams"] = input.joinedAtSeams;
     json.update(mendJson(*mended, input.rounding));

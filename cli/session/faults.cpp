@@ -18,6 +18,7 @@
 
 #include "cli/session/exit_code.h"
 #include "cli/session/memory_end.h"
+#include "cli/session/run_log.h"
 #include "io/files/temporary_files.h"
 #include "io/files/watched_files.h"
 
@@ -59,10 +60,12 @@ extern "C" void onFault(int signal, siginfo_t* about, void*) {
       writeError(&shown, 1);
     }
     writeError(kAfter, sizeof kAfter - 1);
+    endLogInHandler(static_cast<int>(ExitCode::file), "an input was changed while it was read");
     removeNotedFiles();
     ::_exit(static_cast<int>(ExitCode::file));
   }
   if (isLackOfMemory(signal, about, error)) endForLackOfMemory();
+  endLogInHandler(128 + signal, "a fault, which is a bug");
   removeNotedFiles();
   // The instruction runs again on return, and meets what was there before this; abort() raises its signal
   // again.

@@ -14,6 +14,7 @@
 #include <exception>
 #include <new>
 
+#include "cli/session/run_log.h"
 #include "io/files/temporary_files.h"
 #include "io/geo/gdal/unclaimed_messages.h"
 
@@ -60,6 +61,7 @@ void endForLackOfMemory() noexcept {
     for (;;) ::pause();
   constexpr char kSentence[] = "arete: there is not enough memory for this\n";
   [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, kSentence, sizeof kSentence - 1);
+  endLogInHandler(static_cast<int>(ExitCode::internal), "there is not enough memory for this");
   removeNotedFiles();
   ::_exit(static_cast<int>(ExitCode::internal));
 }

@@ -8,12 +8,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace arete {
 namespace {
 
 constexpr const char* kOutputArgument = "OUTPUT";
+/// Options that write the answer as well, so that a command may do without its output.
+constexpr std::array kOtherOutputs = {"--polygons"};
 
 std::string lowered(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) {
@@ -53,7 +56,11 @@ void requireOneOutput(const CLI::App& command) {
   if (!hasOutputArgument(command)) return;
   const CLI::Option& argument = *command.get_option(kOutputArgument);
   const CLI::Option& option = *command.get_option("--output");
-  if (argument.count() == 0 && option.count() == 0) throw CLI::RequiredError("--output");
+  const bool hasOther = std::ranges::any_of(kOtherOutputs, [&](const char* name) {
+    const CLI::Option* other = command.get_option_no_throw(name);
+    return other != nullptr && other->count() > 0;
+  });
+  if (argument.count() == 0 && option.count() == 0 && !hasOther) throw CLI::RequiredError("--output");
   if (argument.count() > 0 && option.count() > 0)
     throw CLI::ValidationError(fmt::format("there are two outputs, {} and --output {}",
                                            argument.results().front(), option.results().front()));

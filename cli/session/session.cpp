@@ -7,18 +7,23 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <utility>
 
 #include "cli/session/byte_count.h"
 #include "cli/session/interrupt.h"
+#include "cli/session/named_files.h"
 #include "cli/session/next_step.h"
 #include "cli/session/option_names.h"
 #include "cli/session/output_argument.h"
 #include "cli/session/progress_bar.h"
 #include "cli/session/proj_guard.h"
+#include "cli/session/run_log.h"
 #include "engine/memory/pages.h"
 #include "engine/parallel/thread_limit.h"
 #include "io/files/text/address_text.h"
@@ -41,17 +46,29 @@ void tell(const std::string& text) {
   std::fputs(text.c_str(), stderr);
 }
 
+/// Where GDAL's messages go beside stderr, while a command runs.
+RunLog* logOfGdal = nullptr;
+
+void logGdal(const char* line) {
+  if (logOfGdal != nullptr)
+    logOfGdal->line("warning", {{"code", nameOf(WarningCode::library)}, {"message", line}});
+}
+
 void warnOfGdal(const char* line) {
+  logGdal(line);
   progressBar().endLine();
   tell(fmt::format("arete: warning: GDAL: {}\n", line));
 }
 
+constexpr const char* kLogOption = "--log";
+
 /// The words of a command line that may name files: neither options nor numbers. Of "--option=VALUE" the
-/// value.
+/// value. A log is not read.
 std::vector<std::string> fileNamesOf(const std::vector<std::string>& words) {
   std::vector<std::string> names;
   for (std::size_t i = 1; i < words.size(); ++i) {  // the first is the command
     std::string word = words[i];
+    if (words[i - 1] == kLogOption || word.starts_with(std::string(kLogOption) + "=")) continue;
     if (word.starts_with("-")) {
       const std::size_t equals = word.find('=');
       if (equals == word.npos) continue;
@@ -97,6 +114,22 @@ void addFilesTo(Json& answer) {
   answer["replaced"] = std::move(replaced);
 }
 
+/// "mesh info".
+std::string commandName(const CLI::App& command) {
+  std::string name;
+  for (const CLI::App* app = &command; app != nullptr && app->get_parent() != nullptr;
+       app = app->get_parent())
+    name = app->get_name() + (name.empty() ? "" : " " + name);
+  return name;
+}
+
+Json errorObject(const Error& error, ExitCode code) {
+  return {{"code", toString(error.code)},
+          {"message", error.message},
+          {"culprit", error.culprit},
+          {"exitCode", static_cast<int>(code)}};
+}
+
 }  // namespace
 
 CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std::string& summary,
@@ -120,6 +153,13 @@ CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std:
       ->add_flag("--confined", isConfined_,
                  "Read the named files and their sidecars only, without network (for services)")
       ->group("Output");
+  command
+      ->add_option(
+          kLogOption, logPath_,
+          "Append a log of the run: options, inputs and outputs with SHA-256, stages, times, memory,\n"
+          "warnings, the answer; one JSON object a line, each written as it happens")
+      ->type_name("FILE.jsonl")
+      ->group("Output");
   // The command runs after parsing has ended, and not within it, so that its errors are not taken for those
   // in the arguments.
   command->callback([this, command, run = std::move(run)] {
@@ -130,36 +170,82 @@ CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std:
   return command;
 }
 
-/// The status is explained before it is reported: a changed input or a signal may be the cause of what looks
-/// like another error. A failed write to stdout is noticed at the last flush.
+/// A failed write to stdout is noticed at the last flush.
 ExitCode Session::runParsed() {
   std::optional<ThreadLimit> limit;
   if (threads_ > 0) limit.emplace(threads_);
-  ExitCode code = ExitCode::ok;
-  try {
-    listWrittenFiles();
-    Status status = prepareGdal();
-    if (status) status = run_(*this);
-    if (Status explained = explain(std::move(status)); explained)
-      progressBar().finishLine();
-    else
-      code = fail(explained.error());
-    sayFiles();
-  } catch (const std::bad_alloc&) {
-    progressBar().endLine();
-    tell("arete: there is not enough memory for this\n");
-    return ExitCode::internal;
-  }
+  ExitCode code = runAndReport();
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    const Error error{ErrorCode::unreadable, "cannot be written to", "stdout"};
+    if (error_.is_null()) error_ = errorObject(error, ExitCode::file);
     tell("arete: stdout cannot be written to\n");
-    return ExitCode::file;
+    code = ExitCode::file;
   }
+  return closeLog(code);
+}
+
+/// The status is explained before it is reported: a changed input or a signal may be the cause of what looks
+/// like another error.
+ExitCode Session::runAndReport() try {
+  if (command_ != nullptr) progressBar().setPlan(plannedStages(commandName(*command_)));
+  listWrittenFiles();
+  Status status = openLog();
+  if (status) status = prepareGdal();
+  if (status) status = run_(*this);
+  const Status explained = explain(std::move(status));
+  if (explained) progressBar().finishLine();
+  const ExitCode code = explained ? ExitCode::ok : fail(explained.error());
+  sayFiles();
   return code;
+} catch (const std::bad_alloc&) {
+  progressBar().endLine();
+  const Error error{ErrorCode::outOfMemory, "there is not enough memory for this", ""};
+  error_ = errorObject(error, ExitCode::internal);
+  tell("arete: there is not enough memory for this\n");
+  return ExitCode::internal;
+}
+
+// The first line says all that is known before the work: what was asked for, of which files, where.
+Status Session::openLog() {
+  if (logPath_.empty() && (command_ == nullptr || command_->count(kLogOption) == 0)) return {};
+  if (command_ != nullptr) ARETE_CHECK(checkNamedOnce(*command_, kLogOption, logPath_));
+  auto log = RunLog::open(logPath_);
+  if (!log) {
+    log.error().culprit = fmt::format("{} {}", kLogOption, logPath_);
+    return tl::unexpected(log.error());
+  }
+  log_ = std::move(*log);
+  std::error_code ignored;
+  Json inputs = Json::array();
+  std::vector<std::string> files = command_ != nullptr ? namedInputs(*command_) : std::vector<std::string>();
+  for (const std::string& file : files) inputs.push_back(fileFacts(file));
+  log_->line("start", {{"program", "arete"},
+                       {"version", ARETE_VERSION},
+                       {"process", ::getpid()},
+                       {"folder", std::filesystem::current_path(ignored).string()},
+                       {"command", command_ != nullptr ? commandName(*command_) : std::string()},
+                       {"arguments", words_},
+                       {"options", command_ != nullptr ? typedOptions(*command_, words_) : Json::object()},
+                       {"threads", threads_ > 0 ? threads_ : hardwareThreads()},
+                       {"machine", machineFacts()},
+                       {"inputs", inputs}});
+  log_->digestInputs(std::move(files));
+  return {};
+}
+
+ExitCode Session::closeLog(ExitCode code) {
+  if (log_ == nullptr) return code;
+  logOfGdal = nullptr;
+  const Status ended = log_->end(static_cast<int>(code), error_, interruptFlag());
+  if (ended) return code;
+  tell(fmt::format("arete: {}\n", withoutControls(ended.error().describe())));
+  return code == ExitCode::ok ? ExitCode::file : code;
 }
 
 // GDAL is confined before the first file is opened; what GDAL says outside any reader becomes a warning.
 Status Session::prepareGdal() {
-  sendUnclaimedGdalMessages(quiet_ ? nullptr : warnOfGdal);
+  logOfGdal = log_.get();
+  sendUnclaimedGdalMessages(!quiet_ ? warnOfGdal : log_ ? logGdal : nullptr);
   guardProjFiles();
   return isConfined_ ? confineGdal(fileNamesOf(words_)) : Status();
 }
@@ -189,8 +275,12 @@ RunContext Session::context() const {
   RunContext context;
   context.cancel = &interruptFlag();
   context.threads = threads_;
-  if (progress_ || (!quiet_ && isatty(STDERR_FILENO) != 0))
-    context.progress = [](std::string_view stage, double fraction) { progressBar().report(stage, fraction); };
+  const bool isShown = progress_ || (!quiet_ && isatty(STDERR_FILENO) != 0);
+  if (isShown || log_)
+    context.progress = [isShown, log = log_](std::string_view stage, double fraction) {
+      if (isShown) progressBar().report(stage, fraction);
+      if (log) log->report(stage, fraction);
+    };
   return context;
 }
 
@@ -202,29 +292,49 @@ void Session::say(const std::string& text) const {
 }
 
 void Session::answer(const Json& object) {
-  if (!json_ || (changedInputFile() != nullptr && !object.contains("error"))) return;
-  progressBar().finishLine();
-  answered_ = true;
+  if (changedInputFile() != nullptr) return;
   Json whole = object;
   addFilesTo(whole);
+  if (log_) log_->line("result", {{"result", whole}});
+  if (!json_) return;
+  answered_ = true;
+  printObject(whole);
+}
+
+void Session::printObject(const Json& object) {
+  progressBar().finishLine();
   // A path may not be UTF-8: invalid bytes are replaced; nothing throws.
-  print(withoutQueriesIn(std::move(whole)).dump(2, ' ', false, Json::error_handler_t::replace) + "\n", out_);
+  print(withoutQueriesIn(object).dump(2, ' ', false, Json::error_handler_t::replace) + "\n", out_);
 }
 
 void Session::note(const std::string& sentence) const {
+  const std::string text = withoutQueries(withOptionNames(sentence));
+  if (log_) log_->line("note", {{"message", text}});
   if (quiet_) return;
   progressBar().endLine();
-  tell(fmt::format("arete: {}\n", withoutControls(withoutQueries(withOptionNames(sentence)))));
+  tell(fmt::format("arete: {}\n", withoutControls(text)));
 }
 
 void Session::warn(const std::string& sentence) const {
+  warn(sentence, {});
+}
+
+void Session::warn(const std::string& sentence, std::string_view code) const {
+  const std::string text = withoutQueries(withOptionNames(sentence));
+  if (log_) {
+    Json fields = Json::object();
+    if (!code.empty()) fields["code"] = code;
+    fields["message"] = text;
+    log_->line("warning", fields);
+  }
   if (quiet_) return;
   progressBar().endLine();
-  tell(fmt::format("arete: warning: {}\n", withoutControls(withoutQueries(withOptionNames(sentence)))));
+  tell(fmt::format("arete: warning: {}\n", withoutControls(text)));
 }
 
 void Session::warn(const Warnings& warnings, const std::string& culprit) const {
-  for (const Warning& warning : warnings) warn(fmt::format("{}: {}", culprit, warning.sentence));
+  for (const Warning& warning : warnings)
+    warn(fmt::format("{}: {}", culprit, warning.sentence), nameOf(warning.code));
 }
 
 // A file that was replaced is said on stderr, where what a person should know goes while text is piped away.
@@ -243,25 +353,31 @@ ExitCode Session::fail(const Error& failed) {
   progressBar().endLine();
   const Error error = withNextStep(withOptionNames(failed), command_ ? command_->get_name() : "");
   const ExitCode code = exitCodeOf(error.code);
+  error_ = errorObject(error, code);
   tell(fmt::format("arete: {}\n", withoutControls(withoutQueries(error.describe()))));
   answerError(error, code);
   return code;
 }
 
+// The command line was not parsed; the log that it names may be.
 ExitCode Session::refuse(const std::string& sentence, const std::string& help, bool wantsJson) {
   json_ = wantsJson;
+  logPath_.clear();
+  for (std::size_t i = 0; i + 1 < words_.size(); ++i)
+    if (const std::string& next = words_[i + 1];
+        words_[i] == kLogOption && !next.starts_with("-") && std::ranges::count(words_, next) == 1)
+      logPath_ = next;
+  command_ = nullptr;
+  if (const Status opened = openLog(); !opened) tell(fmt::format("arete: {}\n", opened.error().describe()));
+  const Error error{ErrorCode::usage, sentence, ""};
+  error_ = errorObject(error, ExitCode::usage);
   tell(fmt::format("arete: {}\nSee {} --help.\n", withoutControls(withoutQueries(sentence)), help));
-  answerError({ErrorCode::usage, sentence, ""}, ExitCode::usage);
-  return ExitCode::usage;
+  answerError(error, ExitCode::usage);
+  return closeLog(ExitCode::usage);
 }
 
 void Session::answerError(const Error& error, ExitCode code) {
-  if (answered_) return;
-  answer({{"error",
-           {{"code", toString(error.code)},
-            {"message", error.message},
-            {"culprit", error.culprit},
-            {"exitCode", static_cast<int>(code)}}}});
+  if (!answered_ && json_) printObject({{"error", errorObject(error, code)}});
 }
 
 }  // namespace arete

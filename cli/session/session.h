@@ -4,24 +4,26 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/session/exit_code.h"
+#include "cli/session/json.h"
 #include "engine/base/result.h"
 #include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 
 namespace arete {
 
-/// Insertion order is reading order.
-using Json = nlohmann::ordered_json;
+class RunLog;
 
 /// One run of the program: output, progress, interruption and exit code, for all commands alike.
 ///
 /// Results go to stdout, either as text or (--json) as one object; progress, warnings and errors go to
-/// stderr. With --quiet only errors are written, and the object of --json.
+/// stderr. With --quiet only errors are written, and the object of --json. With --log all of it is in a log
+/// too.
 class Session {
  public:
   using Run = std::function<Status(Session&)>;
@@ -44,6 +46,8 @@ class Session {
   ExitCode refuse(const std::string& sentence, const std::string& help, bool wantsJson);
 
   bool wantsJson() const { return json_; }
+  /// Whether the object of answer() is wanted, by --json or by --log.
+  bool wantsAnswer() const { return json_ || log_ != nullptr; }
   /// Progress according to the options, and the cancel flag that Ctrl-C sets.
   RunContext context() const;
 
@@ -52,8 +56,8 @@ class Session {
 
   /// Writes text to stdout; not with --json or --quiet.
   void say(const std::string& text) const;
-  /// Writes the object to stdout, with --json only, and in it the files that were written and those that
-  /// were replaced. Call at most once, behind the last file.
+  /// Writes the object to stdout with --json, and to the log, and in it the files that were written and
+  /// those that were replaced. Call at most once, behind the last file.
   void answer(const Json& object);
   /// Writes "arete: ..." to stderr, not with --quiet: what a person wants to know beside a table on stdout.
   void note(const std::string& sentence) const;
@@ -66,6 +70,12 @@ class Session {
   void setWords(std::vector<std::string> words) { words_ = std::move(words); }
 
  private:
+  /// Runs the command and reports its error.
+  ExitCode runAndReport();
+  /// Opens the log, if one is wanted, and writes its first line.
+  Status openLog();
+  /// Writes the last lines of the log. @return the exit code, which a log that cannot be written changes
+  ExitCode closeLog(ExitCode code);
   Status prepareGdal();
   /// The status of a run, or why it says what it says: an input was changed, a signal ended it. An error of
   /// data without a culprit is one of the command's file.
@@ -76,6 +86,8 @@ class Session {
   /// Names the files that were written, and those that were replaced.
   void sayFiles() const;
   void answerError(const Error& error, ExitCode code);
+  void printObject(const Json& object);
+  void warn(const std::string& sentence, std::string_view code) const;
 
   bool json_ = false, quiet_ = false, progress_ = false, answered_ = false;
   int threads_ = 0;
@@ -84,6 +96,9 @@ class Session {
   std::vector<std::string> words_;
   Run run_;
   const CLI::App* command_ = nullptr;
+  std::string logPath_;
+  std::shared_ptr<RunLog> log_;
+  Json error_;  // null, or the object of the error
 };
 
 }  // namespace arete

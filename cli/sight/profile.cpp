@@ -314,7 +314,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
                {"refraction", a.sight.refractionJson(model)}};
   maxError.addTo(json);
   Json lines = Json::array();
-  if (session.wantsJson())
+  if (session.wantsAnswer())
     for (const Answer& answer : answers) lines.push_back(table.json(answer));
   json["lines"] = std::move(lines);
   if (!a.output.empty()) {

@@ -21,11 +21,14 @@
 #include "cli/session/model_file.h"
 #include "cli/sight/arguments.h"
 #include "cli/sight/viewshed_arguments.h"
+#include "cli/sight/viewshed_picture.h"
+#include "io/files/output_file.h"
 #include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/position_argument.h"
 #include "io/geo/dem/placed_grid.h"
 #include "io/geo/dem/raster_writer.h"
+#include "io/geo/polygons/polygon_file.h"
 #include "io/geo/table/sight_pairs.h"
 #include "io/query/extract/model_file.h"
 #include "io/query/extract/query_footprint.h"
@@ -38,6 +41,8 @@ namespace arete {
 namespace {
 
 using Mode = ViewshedMode;
+
+constexpr const char* kPolygonLayer = "viewshed";
 
 /// Applies the columns of a site (range, azimuth, beamwidth), which come before the options.
 Status aim(ViewshedField& field, const SightBeam& beam) {
@@ -139,63 +144,6 @@ Result<std::vector<ViewshedSite>> sitesOf(std::span<const PlacedObserver> observ
   return sites;
 }
 
-struct Picture {
-  std::vector<double> values;
-  GeoTiffOptions options;
-  bool isHeight = false;
-};
-
-Picture pictureOfOne(Mode mode, const Viewshed& viewshed) {
-  Picture picture;
-  picture.values.reserve(viewshed.cells.size());
-  if (mode == Mode::seen) {
-    picture.options = {.sample = GeoTiffOptions::Sample::uint8,
-                       .nodata = double(byteOf(ViewshedCell::outside))};
-    for (const ViewshedCell cell : viewshed.cells) picture.values.push_back(byteOf(cell));
-    return picture;
-  }
-  // Heights and horizons are floats, in which NaN is NODATA.
-  picture.isHeight = mode == Mode::height;
-  for (std::size_t i = 0; i < viewshed.cells.size(); ++i) {
-    double value = viewshed.cells[i] == ViewshedCell::outside ? std::nan("") : double(viewshed.values[i]);
-    if (mode == Mode::horizon) value = std::atan(value) * 180 / std::numbers::pi;
-    picture.values.push_back(value);
-  }
-  return picture;
-}
-
-Picture pictureOfMany(Mode mode, const ViewshedOfMany& all) {
-  Picture picture;
-  // Numbers of observers take 16 bits, of which the largest are for what has no number.
-  picture.options = {
-      .sample = mode == Mode::seen ? GeoTiffOptions::Sample::uint8 : GeoTiffOptions::Sample::uint16,
-      .nodata = mode == Mode::seen ? double(byteOf(ViewshedCell::outside)) : 65535};
-  picture.values.reserve(all.cells.size());
-  for (std::size_t i = 0; i < all.cells.size(); ++i) {
-    const bool isOutside = all.cells[i] == ViewshedCell::outside;
-    picture.values.push_back(mode == Mode::seen    ? byteOf(all.cells[i])
-                             : isOutside           ? std::nan("")
-                             : mode == Mode::count ? all.count[i]
-                                                   : all.server[i]);
-  }
-  return picture;
-}
-
-const char* descriptionOf(Mode mode) {
-  switch (mode) {
-    case Mode::height:
-      return "least height above the terrain that is seen; infinite = none";
-    case Mode::horizon:
-      return "elevation of the horizon, degrees";
-    case Mode::count:
-      return "observers that see it; 65533 unknown, 65534 undecided";
-    case Mode::server:
-      return "nearest observer that sees it, from 1; 0 = none, 65533 unknown, 65534 undecided";
-    default:
-      return "255 seen, 0 hidden, 100 unknown, 200 undecided";
-  }
-}
-
 /// Everything a viewshed is computed from.
 struct Question {
   const ViewshedArguments& arguments;
@@ -222,7 +170,7 @@ Result<PlacedGrid> gridOf(const Question& q, Session& session) {
 }
 
 struct ViewshedAnswer {
-  Picture picture;
+  ViewshedPicture picture;
   std::vector<ViewshedCell> cells;
   std::uint64_t withoutLine = 0;
 };
@@ -236,7 +184,7 @@ Result<ViewshedAnswer> answerOne(const Question& q, const ViewshedMaker& maker, 
                                                     : maker.of(grid.places, observer, options, context));
   json["method"] = std::string(toString(viewshed.method));
   json["rays"] = viewshed.rays;
-  return ViewshedAnswer{pictureOfOne(q.arguments.mode, viewshed), std::move(viewshed.cells),
+  return ViewshedAnswer{viewshedPictureOfOne(q.arguments.mode, viewshed), std::move(viewshed.cells),
                         viewshed.withoutLine};
 }
 
@@ -244,7 +192,7 @@ Result<ViewshedAnswer> answerMany(const Question& q, const ViewshedMaker& maker,
   const Mode mode = q.arguments.mode;
   ARETE_TRY(auto all,
             viewshedOfMany(maker, q.model, q.earth, q.observers, q.options, mode == Mode::server, context));
-  return ViewshedAnswer{pictureOfMany(mode, all), std::move(all.cells), all.withoutLine};
+  return ViewshedAnswer{viewshedPictureOfMany(mode, all), std::move(all.cells), all.withoutLine};
 }
 
 /// Reports how many cells have which answer.
@@ -265,13 +213,41 @@ void reportCounts(const Question& q, const std::vector<ViewshedCell>& cells, con
   json["unknown"] = unknown;
   json["undecided"] = undecided;
   json["outside"] = count(ViewshedCell::outside);
-  json["file"] = a.output;
-  std::string text = fmt::format("{}: {} seen, {} hidden, {} unknown", a.output,
+  if (!a.output.empty()) json["file"] = a.output;
+  std::string text = fmt::format("{}: {} seen, {} hidden, {} unknown", a.output.empty() ? a.model : a.output,
                                  grouped(seen, "sample", "samples"), grouped(hidden), grouped(unknown));
   if (undecided > 0) text += fmt::format(", {} undecided", grouped(undecided));
   text += q.maxError.shareText(q.model.georeference.verticalUnit);
-  session.say(text + "\n");
+  text += "\n";
+  if (json.contains("polygons"))
+    text += fmt::format("{}: {}\n", a.polygons,
+                        grouped(json["polygons"]["count"].get<std::uint64_t>(), "polygon", "polygons"));
+  session.say(text);
   session.answer(json);
+}
+
+/// Writes the raster, the polygons or both: all of them appear or none does.
+Status writeAnswer(const Question& q, ViewshedPicture& picture, const PlacedGrid& grid, Json& json,
+                   Session& session) {
+  const ViewshedArguments& a = q.arguments;
+  OutputGroup group;
+  if (!a.output.empty())
+    ARETE_CHECK(writeGeoTiff(a.output, grid.columns, grid.rows, picture.values, grid.georeference,
+                             picture.options, session.context()));
+  if (!a.polygons.empty()) {
+    // Cells without an answer are in no polygon; the column that a raster around the Earth repeats is left
+    // out.
+    std::ranges::replace(picture.values, picture.options.nodata, std::nan(""));
+    const std::uint32_t columns =
+        grid.georeference.repeatsFirstColumn && grid.columns > 1 ? grid.columns - 1 : grid.columns;
+    ARETE_TRY(const PolygonReport report,
+              writePolygons(a.polygons, {columns, grid.rows, picture.values, grid.columns}, grid.georeference,
+                            viewshedPolygonFields(a.mode, kPolygonLayer), a.existing, session.context()));
+    json["polygons"] = {{"file", a.polygons}, {"layer", kPolygonLayer}, {"count", report.polygons}};
+    if (!report.hasAreas)
+      session.note(fmt::format("{}: areas are left out, since no CRS says what the ground is", a.polygons));
+  }
+  return group.commit();
 }
 
 Status answer(const Question& q, Session& session) {
@@ -299,11 +275,9 @@ Status answer(const Question& q, Session& session) {
     session.warn(fmt::format("{} passes a pole or a seam of the CRS, and is no line on the map",
                              grouped(made->withoutLine, "sample is unknown: the shortest way to it",
                                      "samples are unknown: the shortest way to them")));
-  Picture& picture = made->picture;
-  picture.options.description = descriptionOf(a.mode);
+  ViewshedPicture& picture = made->picture;
   grid.georeference.verticalUnit = picture.isHeight ? q.model.georeference.verticalUnit : "";
-  ARETE_CHECK(writeGeoTiff(a.output, grid.columns, grid.rows, picture.values, grid.georeference,
-                           picture.options, session.context()));
+  ARETE_CHECK(writeAnswer(q, picture, grid, json, session));
   reportCounts(q, made->cells, grid, std::move(json), session);
   return {};
 }
@@ -316,7 +290,9 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
   ARETE_CHECK(
       checkGroundUnits(outline.georeference, {a.fieldOfView.greatestWithUnit, a.fieldOfView.leastWithUnit}));
   ARETE_TRY(options.targetHeight, lengthOf("--target-height", a.targetHeight, outline.georeference));
-  ARETE_CHECK(checkOutput("--output", a.output, {a.model, a.observers.file, a.like, outline.source}));
+  const std::vector<std::string> inputs = {a.model, a.observers.file, a.like, outline.source};
+  if (!a.output.empty()) ARETE_CHECK(checkOutput("--output", a.output, inputs));
+  if (!a.polygons.empty()) ARETE_CHECK(checkOutput("--polygons", a.polygons, inputs, {a.output}));
   ARETE_TRY(const TerrainError maxError, terrainErrorOf(a.maxError, file, session));
   options.maxError = maxError.value;
   ARETE_TRY(const auto placed, placeObservers(a, options.field, outline, session));
@@ -339,6 +315,7 @@ void addViewshedCommand(CLI::App& app, Session& session) {
       "  arete viewshed dem.amt --observer 409050,3801450,10 --target-height 2 --radius 20000 -o seen.tif\n"
       "  arete viewshed dem.amt --observer 409050,3801450,10 --mode height -o least_height.tif\n"
       "  arete viewshed dem.amt --observers masts.gpkg --observer-height 30 --mode count -o count.tif\n"
+      "  arete viewshed dem.amt --observer 409050,3801450,10 --polygons seen.gpkg\n"
       "\n"
       "A raster on the grid of the DEM, or of another raster (--like). seen: 255 seen, 0 hidden, 100 "
       "unknown\n"

@@ -12,6 +12,7 @@
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/terrain_error.h"
 #include "cli/session/output_argument.h"
+#include "io/files/text_scan.h"
 #include "io/geo/dem/raster_writer.h"
 
 namespace arete {
@@ -109,6 +110,12 @@ void ViewshedArguments::addTo(CLI::App& command) {
   command.add_option("FILE.amt", model, "Multitriangulation of a raster")->required()->type_name("");
   command.add_option("-o,--output", output, "GeoTIFF to write")->type_name("FILE.tif");
   addOutputArgument(command, output, {".tif", ".tiff"});
+  command
+      .add_option("--polygons", polygons,
+                  "Write the answer as polygons too, or instead: cells of one answer that share edges, with\n"
+                  "their area in square metres on the ground (seen, count, server)")
+      ->type_name("FILE.gpkg");
+  addOverwriteTo(command, existing);
   observers.addTo(command);
   command.add_option("--like", like, "Raster whose grid and CRS the answer has, instead of the DEM's")
       ->type_name("RASTER");
@@ -145,7 +152,14 @@ Status ViewshedArguments::check() const {
   // Observers may be typed, come from a file, or both, so neither option is required by itself.
   if (observers.typed.empty() && observers.file.empty())
     return failure(ErrorCode::usage, "--observer or --observers is required");
-  if (!isGeoTiffName(output))
+  if (output.empty() && polygons.empty())
+    return failure(ErrorCode::usage, "--output is required, or --polygons");
+  if (!polygons.empty() && text::lowerExtension(polygons) != "gpkg")
+    return failure(ErrorCode::usage, "polygons are a GeoPackage and end in .gpkg", "--polygons " + polygons);
+  if (!polygons.empty() && (mode == ViewshedMode::height || mode == ViewshedMode::horizon))
+    return failure(ErrorCode::usage, "requires answers or numbers of observers: --mode seen, count or server",
+                   "--polygons " + polygons);
+  if (!output.empty() && !isGeoTiffName(output))
     return failure(ErrorCode::usage, "a viewshed is a GeoTIFF and ends in .tif or .tiff",
                    "--output " + output);
   if (method == ViewshedMethod::sweep && isAboveZero(maxError))

@@ -8,6 +8,7 @@
 
 #include "cli/sight/arguments.h"
 #include "engine/base/result.h"
+#include "io/files/existing_file.h"
 #include "terrain/viewshed/viewshed.h"
 
 namespace arete {
@@ -45,7 +46,8 @@ struct FieldOfViewArguments {
 };
 
 struct ViewshedArguments {
-  std::string model, output, like;
+  std::string model, output, polygons, like;
+  ExistingFile existing = ExistingFile::keepsOtherLayers;
   ObserverArguments observers;
   FieldOfViewArguments fieldOfView;
   SightArguments sight;

@@ -6,6 +6,7 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstring>
@@ -25,6 +26,7 @@ struct Watched {
 std::array<Watched, kMostFiles> files;
 std::atomic<bool> isWatching = false;
 std::mutex mutex;
+std::vector<std::string> written;
 
 bool isSameFile(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;

@@ -61,6 +61,15 @@ Status describe(GDALDataset& dataset, const Georeference& georeference, const Ge
       return failure(ErrorCode::unreadable, "the geotransform cannot be written");
   }
   GDALRasterBand& band = *dataset.GetRasterBand(1);
+  if (!options.colors.empty() && options.sample == GeoTiffOptions::Sample::uint8) {
+    GDALColorTable table;
+    for (const GeoTiffOptions::Color& color : options.colors) {
+      const GDALColorEntry entry{color.red, color.green, color.blue, 255};
+      table.SetColorEntry(color.value, &entry);
+    }
+    if (band.SetColorTable(&table) != CE_None)
+      return failure(ErrorCode::unreadable, "the colour table cannot be written");
+  }
   // Whole numbers need a value of their own for NODATA, floats have NaN.
   band.SetNoDataValue(isWhole(options.sample) ? options.nodata : std::numeric_limits<double>::quiet_NaN());
   if (!georeference.verticalUnit.empty()) band.SetUnitType(georeference.verticalUnit.c_str());

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
@@ -21,10 +22,17 @@ struct GeoTiffOptions {
     deflate,
     zstd,  ///< deflate if GDAL was built without it
   };
+  /// The colour in which programs show a value.
+  struct Color {
+    std::uint8_t value, red, green, blue;
+  };
   Sample sample = Sample::float32;
   Compression compression = Compression::deflate;
   std::string description = {};  ///< of the band
   double nodata = 0;             ///< the value of NaN for integer samples; floats keep NaN
+  /// Of 8-bit samples alone: the colour table, which lies in the file itself and changes no value. Programs
+  /// show NODATA as transparent and values without a colour in black. Empty: no table.
+  std::vector<Color> colors = {};
 };
 
 /// Writes one band of values as a tiled GeoTIFF. NaN is declared as NODATA. The vertical unit becomes that of

@@ -53,27 +53,12 @@ fs::path folderOf(const fs::path& path) {
   return canonicalOf(fs::absolute(path, error).parent_path());
 }
 
-/// The local file of a name: for a path of an archive, the archive.
-std::string localFile(const std::string& name) {
-  if (!name.starts_with("/vsi")) return name;
-  std::error_code ignored;
-  for (std::size_t begin = name.find('/', 1); begin != name.npos; begin = name.find('/', begin + 1))
-    for (std::size_t end = name.find('/', begin + 1);; end = name.find('/', end + 1)) {
-      for (const std::size_t from : {begin, begin + 1})
-        if (const std::string part = name.substr(from, end == name.npos ? end : end - from);
-            fs::is_regular_file(part, ignored))
-          return part;
-      if (end == name.npos) break;
-    }
-  return {};
-}
-
 /// What may be read and written.
 class Fence {
  public:
   explicit Fence(const std::vector<std::string>& names) {
     for (const std::string& name : names) {
-      const fs::path file = localFile(name);
+      const fs::path file = localFileOf(name);
       if (!file.has_filename()) continue;
       const fs::path folder = folderOf(file);
       named_.emplace_back(folder, file.stem().string());
@@ -218,10 +203,24 @@ void removeNetwork() {
 
 }  // namespace
 
+std::string localFileOf(const std::string& name) {
+  if (!name.starts_with("/vsi")) return name;
+  std::error_code ignored;
+  for (std::size_t begin = name.find('/', 1); begin != name.npos; begin = name.find('/', begin + 1))
+    for (std::size_t end = name.find('/', begin + 1);; end = name.find('/', end + 1)) {
+      for (const std::size_t from : {begin, begin + 1})
+        if (const std::string part = name.substr(from, end == name.npos ? end : end - from);
+            fs::is_regular_file(part, ignored))
+          return part;
+      if (end == name.npos) break;
+    }
+  return {};
+}
+
 Status confineGdal(const std::vector<std::string>& names) try {
   registerGdal();
   for (const std::string& name : names) {
-    const fs::path file = localFile(name);
+    const fs::path file = localFileOf(name);
     std::error_code ignored;
     if (!fs::is_symlink(fs::symlink_status(file, ignored))) continue;
     if (const fs::path to = canonicalOf(file); to.parent_path() != folderOf(file))

@@ -24,6 +24,10 @@ namespace arete {
 /// Errors: unreadable: a named file is a link to another folder. Call it once, before GDAL opens anything.
 Status confineGdal(const std::vector<std::string>& names);
 
+/// The local file of a name: of a path in an archive ("/vsizip/a.zip/b.tif") the archive, else the name
+/// itself. Empty for another path of GDAL's virtual file systems.
+std::string localFileOf(const std::string& name);
+
 /// Whether confineGdal() was called.
 bool gdalIsConfined() noexcept;
 

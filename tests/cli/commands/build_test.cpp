@@ -160,5 +160,26 @@ TEST_F(BuildCommand, WarnsOfHeightsThatStandAloneAndNamesTheRemedy) {
   }
 }
 
+TEST_F(BuildCommand, SaysBeforehandHowLargeTheFileWillBe) {
+  makeRaster("dem.tif", "fractal", 120, 120);
+  for (const bool isPacked : {false, true}) {
+    std::vector<std::string> words = {"build", "dem.tif", "-o", "dem.amt"};
+    if (isPacked) words.emplace_back("--packed");
+    const Outcome text = run(words);
+    ASSERT_EQ(text.code, 0) << text.err;
+    EXPECT_NE(text.err.find("arete: dem.amt will be about "), std::string::npos) << text.err;
+    EXPECT_NE(text.err.find(isPacked ? "without --packed about" : "with --packed about"), std::string::npos);
+    words.emplace_back("--json");
+    const Outcome json = run(words);
+    EXPECT_EQ(json.err, "");
+    const double bytes = json.json()["bytes"];
+    const double expected = json.json()["expectedBytes"][isPacked ? "packed" : "plain"];
+    EXPECT_NEAR(expected / bytes, 1, isPacked ? 0.33 : 0.1);
+  }
+  EXPECT_EQ(run({"build", "dem.tif", "-o", "dem.amt", "-q"}).err, "");
+  makeRaster("small.tif", "fractal", 30, 30);
+  EXPECT_EQ(run({"build", "small.tif", "-o", "small.amt"}).err, "") << "small files surprise by nothing";
+}
+
 }  // namespace
 }  // namespace arete::cli_test

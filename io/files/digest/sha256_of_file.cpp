@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/files/digest/sha256_of_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <span>
+#include <system_error>
+#include <vector>
+
+#include "engine/base/caught_failure.h"
+#include "io/files/digest/sha256.h"
+#include "io/files/open_plain.h"
+
+namespace arete {
+namespace {
+
+constexpr std::size_t kPieceBytes = std::size_t{1} << 18;
+
+tl::unexpected<Error> cannotBeRead(const std::string& path, int error) {
+  return failure(error == ENOENT ? ErrorCode::notFound : ErrorCode::unreadable,
+                 fmt::format("cannot be read: {}", std::generic_category().message(error)), path);
+}
+
+}  // namespace
+
+Result<FileDigest> sha256OfFile(const std::string& path, const std::atomic<bool>* cancel) try {
+  // O_NONBLOCK: opening a pipe does not wait for its writer.
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  struct ::stat before {
+  }, after{};
+  if (file.value < 0 || ::fstat(file.value, &before) != 0) return cannotBeRead(path, errno);
+  if (!S_ISREG(before.st_mode)) return failure(ErrorCode::unreadable, "is no regular file", path);
+  Sha256 digest;
+  FileDigest result;
+  std::vector<std::byte> piece(kPieceBytes);
+  for (;;) {
+    if (cancel != nullptr && *cancel)
+      return failure(ErrorCode::interrupted, "the checksum was stopped", path);
+    const ssize_t size = ::read(file.value, piece.data(), piece.size());
+    if (size < 0 && errno == EINTR) continue;
+    if (size < 0) return cannotBeRead(path, errno);
+    if (size == 0) break;
+    digest.add(std::span(piece).first(static_cast<std::size_t>(size)));
+    result.bytes += static_cast<std::uint64_t>(size);
+  }
+  result.sha256 = digest.hex();
+  result.isStable = ::fstat(file.value, &after) == 0 && before.st_size == after.st_size &&
+                    before.st_mtim.tv_sec == after.st_mtim.tv_sec &&
+                    before.st_mtim.tv_nsec == after.st_mtim.tv_nsec &&
+                    result.bytes == static_cast<std::uint64_t>(after.st_size);
+  return result;
+} catch (...) {
+  return caughtFailure(path);
+}
+
+}  // namespace arete
