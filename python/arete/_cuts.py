@@ -106,12 +106,15 @@ class Tin:
         return _tin_of, (np.array(tin.vertices), np.array(tin.triangles), np.array(tin.errors), tin.error, tin.is_complete,
                          tin.pixels, tin.crs_wkt, tin.file_parts, np.array(tin.source_vertices))
 
-    def save(self, path: PathLike, progress: Progress = None) -> List[str]:
+    def save(self, path: PathLike, progress: Progress = None, *, to_crs: Optional[str] = None, metric: bool = False) -> List[str]:
         """Writes a mesh in the format that the name says, with its CRS, unit, errors and, of a surface, attributes.
+
+        Terrain is led into another CRS by to_crs ("EPSG:32632", WKT, or "utm", the zone of its middle), or by metric into
+        metres to the east, north and up. Edges are split where bending adds more than a tenth of the error.
 
         Returns what the format cannot hold: ["the CRS"].
         """
-        return list(self._tin.save(os.fspath(path), progress))
+        return list(self._tin.save(os.fspath(path), to_crs or "", bool(metric), progress))
 
     def to_meshio(self) -> Any:
         """A meshio.Mesh with the data "error" of each cell."""

@@ -104,8 +104,11 @@ void defineTin(py::module_& module) {
         return CutTin(std::move(tin));
       }))
       .def("save",
-           [](const CutTin& self, const std::string& path, const py::object& progress) {
-             return call(progress, [&](const RunContext& context) { return write(self.tin, path, context); })
+           [](const CutTin& self, const std::string& path, const std::string& toCrs, bool isMetric,
+              const py::object& progress) {
+             const PlaceTarget place{.crs = toCrs, .isMetric = isMetric};
+             return call(progress,
+                         [&](const RunContext& context) { return write(self.tin, path, place, context); })
                  .lost;
            })
       .def_property_readonly(

@@ -42,6 +42,7 @@ Json tinJson(const ExtractRequest& request, const ExtractedTin& tin) {
     json["fit"] = {{"for", fitName(asked.fit)},
                    {"trianglesBefore", tin.fit->trianglesBefore},
                    {"errorBefore", tin.fit->errorBefore}};
+  if (tin.placed) json["placed"] = placedJson(*tin.placed);
   if (tin.measured) json["measured"] = toJson(*tin.measured, tin.isRaster);
   if (tin.measuredInside) json["measuredInside"] = toJson(*tin.measuredInside, tin.isRaster);
   if (tin.measured) json["kept"] = tin.isKept;
