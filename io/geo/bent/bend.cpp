@@ -8,7 +8,8 @@
 // T(t) leaves t between an edge and its image alone: a lens as high as the edge's d. There another triangle
 // gives the height, and the difference of the two gradients times the lens's height bounds what it adds. The
 // lens lies within the triangle of the edge's ends and a point twice as high. Where the neighbour contains
-// that point, it contains the lens; otherwise the largest gradient of the mesh stands for what may be there.
+// that point, it contains the lens; otherwise the largest gradient around both triangles stands for what may be
+// there.
 // On the rim there is no neighbour, and a sample in the lens belongs to the nearest point of the edge.
 //
 // A round finds what is too much, marks edges, and splits all of them. Triangles of which two corners come
@@ -31,7 +32,7 @@ namespace {
 
 constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
 constexpr int kMostRounds = 48;
-constexpr std::uint8_t kGenerationsOfASeam = 9;  // an edge split so often is straight, or torn
+constexpr std::uint8_t kGenerationsOfASeam = 12;  // an edge split so often is straight, or torn
 constexpr double kMostTriangles = 5e7;
 constexpr double kSafety = 1.05, kLongEdgeMetres = 10'000;
 
@@ -84,8 +85,9 @@ class Bender {
       if (!judge()) return finish();
       if (wanted_ > kMostTriangles)
         return failure(ErrorCode::unsupported,
-                       fmt::format("would need about {:.2g} triangles to keep the error; a larger tolerance needs fewer",
-                                   wanted_),
+                       fmt::format("would need about {:.2g} triangles to keep the error, the most near {:.9g}, "
+                                   "{:.9g}; a larger tolerance needs fewer",
+                                   wanted_, worst_.x, worst_.y),
                        map_.culprit());
       ARETE_CHECK(split());
     }
@@ -231,7 +233,7 @@ class Bender {
   void shapeTriangles() {
     const auto& all = result_.source.triangles;
     shapes_.assign(all.size(), {});
-    steepest_ = 0;
+    steepest_.assign(result_.source.positions.size(), 0);
     for (std::size_t t = 0; t < all.size(); ++t) {
       const auto& v = all[t];
       BentShape& s = shapes_[t];
@@ -255,7 +257,7 @@ class Bender {
       }
       s.gradient = s.up - s.normal / s.rise;
       s.slope = norm(s.gradient);
-      steepest_ = std::max(steepest_, s.slope);
+      for (const std::uint32_t corner : v) steepest_[corner] = std::max(steepest_[corner], s.slope);
     }
   }
 
@@ -298,10 +300,12 @@ class Bender {
     const double side = dot(up, cross(at(e.b) - at(e.a), level));
     const std::uint32_t receiver = side > 0 ? e.left : e.right;
     if (e.isPlain && receiver != kNoTriangle && norm(level) > 0 && holdsLens(receiver, e, level))
-      return shapes_[other].vanishes || shapes_[other].isFolded
-                 ? height * (s.slope + steepest_)
-                 : height * norm(s.gradient - shapes_[other].gradient);
-    return height * (s.slope + steepest_);
+      if (!shapes_[other].vanishes && !shapes_[other].isFolded)
+        return height * norm(s.gradient - shapes_[other].gradient);
+    double steepest = 0;
+    for (const std::uint32_t near : {t, other})
+      for (const std::uint32_t v : result_.source.triangles[near]) steepest = std::max(steepest, steepest_[v]);
+    return height * (s.slope + steepest);
   }
 
   bool isRim(const BendEdge& e) const {
@@ -316,6 +320,7 @@ class Bender {
       if (isRim(e) && kSafety * (norm(levelPart(e.off, upOf(e))) + e.rest) > rimLimit_) mark(e);
     added_.assign(shapes_.size(), 0);
     wanted_ = 0;
+    double most = 0;
     for (std::uint32_t t = 0; t < shapes_.size(); ++t) {
       const BentShape& s = shapes_[t];
       if (s.vanishes) continue;
@@ -337,13 +342,26 @@ class Bender {
       added_[t] = plane + lens + map_.rounding() * (1 + s.slope);
       const double allowed = std::max(options_.least, options_.share * std::max(own_[t], options_.tolerance));
       // What bending adds falls with the square of a triangle's size, as its area does.
-      wanted_ += std::max(1.0, s.isFolded ? 1.0 : (plane + lens) / allowed);
+      const double pieces = std::max(1.0, s.isFolded ? 1.0 : plane / allowed);
+      wanted_ += pieces;
+      if (pieces > most) {
+        most = pieces;
+        worst_ = result_.source.positions[result_.source.triangles[t][0]];
+      }
       if (!s.isFolded && added_[t] <= allowed) continue;
-      const double most = std::ranges::max(parts);
+      const double largest = std::ranges::max(parts);
       for (std::size_t k = 0; k < 3; ++k)
-        if (parts[k] > 0 && parts[k] >= most / 2) mark(edges_[edgeOf_[t][k]]);
+        if (parts[k] > 0 && parts[k] >= largest / 2) mark(edges_[edgeOf_[t][k]]);
     }
     return any;
+  }
+
+  /// Whether the image of an edge is nearly straight, unless a seam of the target tears it. Around a pole long
+  /// edges have short images, so degrees count where there are such.
+  bool isShort(const BendEdge& e, std::uint8_t age) const {
+    if (!map_.isGeographicSource()) return age >= kGenerationsOfASeam;
+    const Vec3 span = result_.source.positions[e.b] - result_.source.positions[e.a];
+    return std::max(std::abs(span.x), std::abs(span.y)) < 1;
   }
 
   Status split() {
@@ -354,7 +372,7 @@ class Bender {
       if (!e.isMarked) continue;
       const std::uint8_t age = std::max(generation_[e.a], generation_[e.b]);
       const Vec3 middle = sourceAt(e, 0.5);
-      if (age >= kGenerationsOfASeam && norm(e.off) > 0.2 * norm(at(e.b) - at(e.a)))
+      if (isShort(e, age) && norm(e.off) > 0.2 * norm(at(e.b) - at(e.a)))
         return refuse(fmt::format("{} cannot hold it in one piece: a seam of the map tears it", map_.name()), middle);
       const Vec3 &a = result_.source.positions[e.a], &b = result_.source.positions[e.b];
       if (age == 255 || (middle.x == a.x && middle.y == a.y) || (middle.x == b.x && middle.y == b.y))
@@ -509,8 +527,10 @@ class Bender {
   std::vector<BendEdge> edges_;
   std::vector<std::array<std::uint32_t, 3>> edgeOf_;  // by triangle: of the corners 0-1, 1-2, 2-0
   std::vector<BentShape> shapes_;
-  double steepest_ = 0, rimLimit_ = 0;
+  std::vector<double> steepest_;  // by vertex: the largest slope of its triangles
+  double rimLimit_ = 0;
   double wanted_ = 0;  // triangles in the end, nearly
+  Vec3 worst_;         // where the most of them are
 };
 
 }  // namespace

@@ -21,6 +21,7 @@ namespace arete::placed {
 namespace {
 
 constexpr double kGapMetres = 1e-8;  // between neighbours, by rounding
+constexpr double kInsideMetres = 1e-6;  // a sample so far within two triangles is covered twice
 constexpr double kTurn = 360;
 
 /// The ellipsoid of a CRS in degrees, as geocentric positions about an origin.
@@ -132,7 +133,6 @@ Result<double> findInMetres(const TriangleMesh& mesh, const Vec3& about, const G
     places.push_back(ellipsoid.placeOf(geocentric.back()));
   }
   const Buckets buckets(samples, ellipsoid.degreesPerUnit());
-  const double strictly = kBeyondRimPixels * std::min(pixel.x, pixel.y) * dem.angularUnitRadians * ellipsoid.radius();
   double area = 0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     if (t % 8192 == 0 && context.cancelled()) return failure(ErrorCode::interrupted, "was interrupted");
@@ -174,7 +174,8 @@ Result<double> findInMetres(const TriangleMesh& mesh, const Vec3& about, const G
       }
       if (least < -kGapMetres) return;
       const double height = dot(normal, corner[0] - from) / along / unit;
-      if (least > (std::isnan(s.height) ? strictly : 1e-6) && s.holders < 2) ++s.holders;
+      // NODATA is never on the rim, which joins samples.
+      if (least > (std::isnan(s.height) ? 0 : kInsideMetres) && s.holders < 2) ++s.holders;
       if (std::isnan(s.height)) return;
       if (std::isnan(s.tin) || std::abs(height - s.height) > std::abs(s.tin - s.height)) {
         s.tin = height;
@@ -199,7 +200,7 @@ Result<double> findInMetres(const TriangleMesh& mesh, const Vec3& about, const G
   for (Vec2& place : places) place.x = middle + std::remainder(place.x - middle, kTurn);
   coverBesideRim(samples, planOfSamples, rimOf(mesh), places,
                  {2 * pixel.x * ellipsoid.degreesPerUnit(), 2 * pixel.y * ellipsoid.degreesPerUnit()},
-                 std::max(strictly, kBeyondRimPixels * std::sqrt(area / double(std::max<std::size_t>(samples.size(), 1)))),
+                 kBeyondRimPixels * std::sqrt(area / double(std::max<std::size_t>(samples.size(), 1))),
                  [&](std::size_t i, const RimSide& side) {
                    Vec3 from, n;
                    ellipsoid.lineAt(samples[i].source, from, n);

@@ -32,7 +32,7 @@ bool isElsewhere(const TinPlace& place, const Georeference& dem);
 /// because the rim's edges are straight in the TIN's plan and not in the DEM's.
 ///
 /// Errors and positions in the report are in the DEM's units. Areas are in square pixels of the mean spacing.
-/// Of a TIN in metres, NODATA counts as covered where it is within a triangle by more than that tenth.
+/// NODATA counts as covered within a triangle and on its edges.
 ///
 /// Errors: those of measure(); invalidData, usage: no transformation leads there. O(n log n).
 Result<MeasureReport> measureElsewhere(const TriangleMesh& mesh, const TinPlace& place,

@@ -28,7 +28,7 @@ std::string nameOfUtm(const Georeference& source, const std::vector<Vec3>& box) 
 TEST(Utm, IsTheZoneOfTheMiddleOnTheDatumOfTheSource) {
   EXPECT_EQ(nameOfUtm(degreesOf(), boxAt(8, 46, 9, 47)), "WGS 84 / UTM zone 32N (EPSG:32632)");
   EXPECT_EQ(nameOfUtm(degreesOf(), boxAt(-71, -33, -70, -32)), "WGS 84 / UTM zone 19S (EPSG:32719)");
-  EXPECT_EQ(nameOfUtm(degreesOf("EPSG:4269"), boxAt(-108, 38, -107, 39)), "NAD83 / UTM zone 12N (EPSG:26912)");
+  EXPECT_EQ(nameOfUtm(degreesOf("EPSG:4269"), boxAt(-108, 38, -107, 39)), "NAD83 / UTM zone 13N (EPSG:26913)");
   EXPECT_EQ(nameOfUtm(degreesOf("EPSG:4258"), boxAt(8, 46, 9, 47)), "ETRS89 / UTM zone 32N (EPSG:25832)");
 }
 
