@@ -29,9 +29,9 @@ struct PlaceOptions {
 };
 PlaceOptions addPlaceTo(CLI::App& command, PlaceTarget& place);
 
-/// ", led into WGS 84 / UTM zone 32N (EPSG:32632): 12 vertices, 20 triangles and at most 0.4 m of error more".
-/// @param unit of the errors; empty: not known
-std::string placedText(const PlacedFigures& placed, const std::string& unit);
+/// ", led into WGS 84 / UTM zone 32N (EPSG:32632): 12 vertices, 20 triangles and at most 0.4 m of error
+/// more".
+std::string placedText(const PlacedFigures& placed);
 Json placedJsonOf(const PlacedFigures& placed);
 
 }  // namespace arete

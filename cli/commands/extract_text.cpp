@@ -35,7 +35,7 @@ std::string extractText(const ExtractRequest& request, const ExtractedTin& tin, 
     text += fmt::format("; {} before the fit", grouped(tin.fit->trianglesBefore, "triangle", "triangles"));
   else if (tin.fit)
     text += fmt::format("; {} before the fit", withUnit(tin.fit->errorBefore, unit));
-  if (tin.placed) text += placedText(*tin.placed, unit);
+  if (tin.placed) text += placedText(*tin.placed);
   if (tin.measured) text += fmt::format("; measured {}", withUnit(tin.measured->maxAbsError, unit));
   if (tin.measuredInside) text += fmt::format(", {} inside", withUnit(tin.measuredInside->maxAbsError, unit));
   if (!request.certificate.empty()) text += fmt::format("\n  certificate {}", request.certificate);

@@ -63,7 +63,9 @@ Status checkKind(const MeasureArguments& arguments, bool isMesh) {
 
 void compareFrames(const MeshFile& tin, const Georeference& georeference, const Session& session) {
   if (tin.metresAbout && georeference.crsWkt.empty())
-    session.warn("the TIN is in metres about a place of a CRS, and the DEM has none: they are compared as if they were in one");
+    session.warn(
+        "the TIN is in metres about a place of a CRS, and the DEM has none: they are compared as if they "
+        "were in one");
   if (!tin.metresAbout && !tin.verticalUnit.empty() && !georeference.verticalUnit.empty() &&
       tin.verticalUnit != georeference.verticalUnit)
     session.warn(
@@ -106,9 +108,9 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
                Session& session) {
   constexpr bool isRaster = std::is_same_v<Heightfield, RasterHeightfield>;
   const Georeference& georeference = field.georeference;
-  if (!arguments.tinCrs.empty() &&
-      compareCrs(arguments.tinCrs, tin.crsWkt) == CrsAgreement::different)
-    return failure(ErrorCode::usage, fmt::format("contradicts {}, which is in {}", arguments.tin, crsName(tin.crsWkt)),
+  if (!arguments.tinCrs.empty() && compareCrs(arguments.tinCrs, tin.crsWkt) == CrsAgreement::different)
+    return failure(ErrorCode::usage,
+                   fmt::format("contradicts {}, which is in {}", arguments.tin, crsName(tin.crsWkt)),
                    fmt::format("--tin-crs {}", arguments.tinCrs));
   compareFrames(tin, georeference, session);
   ARETE_TRY(const auto mask, maskOf(arguments, field, session));
@@ -131,9 +133,10 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
   const Status promise =
       expects ? checkPromise(report, expected, {.allowCoveredNodata = arguments.allowCoveredNodata})
               : Status();
-  const std::string where = !isApart            ? ""
-                            : place.metresAbout ? ", in metres, where each sample is"
-                                                : fmt::format(", in {}, where each sample is", crsName(place.crsWkt));
+  const std::string where = !isApart ? ""
+                            : place.metresAbout
+                                ? ", in metres, where each sample is"
+                                : fmt::format(", in {}, where each sample is", crsName(place.crsWkt));
   session.say(fmt::format("{} against {}{}{}\n{}", arguments.tin, nameWithoutQuery(arguments.dem.path),
                           arguments.region.empty() ? "" : fmt::format(" in {}", arguments.region), where,
                           measureReportText(report, georeference.verticalUnit, isRaster)));
@@ -226,10 +229,12 @@ void addMeasureCommand(CLI::App& app, Session& session) {
           "the first. E% is a share of the DEM's relief, or of the second mesh's diagonal")
       ->check(shareOrTolerance())
       ->type_name("E");
-  kinds.ofTerrain(command
-                      ->add_option("--tin-crs", arguments->tinCrs,
-                                   "CRS of the TIN, where its file states none (an STL): the DEM's samples are led into it")
-                      ->type_name("CRS"));
+  kinds.ofTerrain(
+      command
+          ->add_option(
+              "--tin-crs", arguments->tinCrs,
+              "CRS of the TIN, where its file states none (an STL): the DEM's samples are led into it")
+          ->type_name("CRS"));
   kinds.ofTerrain(command->add_flag("--allow-covered-nodata", arguments->allowCoveredNodata,
                                     "Accept covered NODATA (of a build with --rim-tolerance)"));
   CLI::Option* region = kinds.ofTerrain(

@@ -37,7 +37,8 @@ inline std::string meshComments(const MeshWriteOptions& options) {
   if (!options.crsWkt.empty()) comments += fmt::format("# crs {}\n", text::onOneLine(options.crsWkt));
   if (!options.verticalUnit.empty())
     comments += fmt::format("# vertical_unit {}\n", text::onOneLine(options.verticalUnit));
-  if (options.metresAbout) comments += fmt::format("# {}{}\n", kMetresAboutKey, metresAboutText(*options.metresAbout));
+  if (options.metresAbout)
+    comments += fmt::format("# {}{}\n", kMetresAboutKey, metresAboutText(*options.metresAbout));
   for (const std::string& note : options.notes) comments += fmt::format("# {}\n", text::onOneLine(note));
   return comments;
 }

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/formats/common/comments.h"
 #include "io/files/text_scan.h"
+#include "io/formats/common/comments.h"
 #include "io/formats/common/finite.h"
 
 namespace arete {

@@ -56,20 +56,23 @@ Status place(MeshFile& mesh, const ConvertOptions& options, const MeshFormat& fo
   return placeMesh(mesh, placing, MeshUp::z);
 }
 
+constexpr double kUsualTolerance = 1;  // metres, of a file that states no errors
+
 /// Leads the mesh into the place that the options state.
 Status lead(MeshFile& mesh, const ConvertOptions& options, const MeshFormat& format, ConvertedMesh& converted,
             MeshWriteOptions& writing, const RunContext& context) {
   ARETE_TRY(const Georeference georeference, georeferenceOf(mesh.crsWkt, mesh.verticalUnit));
-  const double tolerance =
-      mesh.triangleErrors.empty() ? 0 : double{std::ranges::max(mesh.triangleErrors)};
-  ARETE_TRY(PlacedMesh placed, placeInTarget(mesh.mesh, mesh.triangleErrors, georeference, options.place, format,
-                                             {.tolerance = tolerance, .origin = mesh.frame.origin}, context));
+  const double tolerance = mesh.triangleErrors.empty() ? kUsualTolerance / georeference.verticalUnitMetres
+                                                       : double{std::ranges::max(mesh.triangleErrors)};
+  ARETE_TRY(PlacedMesh placed,
+            placeInTarget(mesh.mesh, mesh.triangleErrors, georeference, options.place, format,
+                          {.tolerance = tolerance, .origin = mesh.frame.origin}, context));
   const bool isSplit = placed.mesh.triangles.size() != mesh.mesh.triangles.size() ||
                        placed.mesh.positions.size() != mesh.mesh.positions.size();
   const MeshAttributes& has = mesh.mesh;
-  if (isSplit && (!has.vertexAttributes.empty() || !has.wedgeAttributes.empty() ||
-                  !has.triangleAttributes.empty() || !has.materials.empty() || !has.objects.empty() ||
-                  !has.groups.empty()))
+  if (isSplit &&
+      (!has.vertexAttributes.empty() || !has.wedgeAttributes.empty() || !has.triangleAttributes.empty() ||
+       !has.materials.empty() || !has.objects.empty() || !has.groups.empty()))
     return failure(ErrorCode::usage,
                    "bends the mesh, whose edges are split where that matters, and splits keep no attributes; "
                    "`dropAttributes` leaves them out",
@@ -132,16 +135,16 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   converted.vertices = mesh.mesh.positions.size();
   converted.joinedVertices = mesh.joinedVertices;
   writing = MeshWriteOptions{.crsWkt = mesh.crsWkt,
-                                 .verticalUnit = mesh.verticalUnit,
-                                 .verticalUnitMetres = writing.verticalUnitMetres,
-                                 .triangleErrors = mesh.triangleErrors,
-                                 .origin = mesh.frame.origin,
-                                 .metresAbout = mesh.metresAbout,
-                                 .format = options.format,
-                                 .notes = std::move(writing.notes),
-                                 .existing = options.existing,
-                                 .up = mesh.up,
-                                 .pictureFolder = mesh.folder};
+                             .verticalUnit = mesh.verticalUnit,
+                             .verticalUnitMetres = writing.verticalUnitMetres,
+                             .triangleErrors = mesh.triangleErrors,
+                             .origin = mesh.frame.origin,
+                             .metresAbout = mesh.metresAbout,
+                             .format = options.format,
+                             .notes = std::move(writing.notes),
+                             .existing = options.existing,
+                             .up = mesh.up,
+                             .pictureFolder = mesh.folder};
   std::vector<std::uint32_t> triangleOf = trianglesOfFile(mesh.mesh, format);
   const Result<WrittenMesh> written = writeAndReadBack(mesh.mesh, path, writing, true, context);
   // A CRS that this format needs and GDAL does not understand is a fault of the mesh, not of the output.

@@ -27,11 +27,10 @@ std::string noteOfBending(const std::string& target, double added) {
 }
 
 std::string noteOfMetres(const Georeference& source, const Vec3& origin) {
-  return source.isGeographic
-             ? fmt::format("arete: x east, y north, z up in metres about {}, {}, {} of {}", origin.x, origin.y,
-                           origin.z, crsName(source.crsWkt))
-             : fmt::format("arete: x, y and z of the map in metres about {}, {}, {} of {}", origin.x, origin.y,
-                           origin.z, crsName(source.crsWkt));
+  return source.isGeographic ? fmt::format("arete: x east, y north, z up in metres about {}, {}, {} of {}",
+                                           origin.x, origin.y, origin.z, crsName(source.crsWkt))
+                             : fmt::format("arete: x, y and z of the map in metres about {}, {}, {} of {}",
+                                           origin.x, origin.y, origin.z, crsName(source.crsWkt));
 }
 
 }  // namespace
@@ -49,9 +48,12 @@ void PlacedMesh::describe(MeshWriteOptions& options) const {
 
 Status checkPlacing(const PlaceTarget& target, const MeshFormat& format) {
   if (target.isMetric && format.holds.sharesFile)
-    return failure(ErrorCode::usage,
-                   fmt::format("is no frame of a map, which a {} holds; `toCrs` with the value utm gives it a CRS in metres", format.name),
-                   "metric");
+    return failure(
+        ErrorCode::usage,
+        fmt::format(
+            "is no frame of a map, which a {} holds; `toCrs` with the value utm gives it a CRS in metres",
+            format.name),
+        "metric");
   return {};
 }
 
@@ -75,6 +77,7 @@ Result<PlacedMesh> placeInTarget(const TriangleMesh& mesh, std::span<const float
   PlacedMesh placed;
   placed.figures = {.target = map.name(),
                     .isMetric = target.isMetric,
+                    .unit = source.verticalUnit,
                     .addedVertices = bent.addedVertices,
                     .addedTriangles = bent.addedTriangles,
                     .added = bent.added / unit};
@@ -92,7 +95,8 @@ Result<PlacedMesh> placeInTarget(const TriangleMesh& mesh, std::span<const float
     placed.verticalUnitMetres = source.verticalUnitMetres;
     placed.origin = origin;
     // A glTF states errors in the unit of heights.
-    for (std::size_t t = 0; t < placed.errors.size(); ++t) placed.errors[t] = floatAtLeast(placed.sourceErrors[t]);
+    for (std::size_t t = 0; t < placed.errors.size(); ++t)
+      placed.errors[t] = floatAtLeast(placed.sourceErrors[t]);
     return placed;
   }
   placed.mesh = std::move(bent.mesh);
@@ -117,9 +121,10 @@ Result<PlacedMesh> placeInTarget(const TriangleMesh& mesh, std::span<const float
   if (!isGeographicCrs(placed.crsWkt) && std::abs(planMetres / source.verticalUnitMetres - 1) > 0.01)
     placed.warnings.push_back(
         {WarningCode::unit,
-         fmt::format("x and y count in units of {:.6g} m and heights, which keep their unit, in units of {:.6g} m; "
-                     "`metric` has metres throughout",
-                     planMetres, source.verticalUnitMetres)});
+         fmt::format(
+             "x and y count in units of {:.6g} m and heights, which keep their unit, in units of {:.6g} m; "
+             "`metric` has metres throughout",
+             planMetres, source.verticalUnitMetres)});
   return placed;
 } catch (...) {
   return caughtFailure();
@@ -130,10 +135,11 @@ std::optional<Warning> warningOfDegrees(const MeshFormat& format, const std::str
   // Formats of maps (2DM, GeoPackage) go to programs that know what a CRS is; a glTF is in metres.
   const bool isForViewers = !format.holds.isYUp && !format.holds.sharesFile && format.extension != ".2dm";
   if (!isForViewers || !isGeographicCrs(crsWkt)) return std::nullopt;
-  return Warning{WarningCode::position,
-                 fmt::format("x and y are degrees and heights {}: viewers of {} show a needle. `metric` writes metres "
-                             "to the east, north and up, `toCrs` coordinates of a map (utm, or EPSG:...)",
-                             verticalUnit.empty() ? "metres" : verticalUnit, format.name)};
+  return Warning{
+      WarningCode::position,
+      fmt::format("x and y are degrees and heights {}: viewers of {} show a needle. `metric` writes metres "
+                  "to the east, north and up, `toCrs` coordinates of a map (utm, or EPSG:...)",
+                  verticalUnit.empty() ? "metres" : verticalUnit, format.name)};
 }
 
 }  // namespace arete

@@ -21,15 +21,16 @@ namespace arete {
 struct PlacedFigures {
   std::string target;  ///< "WGS 84 / UTM zone 32N (EPSG:32632)", "metres"
   bool isMetric = false;
+  std::string unit;  ///< of the figures below: that of the source's heights; empty: not known
   std::uint64_t addedVertices = 0, addedTriangles = 0;  ///< by splits of edges
-  double added = 0;       ///< the most that bending adds to the error of a triangle, in the source's unit
+  double added = 0;         ///< the most that bending adds to the error of a triangle, in the source's unit
   double largestError = 0;  ///< with it: the largest error of a triangle, in that unit
 };
 
 /// A mesh in a target, and what its file says of it.
 struct PlacedMesh {
-  TriangleMesh mesh;          ///< as it is handed to the writer
-  std::vector<float> errors;  ///< by triangle, in the unit of `mesh`; rounded outwards
+  TriangleMesh mesh;                 ///< as it is handed to the writer
+  std::vector<float> errors;         ///< by triangle, in the unit of `mesh`; rounded outwards
   std::vector<double> sourceErrors;  ///< the same in the unit of the source
   std::string crsWkt, verticalUnit;
   double verticalUnitMetres = 0;
@@ -46,8 +47,8 @@ struct PlacedMesh {
 };
 
 struct PlacingOptions {
-  double tolerance = 0;        ///< of the mesh, in the source's unit of heights
-  std::uint64_t samples = 0;   ///< BendOptions::samples
+  double tolerance = 0;             ///< of the mesh, in the source's unit of heights
+  std::uint64_t samples = 0;        ///< BendOptions::samples
   std::optional<Vec3> origin = {};  ///< MeshWriteOptions::origin, in source coordinates
 };
 

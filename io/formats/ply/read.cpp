@@ -11,9 +11,9 @@
 #include <system_error>
 #include <utility>
 
-#include "io/formats/common/comments.h"
 #include "io/files/file_bytes.h"
 #include "io/files/text_scan.h"
+#include "io/formats/common/comments.h"
 #include "io/formats/ply/data.h"
 #include "io/formats/ply/header.h"
 #include "io/formats/ply/notes.h"

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "io/formats/common/comments.h"
 #include "io/files/file_writer.h"
 #include "io/files/text_scan.h"
 #include "io/files/write_progress.h"
+#include "io/formats/common/comments.h"
 #include "io/formats/common/losses.h"
 #include "io/formats/ply/columns.h"
 #include "io/formats/ply/ply.h"

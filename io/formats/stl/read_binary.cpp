@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/formats/common/comments.h"
 #include "io/files/text_scan.h"
+#include "io/formats/common/comments.h"
 #include "io/formats/stl/facet_colors.h"
 #include "io/formats/stl/read_parts.h"
 

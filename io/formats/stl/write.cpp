@@ -18,9 +18,9 @@
 #include <utility>
 #include <vector>
 
-#include "io/formats/common/comments.h"
 #include "io/files/file_writer.h"
 #include "io/files/write_progress.h"
+#include "io/formats/common/comments.h"
 #include "io/formats/common/flattened.h"
 #include "io/formats/common/losses.h"
 #include "io/formats/common/object_runs.h"

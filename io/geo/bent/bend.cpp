@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Let T be the map, A the linear map that agrees with T at the corners of a triangle t. A point p of t has its
-// place at T(p), the triangle passes through A(p); d(p) = T(p) - A(p). Above T(p) the plane of t is off by
-// d.N / N.up, where N is its normal. If T is quadratic, d = 4 * sum over edges of l_i l_j d(middle of edge ij)
-// in barycentric coordinates l, and is at most 4/3 of the largest at a middle. This is the first part.
+// Let T be the map, A the linear map that agrees with T at the corners of a triangle t. A point p of t has
+// its place at T(p), the triangle passes through A(p); d(p) = T(p) - A(p). Above T(p) the plane of t is off
+// by d.N / N.up, where N is its normal. If T is quadratic, d = 4 * sum over edges of l_i l_j d(middle of edge
+// ij) in barycentric coordinates l, and is at most 4/3 of the largest at a middle. This is the first part.
 //
 // T(t) leaves t between an edge and its image alone: a lens as high as the edge's d. There another triangle
 // gives the height, and the difference of the two gradients times the lens's height bounds what it adds. The
 // lens lies within the triangle of the edge's ends and a point twice as high. Where the neighbour contains
-// that point, it contains the lens; otherwise the largest gradient around both triangles stands for what may be
-// there.
-// On the rim there is no neighbour, and a sample in the lens belongs to the nearest point of the edge.
+// that point, it contains the lens; otherwise the largest gradient around both triangles stands for what may
+// be there. On the rim there is no neighbour, and a sample in the lens belongs to the nearest point of the
+// edge.
 //
 // A round finds what is too much, marks edges, and splits all of them. Triangles of which two corners come
 // together in the target, as along a row of samples at a pole, vanish in the end.
@@ -37,7 +37,7 @@ constexpr double kMostTriangles = 5e7;
 constexpr double kSafety = 1.05, kLongEdgeMetres = 10'000;
 
 struct BendEdge {
-  std::uint32_t a = 0, b = 0;  // vertices, a < b
+  std::uint32_t a = 0, b = 0;                             // vertices, a < b
   std::uint32_t left = kNoTriangle, right = kNoTriangle;  // the triangle that has a -> b, and the other
   bool isPlain = true;                                    // no more than two triangles
   bool isMeasured = false, isMarked = false;
@@ -84,11 +84,12 @@ class Bender {
       if (std::exchange(isFirst, false)) setRimLimit();
       if (!judge()) return finish();
       if (wanted_ > kMostTriangles)
-        return failure(ErrorCode::unsupported,
-                       fmt::format("would need about {:.2g} triangles to keep the error, the most near {:.9g}, "
-                                   "{:.9g}; a larger tolerance needs fewer",
-                                   wanted_, worst_.x, worst_.y),
-                       map_.culprit());
+        return failure(
+            ErrorCode::unsupported,
+            fmt::format("would need about {:.2g} triangles to keep the error, the most near {:.9g}, "
+                        "{:.9g}; a larger tolerance needs fewer",
+                        wanted_, worst_.x, worst_.y),
+            map_.culprit());
       ARETE_CHECK(split());
     }
     return refuse("cannot be split finely enough to keep its heights there", result_.source.positions[0]);
@@ -202,7 +203,8 @@ class Bender {
     for (std::size_t i = 0; i < fresh.size(); ++i) {
       BendEdge& e = edges_[fresh[i]];
       if (!isFinite(places[i]))
-        return refuse(fmt::format("{} has no place for the middle of an edge", map_.name()), sourceAt(e, 0.5));
+        return refuse(fmt::format("{} has no place for the middle of an edge", map_.name()),
+                      sourceAt(e, 0.5));
       e.middle = places[i];
       e.off = places[i] - 0.5 * (at(e.a) + at(e.b));
       e.isMeasured = true;
@@ -304,12 +306,14 @@ class Bender {
         return height * norm(s.gradient - shapes_[other].gradient);
     double steepest = 0;
     for (const std::uint32_t near : {t, other})
-      for (const std::uint32_t v : result_.source.triangles[near]) steepest = std::max(steepest, steepest_[v]);
+      for (const std::uint32_t v : result_.source.triangles[near])
+        steepest = std::max(steepest, steepest_[v]);
     return height * (s.slope + steepest);
   }
 
   bool isRim(const BendEdge& e) const {
-    return (e.left == kNoTriangle) != (e.right == kNoTriangle) && norm(levelPart(at(e.b) - at(e.a), upOf(e))) > coincidence();
+    return (e.left == kNoTriangle) != (e.right == kNoTriangle) &&
+           norm(levelPart(at(e.b) - at(e.a), upOf(e))) > coincidence();
   }
 
   /// Bounds what bending adds to each triangle and marks the edges that must be split. False: none.
@@ -356,8 +360,8 @@ class Bender {
     return any;
   }
 
-  /// Whether the image of an edge is nearly straight, unless a seam of the target tears it. Around a pole long
-  /// edges have short images, so degrees count where there are such.
+  /// Whether the image of an edge is nearly straight, unless a seam of the target tears it. Around a pole
+  /// long edges have short images, so degrees count where there are such.
   bool isShort(const BendEdge& e, std::uint8_t age) const {
     if (!map_.isGeographicSource()) return age >= kGenerationsOfASeam;
     const Vec3 span = result_.source.positions[e.b] - result_.source.positions[e.a];
@@ -373,7 +377,8 @@ class Bender {
       const std::uint8_t age = std::max(generation_[e.a], generation_[e.b]);
       const Vec3 middle = sourceAt(e, 0.5);
       if (isShort(e, age) && norm(e.off) > 0.2 * norm(at(e.b) - at(e.a)))
-        return refuse(fmt::format("{} cannot hold it in one piece: a seam of the map tears it", map_.name()), middle);
+        return refuse(fmt::format("{} cannot hold it in one piece: a seam of the map tears it", map_.name()),
+                      middle);
       const Vec3 &a = result_.source.positions[e.a], &b = result_.source.positions[e.b];
       if (age == 255 || (middle.x == a.x && middle.y == a.y) || (middle.x == b.x && middle.y == b.y))
         return refuse("cannot be split finely enough to keep its heights there", middle);

@@ -25,7 +25,7 @@
 namespace arete {
 namespace {
 
-constexpr double kEarthRadius = 6.4e6;    // metres
+constexpr double kEarthRadius = 6.4e6;       // metres
 constexpr double kRoundingOfPlaces = 4e-15;  // of the largest coordinate: a few ulp, also within PROJ
 
 Result<OGRSpatialReference> targetCrs(const Georeference& source, const std::string& text,
@@ -47,7 +47,8 @@ Result<PlaceMap> PlaceMap::of(const Georeference& source, const PlaceTarget& tar
   PlaceMap map;
   map.culprit_ = target.isMetric ? "metric" : fmt::format("toCrs {}", target.crs);
   if (target.isMetric && !target.crs.empty())
-    return failure(ErrorCode::usage, "cannot go with `metric`: they are two frames", fmt::format("toCrs {}", target.crs));
+    return failure(ErrorCode::usage, "cannot go with `metric`: they are two frames",
+                   fmt::format("toCrs {}", target.crs));
   if (source.crsWkt.empty())
     return failure(ErrorCode::usage,
                    "needs coordinates with a CRS, and there is none; `crs` states it where it is known",

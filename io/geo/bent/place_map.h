@@ -50,14 +50,16 @@ class PlaceMap {
 
  private:
   PlaceMap() = default;
-  void keepInOnePiece(const Georeference& source, const Georeference& target, std::span<const Vec3> positions);
+  void keepInOnePiece(const Georeference& source, const Georeference& target,
+                      std::span<const Vec3> positions);
 
   std::optional<LocalFrame> frame_;
   CrsTransform transform_;
   std::string crsWkt_, name_, culprit_;
   bool isLinear_ = false, isGeographicSource_ = false;
   double rounding_ = 0, unitMetres_ = 1, verticalUnitMetres_ = 1;
-  // x of the target is moved by whole turns next to xMiddle_ + (x of the source - sourceMiddle_) * perSource_.
+  // x of the target is moved by whole turns next to xMiddle_ + (x of the source - sourceMiddle_) *
+  // perSource_.
   double turn_ = 0, xMiddle_ = 0, sourceMiddle_ = 0, perSource_ = 0;
 };
 

@@ -46,9 +46,7 @@ UtmZone utmZoneAt(double longitude, double latitude, bool hasWiderZones) {
   const double turned = longitude - 360 * std::floor((longitude + 180) / 360);  // -180 to 180
   const int number = std::clamp(static_cast<int>(std::floor((turned + 180) / 6)) + 1, 1, 60);
   const double whole = longitude - turned;
-  const auto zone = [&](int n, double west, double east) {
-    return UtmZone{n, whole + west, whole + east};
-  };
+  const auto zone = [&](int n, double west, double east) { return UtmZone{n, whole + west, whole + east}; };
   if (hasWiderZones && latitude >= 56 && latitude < 64) {
     if (turned >= 0 && turned < 3) return zone(31, 0, 3);
     if (turned >= 3 && turned < 12) return zone(32, 3, 12);
@@ -88,15 +86,17 @@ Result<OGRSpatialReference> utmOf(const Georeference& georeference, std::span<co
   const Vec2 middle = 0.5 * (low + high);
   const UtmZone zone = utmZoneAt(middle.x, middle.y, isOnEarth);
   if (low.y < kSouthernmost || high.y > kNorthernmost)
-    return refuse(ErrorCode::usage,
-                  fmt::format("latitudes from {:.6g} to {:.6g} are beyond UTM, which ends at -80 and 84; a polar "
-                              "map has them (EPSG:3413 in the north, EPSG:3031 in the south)",
-                              low.y, high.y));
+    return refuse(
+        ErrorCode::usage,
+        fmt::format("latitudes from {:.6g} to {:.6g} are beyond UTM, which ends at -80 and 84; a polar "
+                    "map has them (EPSG:3413 in the north, EPSG:3031 in the south)",
+                    low.y, high.y));
   if (low.x < zone.west - kBeyondZone || high.x > zone.east + kBeyondZone)
-    return refuse(ErrorCode::usage,
-                  fmt::format("longitudes from {:.6g} to {:.6g} are more than 3 degrees beyond zone {} of the "
-                              "middle, {} to {}; state another CRS, or take `metric`",
-                              low.x, high.x, zone.number, zone.west, zone.east));
+    return refuse(
+        ErrorCode::usage,
+        fmt::format("longitudes from {:.6g} to {:.6g} are more than 3 degrees beyond zone {} of the "
+                    "middle, {} to {}; state another CRS, or take `metric`",
+                    low.x, high.x, zone.number, zone.west, zone.east));
 
   registerGdal();
   ARETE_TRY(const auto crs, crsFromText(georeference.crsWkt));

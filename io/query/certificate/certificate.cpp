@@ -39,12 +39,12 @@ Json sourceJson(const TerrainModel& model) {
 Json terrainFormatJson(const ExportFormat& format, const Georeference& georeference,
                        const std::optional<PlacedFigures>& placed) {
   Json json = formatJson({.name = format.name,
-                     .frame = format.frame,
-                     .heightRounding = format.heightRounding,
-                     .planTolerancePixels = format.planTolerancePixels,
-                     .says = {format.saysCrs, format.saysVerticalUnit, format.saysErrors},
-                     .crsWkt = georeference.crsWkt,
-                     .verticalUnit = georeference.verticalUnit});
+                          .frame = format.frame,
+                          .heightRounding = format.heightRounding,
+                          .planTolerancePixels = format.planTolerancePixels,
+                          .says = {format.saysCrs, format.saysVerticalUnit, format.saysErrors},
+                          .crsWkt = georeference.crsWkt,
+                          .verticalUnit = georeference.verticalUnit});
   // What the file is in, not the source.
   Json& missing = json["doesNotSay"];
   if (placed && !placed->isMetric && missing.contains("crs")) missing["crs"] = placed->target;

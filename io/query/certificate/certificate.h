@@ -38,7 +38,7 @@ struct Certificate {
   CutRequest criterion;
   bool isComplete = true;  ///< false: a budget or a deadline ended the cut before the criterion was met
   double storedError = 0;  ///< of the cut: the largest error of its triangles, as stored or as fitted
-  std::optional<FitFigures> fit;  ///< where heights were fitted
+  std::optional<FitFigures> fit;             ///< where heights were fitted
   std::optional<PlacedFigures> placed = {};  ///< where the mesh was led into another CRS or into metres
   MeasureReport measured;  ///< of the exported mesh, by terrain/measure/measure.h, against every sample
   std::optional<MeasureReport> measuredInside;  ///< against the samples in the region alone

@@ -44,9 +44,8 @@ bool isRaster(const ExtractRequest& request) {
 std::string shortCrs(const std::string& wkt) {
   const std::string name = crsName(wkt);
   const std::size_t code = name.rfind("(EPSG:");
-  return code == std::string::npos || !name.ends_with(')')
-             ? wkt
-             : name.substr(code + 1, name.size() - code - 2);
+  return code == std::string::npos || !name.ends_with(')') ? wkt
+                                                           : name.substr(code + 1, name.size() - code - 2);
 }
 
 /// The largest stored error of the triangles that meet the region.
@@ -233,17 +232,18 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
   if (request.place.isStated()) {
     ARETE_TRY(placed, lead(request, exported, tin, bound, context));
   } else if (const auto format = meshFormatOf(request.output, request.format); format) {
-    if (auto degrees = warningOfDegrees(*format, model_->georeference.crsWkt, model_->georeference.verticalUnit))
+    if (auto degrees =
+            warningOfDegrees(*format, model_->georeference.crsWkt, model_->georeference.verticalUnit))
       tin.warnings.push_back(std::move(*degrees));
   }
   MeshWriteOptions write{.crsWkt = model_->georeference.crsWkt,
-                               .verticalUnit = model_->georeference.verticalUnit,
-                               .verticalUnitMetres = model_->georeference.verticalUnitMetres,
-                               .triangleErrors = exported.errors,
-                               .origin = exported.origin,
-                               .format = request.format,
-                               .notes = {commentOf(request, *model_, tin)},
-                               .existing = request.existing};
+                         .verticalUnit = model_->georeference.verticalUnit,
+                         .verticalUnitMetres = model_->georeference.verticalUnitMetres,
+                         .triangleErrors = exported.errors,
+                         .origin = exported.origin,
+                         .format = request.format,
+                         .notes = {commentOf(request, *model_, tin)},
+                         .existing = request.existing};
   if (placed) placed->describe(write);
   TriangleMesh& mesh = placed ? placed->mesh : exported.mesh;
   Result<WrittenMesh> written =

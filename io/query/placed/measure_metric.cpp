@@ -20,7 +20,7 @@
 namespace arete::placed {
 namespace {
 
-constexpr double kGapMetres = 1e-8;  // between neighbours, by rounding
+constexpr double kGapMetres = 1e-8;     // between neighbours, by rounding
 constexpr double kInsideMetres = 1e-6;  // a sample so far within two triangles is covered twice
 constexpr double kTurn = 360;
 
@@ -90,9 +90,7 @@ class Buckets {
   template <class Visit>
   void visit(double west, double south, double east, double north, const Visit& each) const {
     if (order_.empty()) return;
-    const auto column = [&](double x) {
-      return std::clamp((x - low_.x) / side_, -1.0, double(columns_));
-    };
+    const auto column = [&](double x) { return std::clamp((x - low_.x) / side_, -1.0, double(columns_)); };
     const auto row = [&](double y) { return std::clamp((y - low_.y) / side_, -1.0, double(rows_)); };
     const auto c0 = std::max<std::int64_t>(std::int64_t(std::floor(column(west))), 0),
                c1 = std::min<std::int64_t>(std::int64_t(std::floor(column(east))), columns_ - 1),
@@ -151,9 +149,11 @@ Result<double> findInMetres(const TriangleMesh& mesh, const Vec3& about, const G
     }
     const double angle = reach / ellipsoid.radius();
     const double farthest = std::max(std::abs(south), std::abs(north_)) * std::numbers::pi / 180;
-    const double rise = angle * angle / 8 * std::min(std::tan(farthest), 1 / angle) * 1.5 * 180 / std::numbers::pi;
+    const double rise =
+        angle * angle / 8 * std::min(std::tan(farthest), 1 / angle) * 1.5 * 180 / std::numbers::pi;
     const double tiny = 1e-9;
-    const bool isAtPole = farthest + 2 * angle > std::numbers::pi / 2 && (east_ - west > 90 || farthest > 1.5707);
+    const bool isAtPole =
+        farthest + 2 * angle > std::numbers::pi / 2 && (east_ - west > 90 || farthest > 1.5707);
     const double aside = tiny + 0.01 * (east_ - west) + rise;
     const Vec3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
     area += std::abs(dot(normal, arete::unit(corner[0]))) / 2;
@@ -188,8 +188,8 @@ Result<double> findInMetres(const TriangleMesh& mesh, const Vec3& about, const G
     }
     // A DEM may reach beyond half a turn, and its columns have one of these longitudes.
     for (const int turns : {-2, -1, 0, 1, 2})
-      buckets.visit(first + west - aside + turns * kTurn, south - rise - tiny, first + east_ + aside + turns * kTurn,
-                    north_ + rise + tiny, meet);
+      buckets.visit(first + west - aside + turns * kTurn, south - rise - tiny,
+                    first + east_ + aside + turns * kTurn, north_ + rise + tiny, meet);
   }
   std::vector<Vec2> planOfSamples;
   planOfSamples.reserve(samples.size());
@@ -198,20 +198,21 @@ Result<double> findInMetres(const TriangleMesh& mesh, const Vec3& about, const G
     planOfSamples.push_back({middle + std::remainder(s.source.x * ellipsoid.degreesPerUnit() - middle, kTurn),
                              s.source.y * ellipsoid.degreesPerUnit()});
   for (Vec2& place : places) place.x = middle + std::remainder(place.x - middle, kTurn);
-  coverBesideRim(samples, planOfSamples, rimOf(mesh), places,
-                 {2 * pixel.x * ellipsoid.degreesPerUnit(), 2 * pixel.y * ellipsoid.degreesPerUnit()},
-                 kBeyondRimPixels * std::sqrt(area / double(std::max<std::size_t>(samples.size(), 1))),
-                 [&](std::size_t i, const RimSide& side) {
-                   Vec3 from, n;
-                   ellipsoid.lineAt(samples[i].source, from, n);
-                   const Vec3 aside = arete::unit(cross(std::abs(n.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0}, n));
-                   const Vec3 ahead = cross(n, aside);
-                   const auto seen = [&](std::uint32_t vertex) {
-                     const Vec3 d = geocentric[vertex] - from;
-                     return Vec3{dot(d, aside), dot(d, ahead), dot(d, n) / unit};
-                   };
-                   return std::pair(seen(side.from), seen(side.to));
-                 });
+  coverBesideRim(
+      samples, planOfSamples, rimOf(mesh), places,
+      {2 * pixel.x * ellipsoid.degreesPerUnit(), 2 * pixel.y * ellipsoid.degreesPerUnit()},
+      kBeyondRimPixels * std::sqrt(area / double(std::max<std::size_t>(samples.size(), 1))),
+      [&](std::size_t i, const RimSide& side) {
+        Vec3 from, n;
+        ellipsoid.lineAt(samples[i].source, from, n);
+        const Vec3 aside = arete::unit(cross(std::abs(n.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0}, n));
+        const Vec3 ahead = cross(n, aside);
+        const auto seen = [&](std::uint32_t vertex) {
+          const Vec3 d = geocentric[vertex] - from;
+          return Vec3{dot(d, aside), dot(d, ahead), dot(d, n) / unit};
+        };
+        return std::pair(seen(side.from), seen(side.to));
+      });
   return area;
 }
 

@@ -110,7 +110,8 @@ Result<MeasureReport> findOnMap(const TriangleMesh& mesh, const TinPlace& place,
         }
       return (west + east) / 2;
     };
-    const double turn = turnOf(*target), shift = turn * std::round((middle(mesh.positions) - middle(places)) / turn);
+    const double turn = turnOf(*target),
+                 shift = turn * std::round((middle(mesh.positions) - middle(places)) / turn);
     if (std::isfinite(shift))
       for (Vec3& p : places) p.x += shift;
   }
@@ -147,7 +148,8 @@ Result<MeasureReport> findOnMap(const TriangleMesh& mesh, const TinPlace& place,
       samples.all[nodataOf[i]].holders = !std::isnan(inside.tinHeights[i]);
   }
   const double n = double(std::max<std::size_t>(samples.all.size(), 1));
-  const double spacing = std::sqrt(std::max(high.x - low.x, 0.0)) * std::sqrt(std::max(high.y - low.y, 0.0) / n);
+  const double spacing =
+      std::sqrt(std::max(high.x - low.x, 0.0)) * std::sqrt(std::max(high.y - low.y, 0.0) / n);
   const double most = kBeyondRimPixels * spacing;
   std::vector<Vec2> vertices;
   vertices.reserve(mesh.positions.size());

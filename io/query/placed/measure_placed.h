@@ -18,7 +18,7 @@ inline constexpr double kBeyondRimPixels = 0.1;
 
 /// Where a TIN is, as its file says.
 struct TinPlace {
-  std::string crsWkt = {};                 ///< MeshFile::crsWkt
+  std::string crsWkt = {};               ///< MeshFile::crsWkt
   std::optional<Vec3> metresAbout = {};  ///< MeshFile::metresAbout
 };
 

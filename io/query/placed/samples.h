@@ -18,9 +18,9 @@ namespace arete::placed {
 
 /// A sample of a DEM, and what a TIN has there.
 struct PlacedSample {
-  std::uint64_t index = 0;  ///< in the DEM
-  Vec2 source;              ///< its plan position in the DEM
-  double height = 0;        ///< of the DEM; NaN of NODATA
+  std::uint64_t index = 0;                                ///< in the DEM
+  Vec2 source;                                            ///< its plan position in the DEM
+  double height = 0;                                      ///< of the DEM; NaN of NODATA
   double tin = std::numeric_limits<double>::quiet_NaN();  ///< of the TIN, in the DEM's unit
   std::uint32_t triangle = 0;
   std::uint8_t holders = 0;  ///< triangles that it is strictly inside of; 2: or more

@@ -26,7 +26,8 @@ class Place : public Cli {
   Outcome measurePromise(const std::string& output, const Outcome& extracted,
                          const std::vector<std::string>& more = {}) const {
     const Json made = extracted.json()["exports"][0];
-    std::vector<std::string> words = {"measure", output, "dem.tif", "--json", "--expect", made["promisedError"].dump()};
+    std::vector<std::string> words = {"measure", output,     "dem.tif",
+                                      "--json",  "--expect", made["promisedError"].dump()};
     words.insert(words.end(), more.begin(), more.end());
     return run(words);
   }
@@ -65,7 +66,8 @@ TEST_F(Place, MeasureFindsThePromiseKeptWhereTheFileSaysItIs) {
     SCOPED_TRACE(output);
     const Outcome utm = extract(output, {"--to-crs", "utm"});
     ASSERT_EQ(utm.code, 0) << utm.err;
-    EXPECT_NE(utm.json()["exports"][0]["placed"]["target"].get<std::string>().find("UTM zone"), std::string::npos);
+    EXPECT_NE(utm.json()["exports"][0]["placed"]["target"].get<std::string>().find("UTM zone"),
+              std::string::npos);
     const Outcome measured = measurePromise(output, utm);
     EXPECT_EQ(measured.code, 0) << measured.out << measured.err;
   }

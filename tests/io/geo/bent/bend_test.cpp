@@ -19,12 +19,14 @@ Georeference wgs84() {
 }
 
 /// A grid of triangles over degrees, with heights of their own.
-TriangleMesh grid(double west, double south, double step, int columns, int rows, unsigned seed, double relief) {
+TriangleMesh grid(double west, double south, double step, int columns, int rows, unsigned seed,
+                  double relief) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> height(0, relief);
   TriangleMesh mesh;
   for (int r = 0; r < rows; ++r)
-    for (int c = 0; c < columns; ++c) mesh.positions.push_back({west + c * step, south + r * step, height(random)});
+    for (int c = 0; c < columns; ++c)
+      mesh.positions.push_back({west + c * step, south + r * step, height(random)});
   const auto at = [&](int c, int r) { return static_cast<std::uint32_t>(r * columns + c); };
   for (int r = 0; r + 1 < rows; ++r)
     for (int c = 0; c + 1 < columns; ++c) {
@@ -82,8 +84,8 @@ TEST(Bend, SplitsUntilATenthOfTheToleranceIsKept) {
     }
 }
 
-// The bound is for every point of a triangle: random points are led by the map, and the straight triangle that
-// is there is looked up by brute force.
+// The bound is for every point of a triangle: random points are led by the map, and the straight triangle
+// that is there is looked up by brute force.
 TEST(Bend, BoundsWhatBendingAddsAtRandomPoints) {
   const TriangleMesh mesh = grid(10, 68, 0.4, 4, 4, 3, 800);
   const PlaceMap map = PlaceMap::of(wgs84(), {.crs = "utm"}, mesh.positions, mesh.positions[0]).value();
@@ -98,7 +100,8 @@ TEST(Bend, BoundsWhatBendingAddsAtRandomPoints) {
     const auto corner = [&](int k) { return result.source.positions[result.source.triangles[t][k]]; };
     const Vec3 place = map(corner(0) + u * (corner(1) - corner(0)) + v * (corner(2) - corner(0)));
     for (const auto& c : result.mesh.triangles) {
-      const Vec3 &a = result.mesh.positions[c[0]], &b = result.mesh.positions[c[1]], &d = result.mesh.positions[c[2]];
+      const Vec3 &a = result.mesh.positions[c[0]], &b = result.mesh.positions[c[1]],
+                 &d = result.mesh.positions[c[2]];
       const double area = (b.x - a.x) * (d.y - a.y) - (b.y - a.y) * (d.x - a.x);
       const double s = ((place.x - a.x) * (d.y - a.y) - (place.y - a.y) * (d.x - a.x)) / area;
       const double r = ((b.x - a.x) * (place.y - a.y) - (b.y - a.y) * (place.x - a.x)) / area;
@@ -133,7 +136,8 @@ TEST(Bend, KeepsALongitudeInOnePieceAcrossTheAntimeridian) {
     all = east->x - west->x;
     for (const auto& t : result.mesh.triangles)
       for (int k = 0; k < 3; ++k)
-        widest = std::max(widest, std::abs(result.mesh.positions[t[k]].x - result.mesh.positions[t[(k + 1) % 3]].x));
+        widest = std::max(widest,
+                          std::abs(result.mesh.positions[t[k]].x - result.mesh.positions[t[(k + 1) % 3]].x));
     EXPECT_LT(widest, all / 4);
   }
 }

@@ -28,7 +28,8 @@ std::string nameOfUtm(const Georeference& source, const std::vector<Vec3>& box) 
 TEST(Utm, IsTheZoneOfTheMiddleOnTheDatumOfTheSource) {
   EXPECT_EQ(nameOfUtm(degreesOf(), boxAt(8, 46, 9, 47)), "WGS 84 / UTM zone 32N (EPSG:32632)");
   EXPECT_EQ(nameOfUtm(degreesOf(), boxAt(-71, -33, -70, -32)), "WGS 84 / UTM zone 19S (EPSG:32719)");
-  EXPECT_EQ(nameOfUtm(degreesOf("EPSG:4269"), boxAt(-108, 38, -107, 39)), "NAD83 / UTM zone 13N (EPSG:26913)");
+  EXPECT_EQ(nameOfUtm(degreesOf("EPSG:4269"), boxAt(-108, 38, -107, 39)),
+            "NAD83 / UTM zone 13N (EPSG:26913)");
   EXPECT_EQ(nameOfUtm(degreesOf("EPSG:4258"), boxAt(8, 46, 9, 47)), "ETRS89 / UTM zone 32N (EPSG:25832)");
 }
 
@@ -39,7 +40,7 @@ TEST(Utm, TakesLongitudesAcrossTheAntimeridianAndBeyondHalfATurn) {
 }
 
 TEST(Utm, KnowsTheWiderZonesOfNorwayAndSvalbard) {
-  EXPECT_EQ(utmZoneAt(4, 60, true).number, 32);   // Bergen
+  EXPECT_EQ(utmZoneAt(4, 60, true).number, 32);  // Bergen
   EXPECT_EQ(utmZoneAt(2, 60, true).number, 31);
   EXPECT_EQ(utmZoneAt(4, 60, false).number, 31);  // another planet
   EXPECT_EQ(utmZoneAt(8, 78, true).number, 31);
@@ -60,7 +61,8 @@ TEST(Utm, IsRefusedByNameBeyondAZoneAndBeyondItsLatitudes) {
     EXPECT_EQ(map.error().culprit, "toCrs utm");
     return map.error().message;
   };
-  EXPECT_NE(refused(degreesOf(), boxAt(0, 40, 14, 47)).find("more than 3 degrees beyond zone 32"), std::string::npos);
+  EXPECT_NE(refused(degreesOf(), boxAt(0, 40, 14, 47)).find("more than 3 degrees beyond zone 32"),
+            std::string::npos);
   EXPECT_EQ(refused(degreesOf(), boxAt(3, 40, 14, 47)), "accepted");
   EXPECT_NE(refused(degreesOf(), boxAt(-180, 60, 180, 84)).find("beyond zone"), std::string::npos);
   EXPECT_NE(refused(degreesOf(), boxAt(0, 80, 3, 85)).find("beyond UTM"), std::string::npos);

@@ -55,11 +55,13 @@ RasterHeightfield fieldOf(const DegreesDem& dem) {
   field.georeference = georeferenceOf("EPSG:4326", "m").value();
   field.georeference.hasGeoTransform = true;
   field.georeference.repeatsFirstColumn = dem.isClosed;
-  field.georeference.geoTransform = {dem.west - dem.stepX / 2, dem.stepX, 0, dem.north + dem.stepY / 2, 0, -dem.stepY};
+  field.georeference.geoTransform = {dem.west - dem.stepX / 2,  dem.stepX, 0,
+                                     dem.north + dem.stepY / 2, 0,         -dem.stepY};
   for (std::uint32_t r = 0; r < dem.rows; ++r)
     for (std::uint32_t c = 0; c < dem.columns; ++c) {
       const std::uint32_t column = dem.isClosed && c + 1 == dem.columns ? 0 : c;
-      const double slow = std::sin(0.31 * column + 1) * std::cos(0.23 * r), quick = std::sin(1.7 * column * (r + 1.0));
+      const double slow = std::sin(0.31 * column + 1) * std::cos(0.23 * r),
+                   quick = std::sin(1.7 * column * (r + 1.0));
       const bool isPole = dem.north - r * dem.stepY >= 90;
       field.heights.push_back(isPole ? 500 : std::round(600 + 500 * slow + 120 * quick));
     }
@@ -127,7 +129,8 @@ Checked check(const TriangleMesh& mesh, const RasterHeightfield& field, double r
 }
 
 /// Metres: vertices in a basis of each sample whose third direction is the normal of the ellipsoid there.
-Checked checkInMetres(const TriangleMesh& mesh, const RasterHeightfield& field, const Vec3& about, double reach) {
+Checked checkInMetres(const TriangleMesh& mesh, const RasterHeightfield& field, const Vec3& about,
+                      double reach) {
   const auto ellipsoid = [](Vec2 place, double height) {
     const double a = 6378137, f = 1 / 298.257223563, e2 = f * (2 - f), degree = std::numbers::pi / 180;
     const double lat = place.y * degree, lon = place.x * degree;
@@ -144,7 +147,8 @@ Checked checkInMetres(const TriangleMesh& mesh, const RasterHeightfield& field, 
   const auto axes = basis({about.x, about.y});
   const Vec3 origin = ellipsoid({about.x, about.y}, about.z);
   std::vector<Vec3> geocentric;
-  for (const Vec3& p : mesh.positions) geocentric.push_back(origin + p.x * axes[0] + p.y * axes[1] + p.z * axes[2]);
+  for (const Vec3& p : mesh.positions)
+    geocentric.push_back(origin + p.x * axes[0] + p.y * axes[1] + p.z * axes[2]);
   return check(mesh, field, reach, [&](Vec2 place) {
     const auto [east, north, up] = basis(place);
     const Vec3 foot = ellipsoid(place, 0);
@@ -159,8 +163,10 @@ Checked checkInMetres(const TriangleMesh& mesh, const RasterHeightfield& field, 
   });
 }
 
-Checked checkOnMap(const TriangleMesh& mesh, const RasterHeightfield& field, const std::string& crs, double reach) {
-  const std::unique_ptr<PJ_CONTEXT, decltype(&proj_context_destroy)> context(proj_context_create(), &proj_context_destroy);
+Checked checkOnMap(const TriangleMesh& mesh, const RasterHeightfield& field, const std::string& crs,
+                   double reach) {
+  const std::unique_ptr<PJ_CONTEXT, decltype(&proj_context_destroy)> context(proj_context_create(),
+                                                                             &proj_context_destroy);
   PJ* const plain = proj_create_crs_to_crs(context.get(), "EPSG:4326", crs.c_str(), nullptr);
   EXPECT_NE(plain, nullptr);
   PJ* const usual = proj_normalize_for_visualization(context.get(), plain);
@@ -175,8 +181,10 @@ Checked checkOnMap(const TriangleMesh& mesh, const RasterHeightfield& field, con
   return result;
 }
 
-void expectPromise(const DegreesDem& dem, const std::string& crs, double tolerance, const std::string& extension) {
-  SCOPED_TRACE(fmt::format("{} to {} at {} as {}", dem.name, crs.empty() ? "metres" : crs, tolerance, extension));
+void expectPromise(const DegreesDem& dem, const std::string& crs, double tolerance,
+                   const std::string& extension) {
+  SCOPED_TRACE(
+      fmt::format("{} to {} at {} as {}", dem.name, crs.empty() ? "metres" : crs, tolerance, extension));
   const RasterHeightfield field = fieldOf(dem);
   const auto model = build(field);
   ASSERT_TRUE(model) << model.error().describe();
@@ -233,7 +241,8 @@ INSTANTIATE_TEST_SUITE_P(MeasurePlaced, DegreesDems, testing::ValuesIn(kDems), [
 
 TEST(MeasurePlaced, FindsThePromiseKeptInEveryFormat) {
   for (const char* extension : {".obj", ".off", ".stl"}) expectPromise(kDems[0], "", 100, extension);
-  for (const char* extension : {".obj", ".off", ".gpkg", ".2dm"}) expectPromise(kDems[0], "utm", 100, extension);
+  for (const char* extension : {".obj", ".off", ".gpkg", ".2dm"})
+    expectPromise(kDems[0], "utm", 100, extension);
 }
 
 TEST(MeasurePlaced, FindsAPlantedError) {
