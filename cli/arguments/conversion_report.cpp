@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/mesh_options.h"
 #include "io/geo/crs/names.h"
 
 namespace arete {
@@ -32,6 +33,7 @@ std::string writtenText(const std::string& output, const ConvertedMesh& converte
     text += fmt::format("  {} joined at reading\n",
                         grouped(converted.joinedVertices, "vertex at the position of another was",
                                 "vertices at the positions of others were"));
+  if (converted.placed) text += fmt::format("  {}\n", placedText(*converted.placed).substr(2));
   if (converted.movedByFloats > 0) text += doublesText(converted.movedByFloats);
   for (const std::filesystem::path& file : converted.filesBeside)
     text += fmt::format("  beside it: {}\n", file.string());
@@ -43,18 +45,20 @@ Json writtenJson(const std::string& input, const std::string& output, std::strin
   Json beside = Json::array();
   for (const std::filesystem::path& file : converted.filesBeside) beside.push_back(file.string());
   const Vec3& r = converted.frame.rounding;
-  return {{"input", input},
-          {"output", output},
-          {"format", format},
-          {"triangles", converted.triangles},
-          {"vertices", converted.vertices},
-          {"joinedVertices", converted.joinedVertices},
-          {"crs", crsName(converted.crsWkt)},
-          {"verticalUnit", converted.verticalUnit},
-          {"movedByFloats", converted.movedByFloats},
-          {"rounding", {r.x, r.y, r.z}},
-          {"lost", converted.lost},
-          {"filesBeside", std::move(beside)}};
+  Json json = {{"input", input},
+               {"output", output},
+               {"format", format},
+               {"triangles", converted.triangles},
+               {"vertices", converted.vertices},
+               {"joinedVertices", converted.joinedVertices},
+               {"crs", crsName(converted.crsWkt)},
+               {"verticalUnit", converted.verticalUnit},
+               {"movedByFloats", converted.movedByFloats},
+               {"rounding", {r.x, r.y, r.z}},
+               {"lost", converted.lost},
+               {"filesBeside", std::move(beside)}};
+  if (converted.placed) json["placed"] = placedJsonOf(*converted.placed);
+  return json;
 }
 
 }  // namespace arete

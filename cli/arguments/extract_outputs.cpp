@@ -27,6 +27,7 @@ ExtractRequest ExtractOutputs::requestOf(const CutRequest& criterion, const std:
   ExtractRequest request;
   request.criterion = criterion;
   request.existing = existing;
+  request.place = place;
   request.output = outputName(output, tag, several);
   request.format = format;
   if (certificate)

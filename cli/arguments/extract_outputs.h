@@ -7,6 +7,7 @@
 
 #include "engine/base/result.h"
 #include "io/files/existing_file.h"
+#include "io/geo/bent/target.h"
 #include "io/query/request/extract_request.h"
 
 namespace arete {
@@ -19,6 +20,7 @@ struct ExtractOutputs {
   std::optional<std::string> certificate = {};  ///< --certificate; empty: beside the output
   std::string errorRaster = {};                 ///< --error-raster; empty: none
   std::string map = {};                         ///< --map; empty: none
+  PlaceTarget place = {};                       ///< --to-crs, --metric
   ExistingFile existing = ExistingFile::keepsOtherLayers;
 
   /// Checks what does not depend on a model. Errors: usage.

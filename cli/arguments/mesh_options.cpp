@@ -35,4 +35,34 @@ void addPlacingTo(CLI::App& command, MeshPlacing& placing) {
       ->type_name("UNIT");
 }
 
+PlaceOptions addPlaceTo(CLI::App& command, PlaceTarget& place) {
+  PlaceOptions options;
+  options.toCrs =
+      command
+          .add_option(
+              "--to-crs", place.crs,
+              "Lead the mesh into this CRS: EPSG:..., WKT, or utm, the zone of its middle. x is easting "
+              "or longitude, heights stay. Edges are split where bending adds more than a tenth of the "
+              "tolerance, and the error is stated anew")
+          ->type_name("CRS");
+  options.metric = command.add_flag("--metric", place.isMetric,
+                                    "Lead the mesh into metres to the east, north and up from an origin, as "
+                                    "a GLB is; split as with --to-crs");
+  return options;
+}
+
+std::string placedText(const PlacedFigures& placed) {
+  return fmt::format("; led into {}: {} and {} more, at most {} of error", placed.target,
+                     grouped(placed.addedVertices, "vertex", "vertices"),
+                     grouped(placed.addedTriangles, "triangle", "triangles"),
+                     withUnit(placed.added, placed.unit));
+}
+
+Json placedJsonOf(const PlacedFigures& placed) {
+  return {{"target", placed.target},
+          {"addedVertices", placed.addedVertices},
+          {"addedTriangles", placed.addedTriangles},
+          {"addedError", placed.added}};
+}
+
 }  // namespace arete

@@ -7,6 +7,8 @@
 #include "cli/session/session.h"
 #include "io/formats/exchange/convert.h"
 #include "io/formats/exchange/mesh_formats.h"
+#include "io/formats/exchange/placed_mesh.h"
+#include "io/geo/bent/target.h"
 
 namespace arete {
 
@@ -20,5 +22,16 @@ Result<MeshTarget> meshTarget(const MeshOutput& output, const std::string& input
 
 /// The options --up and --unit of every command that writes a mesh.
 void addPlacingTo(CLI::App& command, MeshPlacing& placing);
+
+/// The options --to-crs and --metric of every command that writes meshes of terrain.
+struct PlaceOptions {
+  CLI::Option *toCrs = nullptr, *metric = nullptr;
+};
+PlaceOptions addPlaceTo(CLI::App& command, PlaceTarget& place);
+
+/// ", led into WGS 84 / UTM zone 32N (EPSG:32632): 12 vertices, 20 triangles and at most 0.4 m of error
+/// more".
+std::string placedText(const PlacedFigures& placed);
+Json placedJsonOf(const PlacedFigures& placed);
 
 }  // namespace arete

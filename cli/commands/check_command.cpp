@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "io/files/shell_text.h"
+#include "io/formats/exchange/mesh_formats.h"
 #include "io/geo/dem/raster_writer.h"
 
 namespace arete {
@@ -76,6 +77,10 @@ std::string checkCommand(const ExtractRequest& request, const TerrainModel& mode
   if (!c.region.empty()) command += fmt::format(" --region {}", shellQuoted(c.region));
   if (!c.regionCrs.empty()) command += fmt::format(" --region-crs {}", shellQuoted(c.regionCrs));
   if (c.distance > 0) command += fmt::format(" --distance {}", c.distance);
+  // An STL has no place for a CRS.
+  if (const auto format = meshFormatOf(request.output, request.format);
+      !request.place.crs.empty() && format && !format->holds.holdsCrs)
+    command += fmt::format(" --tin-crs {}", shellQuoted(request.place.crs));
   if (model.options.rimTolerance > 0) command += " --allow-covered-nodata";
   return command;
 }

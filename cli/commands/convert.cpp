@@ -20,6 +20,7 @@
 #include "io/files/text_scan.h"
 #include "io/formats/exchange/convert.h"
 #include "io/formats/exchange/mesh_formats.h"
+#include "io/geo/bent/target.h"
 #include "io/query/extract/model_file.h"
 #include "io/store/amt/file.h"
 
@@ -33,6 +34,7 @@ struct ConvertArguments {
   int positionBits = 0;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   MeshPlacing placing;
+  PlaceTarget place;
   std::vector<std::string> dropAttributes;
   OptionKinds kinds;
 };
@@ -60,6 +62,9 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
   if (!arguments.placing.isNothing())
     return failure(ErrorCode::usage, "is for meshes; an .amt states its axes and units",
                    arguments.placing.unit.empty() ? "--up" : "--unit");
+  if (arguments.place.isStated())
+    return failure(ErrorCode::usage, "is for meshes; `arete extract` leads a cut there",
+                   arguments.place.isMetric ? "--metric" : fmt::format("--to-crs {}", arguments.place.crs));
   ARETE_CHECK(checkOutput("--output", output, {arguments.input}));
   ARETE_TRY(AmtContainer file, openModelFile(arguments.input));
   ARETE_CHECK(arguments.kinds.refuseOther(kindOf(file)));
@@ -97,7 +102,8 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
                                                       {.crs = arguments.crs,
                                                        .format = arguments.output.format,
                                                        .existing = arguments.existing,
-                                                       .placing = arguments.placing},
+                                                       .placing = arguments.placing,
+                                                       .place = arguments.place},
                                                       session.context());
   if (!converted) {
     Error error = converted.error();
@@ -122,6 +128,7 @@ void addConvertCommand(CLI::App& app, Session& session) {
                          "  arete convert tin.stl -o tin.gpkg --crs EPSG:32611\n"
                          "  arete convert tin.gpkg -o tin.2dm --json\n"
                          "  arete convert scan.obj -o scan.glb --up z --unit mm\n"
+                         "  arete convert tin.ply -o tin.stl --metric\n"
                          "  arete convert scan.gltf -o - --format ply | gzip > scan.ply.gz\n"
                          "  arete convert dem.amt -o small.amt --packed",
                          [arguments](Session& s) { return runConvert(*arguments, s); });
@@ -135,10 +142,11 @@ void addConvertCommand(CLI::App& app, Session& session) {
   arguments->kinds.ofSurfaces(addPositionBitsTo(*command, arguments->positionBits));
   command
       ->add_option("--crs", arguments->crs,
-                   "CRS of the coordinates, where the file has none; nothing is reprojected")
+                   "CRS of the coordinates, where the file has none; --to-crs leads them into another")
       ->type_name("CRS");
   addDropAttributesTo(*command, arguments->dropAttributes);
   addPlacingTo(*command, arguments->placing);
+  addPlaceTo(*command, arguments->place);
 }
 
 }  // namespace arete

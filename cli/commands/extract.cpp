@@ -18,12 +18,14 @@
 #include "cli/arguments/criterion.h"
 #include "cli/arguments/drop_attributes.h"
 #include "cli/arguments/extract_outputs.h"
+#include "cli/arguments/mesh_options.h"
 #include "cli/arguments/option_kinds.h"
 #include "cli/commands/check_command.h"
 #include "cli/commands/extract_text.h"
 #include "cli/session/model_file.h"
 #include "cli/surface/extract.h"
 #include "io/formats/exchange/mesh_formats.h"
+#include "io/geo/bent/target.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/map_scale.h"
 #include "io/geo/dem/raster_writer.h"
@@ -62,6 +64,7 @@ struct ExtractArguments {
   std::string dropParts;
   std::vector<std::string> dropAttributes;
   bool measuresBothWays = false, staysUndisplaced = false;
+  PlaceTarget place;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   CLI::Option* certificateOption = nullptr;
   OptionKinds kinds;
@@ -71,6 +74,7 @@ struct ExtractArguments {
                            .format = output.format,
                            .errorRaster = errorRaster,
                            .map = map,
+                           .place = place,
                            .existing = existing};
     outputs.isStdout = outputs.output != output.path;
     if (certificateOption->count() > 0) outputs.certificate = certificate;
@@ -90,6 +94,7 @@ Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments
   for (const ExtractRequest& request : requests) {
     if (Status known = checkExtractOutput(request.output, model, request.format); !known)
       return failure(known.error().code, known.error().message, fmt::format("--output {}", request.output));
+    ARETE_CHECK(checkExtractPlace(request));
     if (arguments.criterion.hasDeadline() && request.format.empty() && isGeoTiffName(request.output))
       return failure(ErrorCode::usage, "cannot be a raster with --deadline; write a mesh",
                      fmt::format("--output {}", request.output));
@@ -219,6 +224,7 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
       tin.relief = wholes->length;
       tin.finestTriangles = wholes->triangles;
     }
+    session.warn(tin.warnings, request.output);
     warnOfRounding(tin, request.output, verticalUnit, session);
     session.say(extractText(request, tin, verticalUnit));
     exports.push_back(toJson(request, ExtractReport(tin)));
@@ -254,6 +260,8 @@ void addExtractCommand(CLI::App& app, Session& session) {
       "  arete extract scan.amt -o small.glb --max-error 0.5% --certificate\n"
       "  arete extract scan.amt -o small.ply --max-triangles 10%,2%       small_10%.ply, small_2%.ply\n"
       "  arete extract scan.amt -o small.ply --max-error 0.1% --focus 1,2,0.5 --error-growth 0.01\n"
+      "  arete extract dem.amt -o tin.stl --max-error 5 --metric\n"
+      "  arete extract dem.amt -o tin.obj --max-error 5 --to-crs utm\n"
       "  arete extract dem.amt -o smooth.tif --max-error 5 --error-raster error.tif",
       [arguments](Session& s) { return runExtract(*arguments, s); });
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
@@ -264,6 +272,9 @@ void addExtractCommand(CLI::App& app, Session& session) {
       {".tif", ".tiff"});
   addOverwriteTo(*command, arguments->existing);
   OptionKinds& kinds = arguments->kinds;
+  const PlaceOptions placed = addPlaceTo(*command, arguments->place);
+  kinds.ofTerrain(placed.toCrs);
+  kinds.ofTerrain(placed.metric);
   arguments->criterion.addTo(*command, kinds);
   arguments->certificateOption =
       command

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/mesh_options.h"
 #include "io/query/extract/extract.h"
 
 namespace arete {
@@ -36,6 +37,7 @@ std::string extractText(const ExtractRequest& request, const ExtractedTin& tin, 
     text += fmt::format("; mean error {} before the fit", withUnit(tin.fit->meanBefore, unit));
   else if (tin.fit)
     text += fmt::format("; {} before the fit", withUnit(tin.fit->errorBefore, unit));
+  if (tin.placed) text += placedText(*tin.placed);
   if (tin.measured) text += fmt::format("; measured {}", withUnit(tin.measured->maxAbsError, unit));
   if (tin.measured && request.criterion.fit == CutFit::unbiased)
     text += fmt::format(", mean {}", withUnit(tin.measured->meanError, unit));

@@ -28,6 +28,7 @@
 #include "io/query/certificate/report_json.h"
 #include "io/query/extract/model_file.h"
 #include "io/query/extract/region_argument.h"
+#include "io/query/placed/measure_placed.h"
 #include "terrain/measure/measure.h"
 #include "terrain/model/plan_region.h"
 #include "terrain/model/relief.h"
@@ -40,7 +41,7 @@ struct MeasureArguments {
   DemArguments dem;
   std::string expectText;
   std::string distanceWithUnit;  // as checkGroundUnits() takes it
-  std::string region, regionCrs, errorRaster;
+  std::string region, regionCrs, errorRaster, tinCrs;
   double distance = 0;
   bool allowCoveredNodata = false, measuresBothWays = false;
   std::int64_t samples = 0, seed = -1;  // not stated
@@ -62,10 +63,11 @@ Status checkKind(const MeasureArguments& arguments, bool isMesh) {
 }
 
 void compareFrames(const MeshFile& tin, const Georeference& georeference, const Session& session) {
-  if (compareCrs(tin.crsWkt, georeference.crsWkt) == CrsAgreement::different)
-    session.warn(fmt::format("the TIN is in {}, the DEM in {}: they are compared as if they were in one",
-                             crsName(tin.crsWkt), crsName(georeference.crsWkt)));
-  if (!tin.verticalUnit.empty() && !georeference.verticalUnit.empty() &&
+  if (tin.metresAbout && georeference.crsWkt.empty())
+    session.warn(
+        "the TIN is in metres about a place of a CRS, and the DEM has none: they are compared as if they "
+        "were in one");
+  if (!tin.metresAbout && !tin.verticalUnit.empty() && !georeference.verticalUnit.empty() &&
       tin.verticalUnit != georeference.verticalUnit)
     session.warn(
         fmt::format("the TIN's heights are in '{}', the DEM's in '{}': they are compared as they are",
@@ -107,6 +109,10 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
                Session& session) {
   constexpr bool isRaster = std::is_same_v<Heightfield, RasterHeightfield>;
   const Georeference& georeference = field.georeference;
+  if (!arguments.tinCrs.empty() && compareCrs(arguments.tinCrs, tin.crsWkt) == CrsAgreement::different)
+    return failure(ErrorCode::usage,
+                   fmt::format("contradicts {}, which is in {}", arguments.tin, crsName(tin.crsWkt)),
+                   fmt::format("--tin-crs {}", arguments.tinCrs));
   compareFrames(tin, georeference, session);
   ARETE_CHECK(checkGroundUnits(georeference, {arguments.distanceWithUnit}));
   ARETE_TRY(const auto mask, maskOf(arguments, field, session));
@@ -114,8 +120,13 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
   options.mask = mask;
   options.planRounding = {tin.frame.rounding.x, tin.frame.rounding.y};
   MeasureRasters rasters;
-  ARETE_TRY(const MeasureReport report, measure(tin.mesh, field, options, session.context(),
-                                                arguments.errorRaster.empty() ? nullptr : &rasters));
+  MeasureRasters* const into = arguments.errorRaster.empty() ? nullptr : &rasters;
+  const TinPlace place{.crsWkt = tin.crsWkt.empty() ? arguments.tinCrs : tin.crsWkt,
+                       .metresAbout = tin.metresAbout};
+  const bool isApart = isElsewhere(place, georeference);
+  ARETE_TRY(const MeasureReport report,
+            isApart ? measureElsewhere(tin.mesh, place, field, options, session.context(), into)
+                    : measure(tin.mesh, field, options, session.context(), into));
   if (!arguments.errorRaster.empty()) ARETE_CHECK(writeErrors(arguments, field, rasters, session));
 
   const bool expects = !arguments.expectText.empty();
@@ -129,8 +140,12 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
   const Status promise =
       expects ? checkPromise(report, expected, {.allowCoveredNodata = arguments.allowCoveredNodata})
               : Status();
-  session.say(fmt::format("{} against {}{}\n{}", arguments.tin, nameWithoutQuery(arguments.dem.path),
-                          arguments.region.empty() ? "" : fmt::format(" in {}", arguments.region),
+  const std::string where = !isApart ? ""
+                            : place.metresAbout
+                                ? ", in metres, where each sample is"
+                                : fmt::format(", in {}, where each sample is", crsName(place.crsWkt));
+  session.say(fmt::format("{} against {}{}{}\n{}", arguments.tin, nameWithoutQuery(arguments.dem.path),
+                          arguments.region.empty() ? "" : fmt::format(" in {}", arguments.region), where,
                           measureReportText(report, georeference.verticalUnit, isRaster)));
   if (expects && promise)
     session.say(fmt::format("kept: nowhere more than {}\n",
@@ -217,6 +232,12 @@ void addMeasureCommand(CLI::App& app, Session& session) {
           "the first. E% is a share of the DEM's relief, or of the second mesh's diagonal")
       ->check(shareOrTolerance())
       ->type_name("E");
+  kinds.ofTerrain(
+      command
+          ->add_option(
+              "--tin-crs", arguments->tinCrs,
+              "CRS of the TIN, where its file states none (an STL): the DEM's samples are led into it")
+          ->type_name("CRS"));
   kinds.ofTerrain(command->add_flag("--allow-covered-nodata", arguments->allowCoveredNodata,
                                     "Accept covered NODATA (of a build with --rim-tolerance)"));
   CLI::Option* region = kinds.ofTerrain(

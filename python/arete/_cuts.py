@@ -85,7 +85,8 @@ class Tin(Mesh):
 
     def save(self, path: PathLike, progress: Progress = None, *, certificate: Union[bool, PathLike, None] = None,
              error_raster: Optional[PathLike] = None, map: Optional[PathLike] = None,
-             drop_attributes: Union[str, Sequence[str]] = (), both_ways: bool = False) -> List[str]:
+             drop_attributes: Union[str, Sequence[str]] = (), both_ways: bool = False, to_crs: Optional[str] = None,
+             metric: bool = False) -> List[str]:
         """Writes a mesh in the format that the name says, with its CRS, unit, errors and, of a surface, attributes; of a
         raster also .tif, the TIN sampled on the source's grid.
 
@@ -97,19 +98,23 @@ class Tin(Mesh):
         error_raster: of terrain, a GeoTIFF of the TIN minus the DEM. map: of a surface, a CSV of the vertices and faces of
             the source. drop_attributes: of a surface, names to leave out. both_ways: measures a surface that way too.
 
+        Terrain is led into another CRS by to_crs ("EPSG:32632", WKT, or "utm", the zone of its middle), or by metric into
+        metres to the east, north and up. Edges are split where bending adds more than a tenth of the error.
+
         Returns what the format cannot hold: ["the CRS"].
         """
         name = os.fspath(path)
         names = _checks.names_of(drop_attributes)
         is_raster = name.lower().endswith((".tif", ".tiff"))
         if not (certificate or error_raster or map or names or both_ways or is_raster):
-            return list(self._tin.save(name, progress))
+            return list(self._tin.save(name, to_crs or "", bool(metric), progress))
         is_surface = len(self.source_vertices) > 0
         for option, value in (("map", map), ("drop_attributes", names), ("both_ways", both_ways)):
             if value and not is_surface:
                 raise TypeError(f"{option} is for surfaces")
-        if error_raster and is_surface:
-            raise TypeError("error_raster is for terrain")
+        for option, value in (("error_raster", error_raster), ("to_crs", to_crs), ("metric", metric)):
+            if value and is_surface:
+                raise TypeError(f"{option} is for terrain")
         if self._export is None:
             raise ValueError("a Tin that was pickled, or made in another process, has no model to be measured against")
         files = _arete.ExportFiles()
@@ -120,6 +125,8 @@ class Tin(Mesh):
         files.map = "" if map is None else os.fspath(map)
         files.drop_attributes = names
         files.both_ways = both_ways
+        files.to_crs = to_crs or ""
+        files.metric = metric
         return self._export.write(files, progress)
 
     def __reduce__(self) -> Tuple[Callable[..., Any], Tuple[Any, ...]]:

@@ -52,7 +52,7 @@ class Mesh:
 
         Returns what the format cannot hold: ["the CRS"].
         """
-        return list(self._tin.save(os.fspath(path), progress))
+        return list(self._tin.save(os.fspath(path), "", False, progress))
 
     def slopes(self) -> NDArray[np.float64]:
         """(m,): how steep each triangle is, in degrees from the horizontal, on the ground: degrees and feet are taken as

@@ -6,11 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "io/geo/bent/target.h"
+
 namespace arete::python {
 
 /// What an export writes; empty: not that.
 struct ExportFiles {
   std::string output, certificate, errorRaster, map;
+  PlaceTarget place = {};                        ///< of terrain
   std::string model;                             ///< the .amt, for the certificate
   std::string checkBefore, checkBehind;          ///< the call that checks it, around the promised error
   std::vector<std::string> dropAttributes = {};  ///< of a surface

@@ -106,6 +106,7 @@ std::string extractTo(const Terrain& terrain, const CutRequest& asked,
   std::string answer = call(progress, [&](const RunContext& context) -> Result<std::string> {
     ExtractRequest request;
     request.output = files.output;
+    request.place = files.place;
     request.certificate = files.certificate;
     request.errorRaster = files.errorRaster;
     ARETE_TRY(request.criterion, placedRequest(terrain, asked, region, camera, true, warnings, context));

@@ -101,6 +101,12 @@ void defineExportFiles(py::module_& module) {
       .def_readwrite("certificate", &ExportFiles::certificate)
       .def_readwrite("error_raster", &ExportFiles::errorRaster)
       .def_readwrite("map", &ExportFiles::map)
+      .def_property(
+          "to_crs", [](const ExportFiles& files) { return files.place.crs; },
+          [](ExportFiles& files, const std::string& crs) { files.place.crs = crs; })
+      .def_property(
+          "metric", [](const ExportFiles& files) { return files.place.isMetric; },
+          [](ExportFiles& files, bool isMetric) { files.place.isMetric = isMetric; })
       .def_readwrite("model", &ExportFiles::model)
       .def_readwrite("check_before", &ExportFiles::checkBefore)
       .def_readwrite("check_behind", &ExportFiles::checkBehind)
@@ -135,9 +141,11 @@ void defineTin(py::module_& module) {
         return CutTin(std::move(tin));
       }))
       .def("save",
-           [](const CutTin& self, const std::string& path, const py::object& progress) {
-             const MeshWriteReport report =
-                 call(progress, [&](const RunContext& context) { return write(self.tin, path, context); });
+           [](const CutTin& self, const std::string& path, const std::string& toCrs, bool isMetric,
+              const py::object& progress) {
+             const PlaceTarget place{.crs = toCrs, .isMetric = isMetric};
+             const MeshWriteReport report = call(
+                 progress, [&](const RunContext& context) { return write(self.tin, path, place, context); });
              return lostOf(self, path, report.lost);
            })
       .def_property_readonly(

@@ -37,6 +37,9 @@ struct MeshFile {
   SurfaceMesh mesh;          ///< in source coordinates if the file states its frame, else as in the file
   std::string crsWkt;        ///< empty if the file has none
   std::string verticalUnit;  ///< empty if the file has none
+  /// Positions are metres to the east, to the north and up from this place, which is in the coordinates of a
+  /// source that the file does not have (MeshWriteOptions::metresAbout).
+  std::optional<Vec3> metresAbout;
   /// One per triangle, finite and not negative; empty if the file has none.
   std::vector<float> triangleErrors;
   MeshFrame frame;
@@ -65,6 +68,9 @@ struct MeshWriteOptions {
   /// positions. Default: a vertex near the middle of the mesh. Files with the same origin align in any
   /// program.
   std::optional<Vec3> origin = {};
+  /// Positions are metres to the east, to the north and up from this place of the source: its x, y and
+  /// height.
+  std::optional<Vec3> metresAbout = {};
   /// The format by its extension ("ply"), where the file name does not say it: a pipe has none.
   std::string format = {};
   /// Further comment lines.

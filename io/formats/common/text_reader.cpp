@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/files/text_scan.h"
+#include "io/formats/common/comments.h"
 #include "io/formats/common/finite.h"
 
 namespace arete {
@@ -54,6 +55,8 @@ void MeshTextReader::takeComment(std::string_view comment) {
   };
   take("crs ", mesh_.crsWkt);
   take("vertical_unit ", mesh_.verticalUnit);
+  if (comment.starts_with(kMetresAboutKey))
+    mesh_.metresAbout = readPlaceNumbers(comment.substr(kMetresAboutKey.size()));
 }
 
 bool MeshTextReader::isKeyword(std::string_view word) {

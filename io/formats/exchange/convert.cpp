@@ -14,8 +14,10 @@
 #include <vector>
 
 #include "io/formats/exchange/grouped_faces.h"
+#include "io/formats/exchange/placed_mesh.h"
 #include "io/formats/exchange/written_mesh.h"
 #include "io/formats/glb/texture_transform.h"
+#include "io/geo/bent/place_map.h"
 #include "io/geo/crs/names.h"
 #include "io/geo/crs/reader.h"
 #include "io/geo/gdal/support.h"
@@ -54,6 +56,42 @@ Status place(MeshFile& mesh, const ConvertOptions& options, const MeshFormat& fo
   return placeMesh(mesh, placing, MeshUp::z);
 }
 
+constexpr double kUsualTolerance = 1;  // metres, of a file that states no errors
+
+/// Leads the mesh into the place that the options state.
+Status lead(MeshFile& mesh, const ConvertOptions& options, const MeshFormat& format, ConvertedMesh& converted,
+            MeshWriteOptions& writing, const RunContext& context) {
+  ARETE_TRY(const Georeference georeference, georeferenceOf(mesh.crsWkt, mesh.verticalUnit));
+  const double tolerance = mesh.triangleErrors.empty() ? kUsualTolerance / georeference.verticalUnitMetres
+                                                       : double{std::ranges::max(mesh.triangleErrors)};
+  ARETE_TRY(PlacedMesh placed,
+            placeInTarget(mesh.mesh, mesh.triangleErrors, georeference, options.place, format,
+                          {.tolerance = tolerance, .origin = mesh.frame.origin}, context));
+  const bool isSplit = placed.mesh.triangles.size() != mesh.mesh.triangles.size() ||
+                       placed.mesh.positions.size() != mesh.mesh.positions.size();
+  const MeshAttributes& has = mesh.mesh;
+  if (isSplit &&
+      (!has.vertexAttributes.empty() || !has.wedgeAttributes.empty() || !has.triangleAttributes.empty() ||
+       !has.materials.empty() || !has.objects.empty() || !has.groups.empty()))
+    return failure(ErrorCode::usage,
+                   "bends the mesh, whose edges are split where that matters, and splits keep no attributes; "
+                   "`dropAttributes` leaves them out",
+                   options.place.isMetric ? "metric" : fmt::format("toCrs {}", options.place.crs));
+  mesh.mesh.positions = std::move(placed.mesh.positions);
+  mesh.mesh.triangles = std::move(placed.mesh.triangles);
+  if (!mesh.triangleErrors.empty()) mesh.triangleErrors = placed.errors;
+  mesh.crsWkt = placed.crsWkt;
+  mesh.verticalUnit = placed.verticalUnit;
+  mesh.metresAbout = placed.metresAbout;
+  mesh.frame = {.origin = placed.origin};
+  mesh.up = MeshUp::z;
+  placed.describe(writing);
+  writing.triangleErrors = mesh.triangleErrors;
+  converted.warnings.insert(converted.warnings.end(), placed.warnings.begin(), placed.warnings.end());
+  converted.placed = std::move(placed.figures);
+  return {};
+}
+
 std::vector<Vec3> usedPositions(const TriangleMesh& mesh) {
   std::vector<bool> isUsed(mesh.positions.size(), false);
   for (const auto& triangle : mesh.triangles)
@@ -87,18 +125,26 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   if (!format.holds.isYUp)
     for (std::string& sentence : applyTextureTransforms(mesh.mesh, !format.holds.holdsTextureTransforms))
       converted.warnings.push_back({WarningCode::omitted, std::move(sentence)});
+  MeshWriteOptions writing;
+  if (options.place.isStated()) {
+    ARETE_CHECK(lead(mesh, options, format, converted, writing, context));
+  } else if (auto degrees = warningOfDegrees(format, mesh.crsWkt, mesh.verticalUnit)) {
+    converted.warnings.push_back(std::move(*degrees));
+  }
   converted.triangles = mesh.mesh.triangles.size();
   converted.vertices = mesh.mesh.positions.size();
   converted.joinedVertices = mesh.joinedVertices;
-  const MeshWriteOptions writing{.crsWkt = mesh.crsWkt,
-                                 .verticalUnit = mesh.verticalUnit,
-                                 .triangleErrors = mesh.triangleErrors,
-                                 .origin = mesh.frame.origin,
-                                 .format = options.format,
-                                 .notes = {},
-                                 .existing = options.existing,
-                                 .up = mesh.up,
-                                 .pictureFolder = mesh.folder};
+  writing = MeshWriteOptions{.crsWkt = mesh.crsWkt,
+                             .verticalUnit = mesh.verticalUnit,
+                             .verticalUnitMetres = writing.verticalUnitMetres,
+                             .triangleErrors = mesh.triangleErrors,
+                             .origin = mesh.frame.origin,
+                             .metresAbout = mesh.metresAbout,
+                             .format = options.format,
+                             .notes = std::move(writing.notes),
+                             .existing = options.existing,
+                             .up = mesh.up,
+                             .pictureFolder = mesh.folder};
   std::vector<std::uint32_t> triangleOf = trianglesOfFile(mesh.mesh, format);
   const Result<WrittenMesh> written = writeAndReadBack(mesh.mesh, path, writing, true, context);
   // A CRS that this format needs and GDAL does not understand is a fault of the mesh, not of the output.

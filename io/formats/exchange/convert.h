@@ -11,15 +11,18 @@
 #include "engine/parallel/run_context.h"
 #include "io/formats/exchange/axes.h"
 #include "io/formats/exchange/mesh_formats.h"
+#include "io/formats/exchange/placed_mesh.h"
 
 namespace arete {
 
 struct ConvertOptions {
-  std::string crs = {};     ///< any text that GDAL accepts; empty: that of the mesh. Nothing is reprojected.
+  std::string crs = {};     ///< any text that GDAL accepts; empty: that of the mesh
   std::string format = {};  ///< MeshWriteOptions::format
   /// What happens to the other layers of a GeoPackage that exists.
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   MeshPlacing placing = {};  ///< what the file does not say of its axes and its unit
+  /// Where the coordinates are led; only from a CRS, which the file has or `crs` states.
+  PlaceTarget place = {};
   /// Whether the coordinates of the source are floats; empty: if those of the mesh are.
   std::optional<bool> isOfFloats = {};
 };
@@ -34,6 +37,7 @@ struct ConvertedMesh {
   std::uint64_t triangles = 0, vertices = 0;       ///< of the mesh
   std::uint64_t joinedVertices = 0;                ///< MeshFile::joinedVertices
   std::vector<std::uint32_t> triangleOf;           ///< trianglesOfFile()
+  std::optional<PlacedFigures> placed;             ///< with ConvertOptions::place
   Warnings warnings;
   /// Of a PLY with doubles of a source with floats, which so takes twice the bytes for its coordinates: how
   /// far floats would have moved one; otherwise 0.
@@ -47,8 +51,12 @@ double movedByFloats(const TriangleMesh& mesh);
 /// errors as far as the format can hold them. A mesh is turned and scaled only where options.placing says so
 /// (placeMesh()), and a mesh of which y is up where options.crs states a CRS, in which z is up.
 ///
-/// Errors: those of writeMesh() and placeMesh(). usage, with the text as culprit: options.crs is not a CRS;
-/// culprit `unit`: options.crs states the unit. O(size), O(n log n) to a format that rounds.
+/// With a place, edges are split where bending adds more than a tenth of the largest error of a triangle that
+/// the file states, or of a metre where it states none (placeInTarget()).
+///
+/// Errors: those of writeMesh(), placeMesh() and placeInTarget(). usage: attributes that splits cannot keep.
+/// usage, with the text as culprit: options.crs is not a CRS; culprit `unit`: options.crs states the unit.
+/// O(size), O(n log n) to a format that rounds.
 Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& path,
                                   const ConvertOptions& options = {}, const RunContext& context = {});
 

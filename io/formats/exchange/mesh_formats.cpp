@@ -121,7 +121,7 @@ Result<MeshFile> readAs(const std::filesystem::path& path, const RunContext& con
   // A NaN, infinite or negative error is invalid; then the file counts as one without errors.
   if (!std::ranges::all_of(file->triangleErrors, [](float e) { return e >= 0 && std::isfinite(e); }))
     file->triangleErrors.clear();
-  if (!file->crsWkt.empty()) file->up = MeshUp::z;
+  if (!file->crsWkt.empty() || file->metresAbout) file->up = MeshUp::z;
   if (!isNoFile(path)) file->folder = path.has_parent_path() ? path.parent_path() : ".";
   if (const Status joined = joinSoup(*file, context); !joined)
     return failure(joined.error().code, joined.error().message, path.string());

@@ -13,6 +13,7 @@
 
 #include "io/files/file_bytes.h"
 #include "io/files/text_scan.h"
+#include "io/formats/common/comments.h"
 #include "io/formats/ply/data.h"
 #include "io/formats/ply/header.h"
 #include "io/formats/ply/notes.h"
@@ -77,6 +78,8 @@ PlyComments takeComments(const PlyHeader& header, MeshFile& file) {
   for (const std::string& comment : header.comments) {
     takeComment(comment, "crs", file.crsWkt);
     takeComment(comment, "vertical_unit", file.verticalUnit);
+    if (comment.starts_with(kMetresAboutKey))
+      file.metresAbout = readPlaceNumbers(std::string_view(comment).substr(kMetresAboutKey.size()));
     if (auto picture = plyTextureFile(comment)) comments.pictures.push_back(std::move(*picture));
     if (comments.notes.size() < kMostNotes)
       if (auto note = plyNoteOf(comment)) comments.notes.push_back(std::move(*note));

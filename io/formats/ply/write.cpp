@@ -14,6 +14,7 @@
 #include "io/files/file_writer.h"
 #include "io/files/text_scan.h"
 #include "io/files/write_progress.h"
+#include "io/formats/common/comments.h"
 #include "io/formats/common/losses.h"
 #include "io/formats/ply/columns.h"
 #include "io/formats/ply/ply.h"
@@ -77,6 +78,8 @@ std::string headerOf(const TriangleMesh& mesh, const MeshWriteOptions& options, 
   if (!options.crsWkt.empty()) header += commentLines("crs ", "crs+ ", text::onOneLine(options.crsWkt));
   if (!options.verticalUnit.empty())
     header += fmt::format("comment vertical_unit {}\n", text::onOneLine(options.verticalUnit));
+  if (options.metresAbout)
+    header += fmt::format("comment {}{}\n", kMetresAboutKey, metresAboutText(*options.metresAbout));
   for (const std::string& note : options.notes) header += commentLines("", "", text::onOneLine(note));
   for (const PlyNote& note : columns.notes) header += plyComment(note);
   for (const std::string& picture : textures.pictures)

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "io/files/text_scan.h"
+#include "io/formats/common/comments.h"
 #include "io/formats/stl/facet_colors.h"
 #include "io/formats/stl/read_parts.h"
 
@@ -77,6 +78,15 @@ class BinaryStlReader {
       while (!header.empty() && (header.back() == ' ' || header.back() == '\0')) header.remove_suffix(1);
       isOurs_ = true;
       result_.mesh.objects.emplace_back(header);
+      return {};
+    }
+    if (header.starts_with(kStlMetresKey)) {
+      result_.metresAbout = readPlaceNumbers(header.substr(kStlMetresKey.size()));
+      if (!result_.metresAbout)
+        return failure(ErrorCode::corrupt, "the header has \"arete metres_about\" without three numbers",
+                       path_);
+      isOurs_ = true;
+      result_.up = MeshUp::z;
       return {};
     }
     if (!header.starts_with(kStlOriginKey)) return {};

@@ -21,6 +21,8 @@ constexpr std::size_t kStlTrianglesPerCancelCheck = 1 << 16;
 constexpr std::uint64_t kMostStlTriangles = std::numeric_limits<std::uint32_t>::max() / 3;
 /// What Arete's headers begin with. The second is before the name of an object.
 constexpr std::string_view kStlOriginKey = "arete origin ", kStlObjectKey = "arete object ";
+/// Before a place of the source that the coordinates are metres from (MeshFile::metresAbout).
+constexpr std::string_view kStlMetresKey = "arete metres_about ";
 
 /// @param file of at least kStlPreambleSize bytes and all of its triangles.
 Result<MeshFile> readBinaryStl(std::string_view file, std::uint32_t count, std::string path,

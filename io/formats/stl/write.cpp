@@ -20,6 +20,7 @@
 
 #include "io/files/file_writer.h"
 #include "io/files/write_progress.h"
+#include "io/formats/common/comments.h"
 #include "io/formats/common/flattened.h"
 #include "io/formats/common/losses.h"
 #include "io/formats/common/object_runs.h"
@@ -123,7 +124,11 @@ class StlWriter {
   std::string takeHeader() {
     const bool hasOrigin = options_.up == MeshUp::z || options_.origin.has_value();
     std::string header;
-    if (hasOrigin) {
+    if (options_.metresAbout) {
+      header = fmt::format("{}{}", kStlMetresKey, metresAboutText(*options_.metresAbout));
+      // A number that is cut off would be another place.
+      if (header.size() > kStlHeaderSize) header = "STL of arete";
+    } else if (hasOrigin) {
       origin_ = options_.origin.value_or(localOrigin(shape_.positions));
       header = originHeader(origin_);
       if (header.size() > kStlHeaderSize) {

@@ -39,7 +39,8 @@ CrsTransform::CrsTransform(CrsTransform&&) noexcept = default;
 CrsTransform& CrsTransform::operator=(CrsTransform&&) noexcept = default;
 CrsTransform::~CrsTransform() = default;
 
-Result<CrsTransform> CrsTransform::between(const std::string& from, const std::string& to) try {
+Result<CrsTransform> CrsTransform::between(const std::string& from, const std::string& to,
+                                           Ballpark ballpark) try {
   registerGdal();
   ARETE_TRY(auto source, crsFromText(from));
   ARETE_TRY(auto target, crsFromText(to));
@@ -50,7 +51,9 @@ Result<CrsTransform> CrsTransform::between(const std::string& from, const std::s
   if (source.IsSame(&target)) return result;
   const GdalErrors errors;
   auto state = std::make_unique<State>();
-  state->transformation.reset(OGRCreateCoordinateTransformation(&source, &target));
+  OGRCoordinateTransformationOptions options;
+  options.SetBallparkAllowed(ballpark == Ballpark::allowed);
+  state->transformation.reset(OGRCreateCoordinateTransformation(&source, &target, options));
   if (!state->transformation)
     return failure(
         ErrorCode::invalidData,

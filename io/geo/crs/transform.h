@@ -23,10 +23,15 @@ class CrsTransform {
   CrsTransform& operator=(CrsTransform&&) noexcept;
   ~CrsTransform();
 
+  enum class Ballpark { allowed, refused };
   /// @param from,to WKT or any text that crsFromText() accepts.
   ///
+  /// @param ballpark  refused: where PROJ knows no transformation between the datums, or lacks the grid of
+  /// the only one, there is none, instead of one that takes the datums for the same.
+  ///
   /// Errors: invalidData: not a CRS, or there is no transformation, for instance between celestial bodies.
-  static Result<CrsTransform> between(const std::string& from, const std::string& to);
+  static Result<CrsTransform> between(const std::string& from, const std::string& to,
+                                      Ballpark ballpark = Ballpark::allowed);
 
   /// From longitude and latitude in degrees: of WGS 84 if the target is on the Earth, of the target's own
   /// datum otherwise. Errors: usage: the target has no CRS. Also those of between().

@@ -36,14 +36,20 @@ Json sourceJson(const TerrainModel& model) {
   return json;
 }
 
-Json terrainFormatJson(const ExportFormat& format, const Georeference& georeference) {
-  return formatJson({.name = format.name,
-                     .frame = format.frame,
-                     .heightRounding = format.heightRounding,
-                     .planTolerancePixels = format.planTolerancePixels,
-                     .says = {format.saysCrs, format.saysVerticalUnit, format.saysErrors},
-                     .crsWkt = georeference.crsWkt,
-                     .verticalUnit = georeference.verticalUnit});
+Json terrainFormatJson(const ExportFormat& format, const Georeference& georeference,
+                       const std::optional<PlacedFigures>& placed) {
+  Json json = formatJson({.name = format.name,
+                          .frame = format.frame,
+                          .heightRounding = format.heightRounding,
+                          .planTolerancePixels = format.planTolerancePixels,
+                          .says = {format.saysCrs, format.saysVerticalUnit, format.saysErrors},
+                          .crsWkt = georeference.crsWkt,
+                          .verticalUnit = georeference.verticalUnit});
+  // What the file is in, not the source.
+  Json& missing = json["doesNotSay"];
+  if (placed && !placed->isMetric && missing.contains("crs")) missing["crs"] = placed->target;
+  if (placed && placed->isMetric && missing.contains("verticalUnit")) missing["verticalUnit"] = "metre";
+  return json;
 }
 
 }  // namespace
@@ -52,7 +58,7 @@ std::string certificateJson(const Certificate& certificate, const TerrainModel& 
   Json json = {{"areteCertificate", kCertificateVersion},
                {"program", programName()},
                {"file", certificate.file},
-               {"format", terrainFormatJson(certificate.format, model.georeference)},
+               {"format", terrainFormatJson(certificate.format, model.georeference, certificate.placed)},
                {"model",
                 {{"path", certificate.model},
                  {"shape", toString(model.options.shape)},
@@ -69,6 +75,7 @@ std::string certificateJson(const Certificate& certificate, const TerrainModel& 
     json["fit"] = {{"trianglesBefore", certificate.fit->trianglesBefore},
                    {"errorBefore", certificate.fit->errorBefore},
                    {"meanBefore", certificate.fit->meanBefore}};
+  if (certificate.placed) json["placed"] = placedJson(*certificate.placed);
   if (certificate.measuredInside)
     json["measuredInside"] = measuredJson(*certificate.measuredInside, model.isRaster);
   json["check"] = certificate.checkCommand;

@@ -8,6 +8,7 @@
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
 #include "io/formats/exchange/mesh_formats.h"
+#include "io/formats/exchange/placed_mesh.h"
 #include "io/query/request/cut_request.h"
 #include "terrain/measure/measure.h"
 #include "terrain/model/terrain_model.h"
@@ -38,7 +39,8 @@ struct Certificate {
   CutRequest criterion;
   bool isComplete = true;  ///< false: a budget or a deadline ended the cut before the criterion was met
   double storedError = 0;  ///< of the cut: the largest error of its triangles, as stored or as fitted
-  std::optional<FitFigures> fit;  ///< where heights were fitted
+  std::optional<FitFigures> fit;             ///< where heights were fitted
+  std::optional<PlacedFigures> placed = {};  ///< where the mesh was led into another CRS or into metres
   MeasureReport measured;  ///< of the exported mesh, by terrain/measure/measure.h, against every sample
   std::optional<MeasureReport> measuredInside;  ///< against the samples in the region alone
   double promisedError = 0;                     ///< inside the region, where there is one

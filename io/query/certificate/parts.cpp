@@ -67,6 +67,13 @@ Json toJson(const CutRequest& request) {
   return json;
 }
 
+Json placedJson(const PlacedFigures& placed) {
+  return {{"target", placed.target},
+          {"addedVertices", placed.addedVertices},
+          {"addedTriangles", placed.addedTriangles},
+          {"addedError", placed.added}};
+}
+
 Json formatJson(const StatedFormat& format) {
   Json json = {{"name", format.name}, {"coordinates", format.frame.coordinates}};
   if (format.frame.origin) json["origin"] = vectorJson(*format.frame.origin);

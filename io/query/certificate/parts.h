@@ -6,6 +6,7 @@
 
 #include "engine/base/result.h"
 #include "io/formats/common/file.h"
+#include "io/formats/exchange/placed_mesh.h"
 #include "io/query/request/cut_request.h"
 
 namespace arete {
@@ -22,6 +23,9 @@ nlohmann::ordered_json limitJson(double value);
 
 /// What was asked for.
 nlohmann::ordered_json toJson(const CutRequest& request);
+
+/// What became of a mesh on its way into another CRS or into metres.
+nlohmann::ordered_json placedJson(const PlacedFigures& placed);
 
 /// What a file holds, and what its format cannot hold.
 struct StatedFormat {

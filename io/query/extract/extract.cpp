@@ -43,6 +43,7 @@ Json tinJson(const ExtractRequest& request, const ExtractedTin& tin) {
                    {"trianglesBefore", tin.fit->trianglesBefore},
                    {"errorBefore", tin.fit->errorBefore},
                    {"meanBefore", tin.fit->meanBefore}};
+  if (tin.placed) json["placed"] = placedJson(*tin.placed);
   if (tin.measured) json["measured"] = toJson(*tin.measured, tin.isRaster);
   if (tin.measuredInside) json["measuredInside"] = toJson(*tin.measuredInside, tin.isRaster);
   if (tin.measured) json["kept"] = tin.isKept;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The cut comes from the engine (takeTin()). The proof does not use it: the exported file is read back and
-// measured, in source coordinates, against the samples that the model was built from (measureAndWrite()).
+// measured, where it is, against the samples that the model was built from (measureAndWrite()).
 // Where the format rounds heights and the cut's error and the rounding together may exceed the tolerance, the
 // TIN is taken a second time with a smaller tolerance.
 #include "io/query/extract/tin.h"
@@ -20,6 +20,8 @@
 #include "io/files/text_scan.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/formats/exchange/written_mesh.h"
+#include "io/geo/crs/local_frame.h"
+#include "io/geo/crs/names.h"
 #include "io/geo/dem/raster_writer.h"
 #include "io/query/request/check_request.h"
 #include "io/query/request/criterion.h"
@@ -32,8 +34,19 @@ namespace {
 /// Heights are written as float32 if rounding changes them by less than this, in their unit.
 constexpr double kNegligibleRounding = 1e-3;
 
+/// What a triangle that keeps the tolerance may come to where a mesh is bent, and that of tolerances near 0.
+constexpr double kMostOfTolerance = 1.1, kLeastGain = 1e-2;
+
 bool isRaster(const ExtractRequest& request) {
   return request.format.empty() && isGeoTiffName(request.output);
+}
+
+/// "EPSG:32632" of a CRS whose name has it, else the WKT.
+std::string shortCrs(const std::string& wkt) {
+  const std::string name = crsName(wkt);
+  const std::size_t code = name.rfind("(EPSG:");
+  return code == std::string::npos || !name.ends_with(')') ? wkt
+                                                           : name.substr(code + 1, name.size() - code - 2);
 }
 
 /// The largest stored error of the triangles that meet the region.
@@ -114,6 +127,16 @@ Status checkExtractOutput(const std::string& path, const TerrainModel& model, co
   return caughtFailure();
 }
 
+Status checkExtractPlace(const ExtractRequest& request) {
+  if (!request.place.isStated()) return {};
+  if (isRaster(request))
+    return failure(ErrorCode::usage,
+                   "leads meshes, and a .tif is on the DEM's grid; gdalwarp -t_srs leads a raster",
+                   request.place.isMetric ? "metric" : fmt::format("toCrs {}", request.place.crs));
+  ARETE_TRY(const MeshFormat format, meshFormatOf(request.output, request.format));
+  return checkPlacing(request.place, format);
+}
+
 Result<TinExport> takeTin(const TerrainModel& model, const CutRequest& c, const std::optional<Region>& region,
                           double reserve, std::optional<Cut> taken, ExtractedTin& tin,
                           const RunContext& context) try {
@@ -173,9 +196,42 @@ const TinExtractor::Samples& TinExtractor::samples() {
   return *samples_;
 }
 
+// A cut keeps its tolerance near a focus, in sight or in a region, and may be far coarser elsewhere: there
+// each triangle may gain a part of its own error.
+Result<PlacedMesh> TinExtractor::lead(const ExtractRequest& request, const TinExport& exported,
+                                      ExtractedTin& tin, double& bound, const RunContext& context) const {
+  const CutRequest& asked = request.criterion;
+  const bool isUneven = asked.focus || asked.camera;
+  const double tolerance = isUneven ? asked.maxError.value_or(0) : tin.promisedError;
+  ARETE_TRY(const MeshFormat format, meshFormatOf(request.output, request.format));
+  const std::uint64_t samples = model_->isRaster ? std::uint64_t{model_->columns} * model_->rows
+                                                 : std::uint64_t{model_->mt.vertexCount()};
+  ARETE_TRY(PlacedMesh placed,
+            placeInTarget(exported.mesh, exported.errors, model_->georeference, request.place, format,
+                          {.tolerance = std::isfinite(tolerance) ? tolerance : 0,
+                           .samples = samples,
+                           .origin = exported.origin},
+                          context));
+  // Triangles that are coarser than the promise lie outside the region.
+  bound = 0;
+  const double most = request.region ? kMostOfTolerance * tin.promisedError + kLeastGain
+                                     : std::numeric_limits<double>::infinity();
+  for (const double error : placed.sourceErrors)
+    if (error <= most) bound = std::max(bound, error);
+  tin.promisedError = std::max(tin.promisedError, bound);
+  tin.storedError = placed.figures.largestError;
+  tin.triangles = placed.mesh.triangles.size();
+  tin.vertices = placed.mesh.positions.size();
+  tin.placed = placed.figures;
+  tin.warnings.insert(tin.warnings.end(), placed.warnings.begin(), placed.warnings.end());
+  return placed;
+}
+
 Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, double reserve,
                                                std::optional<Cut> taken, ExtractedTin& tin,
-                                               const RunContext& context) const {
+                                               const RunContext& context) {
+  place_.reset();
+  tin.warnings.clear();
   ARETE_TRY(TinExport made,
             takeTin(*model_, request.criterion, request.region, reserve, std::move(taken), tin, context));
   TinExport& exported = made;
@@ -185,20 +241,45 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
                   .saysVerticalUnit = !model_->georeference.verticalUnit.empty()};
     return std::move(exported.mesh);
   }
-  const MeshWriteOptions write{.crsWkt = model_->georeference.crsWkt,
-                               .verticalUnit = model_->georeference.verticalUnit,
-                               .verticalUnitMetres = model_->georeference.verticalUnitMetres,
-                               .triangleErrors = exported.errors,
-                               .origin = exported.origin,
-                               .format = request.format,
-                               .notes = {commentOf(request, *model_, tin)},
-                               .existing = request.existing};
+  std::optional<PlacedMesh> placed;
+  double bound = 0;
+  if (request.place.isStated()) {
+    ARETE_TRY(placed, lead(request, exported, tin, bound, context));
+  } else if (const auto format = meshFormatOf(request.output, request.format); format) {
+    if (auto degrees =
+            warningOfDegrees(*format, model_->georeference.crsWkt, model_->georeference.verticalUnit))
+      tin.warnings.push_back(std::move(*degrees));
+  }
+  MeshWriteOptions write{.crsWkt = model_->georeference.crsWkt,
+                         .verticalUnit = model_->georeference.verticalUnit,
+                         .verticalUnitMetres = model_->georeference.verticalUnitMetres,
+                         .triangleErrors = exported.errors,
+                         .origin = exported.origin,
+                         .format = request.format,
+                         .notes = {commentOf(request, *model_, tin)},
+                         .existing = request.existing};
+  if (placed) placed->describe(write);
+  TriangleMesh& mesh = placed ? placed->mesh : exported.mesh;
   Result<WrittenMesh> written =
-      writeAndReadBack(exported.mesh, request.output, write, model_->isRaster, context);
+      writeAndReadBack(mesh, request.output, write, model_->isRaster && !placed, context);
   if (!written) return tl::unexpected(within(tl::unexpected(written.error()), request.output).error());
   tin.format = formatOf(request.output, *written, write);
-  if (!request.criterion.promisesMaxError(tin.isComplete)) tin.promisedError += tin.format.heightRounding;
-  return written->mesh ? std::move(*written->mesh) : std::move(exported.mesh);
+  if (!placed && !request.criterion.promisesMaxError(tin.isComplete))
+    tin.promisedError += tin.format.heightRounding;
+  TriangleMesh& held = written->mesh ? *written->mesh : mesh;
+  if (!placed) return std::move(held);
+  // The file's heights may count in metres.
+  const double unit = placed->metresAbout ? model_->georeference.verticalUnitMetres : 1;
+  tin.promisedError = std::max(tin.promisedError, bound + tin.format.heightRounding / unit);
+  place_ = TinPlace{.crsWkt = placed->crsWkt, .metresAbout = placed->metresAbout};
+  if (placed->isFramedByWriter && model_->georeference.isGeographic) {
+    // As programs draw it: triangles that are flat in the frame of the file.
+    ARETE_TRY(const LocalFrame frame,
+              LocalFrame::create(localFrameSpec(model_->georeference, *placed->origin)));
+    for (Vec3& p : held.positions) p = frame.toLocal(p);
+    place_ = TinPlace{.metresAbout = placed->origin};
+  }
+  return std::move(held);
 }
 
 Status TinExtractor::deepen(double maxError, double reserve, const RunContext& context) {
@@ -212,11 +293,12 @@ Status TinExtractor::deepen(double maxError, double reserve, const RunContext& c
 Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const RunContext& context,
                                            std::optional<Cut> taken) try {
   ExtractedTin tin;
+  ARETE_CHECK(checkExtractPlace(request));
   OutputGroup together;
   Result<TriangleMesh> mesh = cutAndWrite(request, 0, std::move(taken), tin, context);
   if (!mesh) return tl::unexpected(mesh.error());
   // Twice, because another cut may be rounded differently.
-  const double reserve = 2 * tin.format.heightRounding;
+  const double reserve = tin.placed ? 0 : 2 * tin.format.heightRounding;
   const double promised = tin.promisedError;
   if (reserve > 0 && request.criterion.promisesMaxError(tin.isComplete) && reserve < promised &&
       tin.storedError + reserve > promised) {
@@ -244,8 +326,13 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
   const Vec3& rounding = tin.format.frame.rounding;
   const auto measureWith = [&](MeasureOptions options, MeasureRasters* into) {
     options.planRounding = {rounding.x, rounding.y};
-    return std::visit([&](const auto& field) { return measure(mesh, field, options, context, into); },
-                      samples());
+    return std::visit(
+        [&](const auto& field) {
+          if (place_ && isElsewhere(*place_, field.georeference))
+            return measureElsewhere(mesh, *place_, field, options, context, into);
+          return measure(mesh, field, options, context, into);
+        },
+        samples());
   };
   ARETE_TRY(MeasureReport all, measureWith({}, wantsRasters ? &rasters : nullptr));
   tin.measured = std::move(all);
@@ -261,12 +348,16 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
   tin.isKept =
       keepsPromise(tin.measuredInside ? *tin.measuredInside : *tin.measured, tin.promisedError, expect);
 
-  if (!isRaster(request))
+  if (place_)
+    tin.format.planTolerancePixels = kBeyondRimPixels;
+  else if (!isRaster(request))
     tin.format.planTolerancePixels =
         planTolerancePixels({.planRounding = {rounding.x, rounding.y}}, model_->georeference);
   ARETE_CHECK(writeRasters(request, rasters, tin, context));
   if (request.keepsMesh) tin.errors = std::move(rasters.errors);
   if (request.certificate.empty()) return {};
+  ExtractRequest resolved = request;
+  if (place_ && !request.place.crs.empty()) resolved.place.crs = shortCrs(place_->crsWkt);
   const Certificate certificate{
       .file = request.output,
       .model = modelPath_,
@@ -275,11 +366,12 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
       .isComplete = tin.isComplete,
       .storedError = tin.storedError,
       .fit = tin.fit,
+      .placed = tin.placed,
       .measured = *tin.measured,
       .measuredInside = tin.measuredInside,
       .promisedError = tin.promisedError,
       .isKept = tin.isKept,
-      .checkCommand = checkCommand_ ? checkCommand_(request, tin.promisedError) : ""};
+      .checkCommand = checkCommand_ ? checkCommand_(resolved, tin.promisedError) : ""};
   return within(writeCertificate(request.certificate, certificate, *model_), request.certificate);
 }
 

@@ -11,11 +11,14 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/warning.h"
 #include "engine/criteria/region.h"
 #include "engine/cut/cut.h"
 #include "engine/parallel/run_context.h"
 #include "io/formats/exchange/export_tin.h"
+#include "io/formats/exchange/placed_mesh.h"
 #include "io/query/certificate/certificate.h"
+#include "io/query/placed/measure_placed.h"
 #include "io/query/request/extract_request.h"
 #include "terrain/measure/measure.h"
 #include "terrain/model/heightfield.h"
@@ -35,6 +38,8 @@ struct ExtractedTin {
   std::optional<MeasureReport> measured;  ///< where a certificate, a raster or a fit needs it
   std::optional<MeasureReport> measuredInside;  ///< the same of the samples inside the region
   bool isKept = true;                           ///< false when the measurement contradicts the promise
+  std::optional<PlacedFigures> placed;          ///< with ExtractRequest::place
+  Warnings warnings;                            ///< of the coordinates of the file
   bool isRaster = false;                        ///< the source is a raster: samples have a column and a row
   /// Where the caller states shares: what they are of.
   std::optional<double> relief;
@@ -47,6 +52,10 @@ struct ExtractedTin {
 /// model of a raster. Errors: usage: an unknown extension (the message lists the known ones), .tif for
 /// scattered points.
 Status checkExtractOutput(const std::string& path, const TerrainModel& model, const std::string& format = {});
+
+/// Checks that a request's output can be written where ExtractRequest::place leads it. Errors: usage, naming
+/// the field: a .tif, which is on the DEM's grid; those of checkPlacing().
+Status checkExtractPlace(const ExtractRequest& request);
 
 /// The cut of a request, or its fit, as a mesh; nothing is written. Heights that were fitted promise nothing
 /// before they are measured.
@@ -104,7 +113,11 @@ class TinExtractor {
   Status deepen(double maxError, double reserve, const RunContext& context);
   /// takeTin(), written where the output is a mesh. Returns the mesh as the file holds it.
   Result<TriangleMesh> cutAndWrite(const ExtractRequest& request, double reserve, std::optional<Cut> taken,
-                                   ExtractedTin& tin, const RunContext& context) const;
+                                   ExtractedTin& tin, const RunContext& context);
+  /// The TIN where the request has it, with its errors and its promise restated.
+  /// @param bound  receives the largest error inside the region
+  Result<PlacedMesh> lead(const ExtractRequest& request, const TinExport& exported, ExtractedTin& tin,
+                          double& bound, const RunContext& context) const;
   Status measureAndWrite(const ExtractRequest& request, const TriangleMesh& mesh, ExtractedTin& tin,
                          const RunContext& context);
   Status writeRasters(const ExtractRequest& request, const MeasureRasters& rasters, ExtractedTin& tin,
@@ -115,6 +128,7 @@ class TinExtractor {
   ReadAll readAll_;
   CheckCommand checkCommand_;
   std::optional<Samples> samples_;
+  std::optional<TinPlace> place_;  ///< of the mesh that was written last, where it is not the source's
 };
 
 }  // namespace arete

@@ -12,6 +12,8 @@
 #include "engine/base/caught_failure.h"
 #include "io/formats/exchange/export_tin.h"
 #include "io/formats/exchange/mesh_formats.h"
+#include "io/formats/exchange/placed_mesh.h"
+#include "io/geo/bent/place_map.h"
 #include "io/geo/crs/ellipsoid_earth.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/position_argument.h"
@@ -193,6 +195,25 @@ Result<SightPathAnswer> lineOfSight(const Model& model, const Vec3& observer, co
   return answerPath({from.first, to.first, from.second, to.second}, *earth, *engine, profiles, {});
 } catch (...) {
   return caughtFailure();
+}
+
+Result<MeshWriteReport> write(const Tin& tin, const std::string& path, const PlaceTarget& place,
+                              const RunContext& context) {
+  if (!place.isStated()) return write(tin, path, context);
+  if (tin.up != MeshUp::z)
+    return failure(ErrorCode::usage, "is for terrain, and this is a surface",
+                   place.isMetric ? "metric" : "toCrs " + place.crs);
+  ARETE_TRY(const MeshFormat format, meshFormatOf(path));
+  ARETE_TRY(const Georeference georeference,
+            georeferenceOf(tin.crsWkt, tin.verticalUnit, tin.verticalUnitMetres));
+  ARETE_TRY(PlacedMesh placed, placeInTarget(tin.mesh, tin.errors, georeference, place, format,
+                                             {.tolerance = tin.error, .origin = tin.origin}, context));
+  MeshWriteOptions options;
+  options.triangleErrors = placed.errors;
+  if (!tin.note.empty()) options.notes = {tin.note};
+  placed.describe(options);
+  if (tin.errors.empty()) options.triangleErrors = {};
+  return writeMesh(placed.mesh, path, options, context);
 }
 
 Result<MeshWriteReport> write(const Tin& tin, const std::string& path, const RunContext& context) {

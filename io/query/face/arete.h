@@ -14,6 +14,7 @@
 #include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "io/formats/common/file.h"
+#include "io/geo/bent/target.h"
 #include "io/query/extract/model.h"
 #include "io/query/request/cut_request.h"
 #include "io/query/request/wholes.h"
@@ -84,6 +85,11 @@ Result<SightPathAnswer> lineOfSight(const Model& model, const Vec3& observer, co
 /// Writes a mesh in the format that the extension of the path names, with its CRS, unit, errors and origin as
 /// far as the format holds them. Returns what it cannot hold. Errors: as writeMesh().
 Result<MeshWriteReport> write(const Tin& tin, const std::string& path, const RunContext& context = {});
+/// The same in another CRS (`{.crs = "utm"}`) or in metres (`{.isMetric = true}`), of terrain. Edges are
+/// split where bending adds more than a tenth of the largest error, and the errors in the file count it.
+/// Errors: also those of placeInTarget() (io/formats/exchange/placed_mesh.h).
+Result<MeshWriteReport> write(const Tin& tin, const std::string& path, const PlaceTarget& place,
+                              const RunContext& context = {});
 /// Writes a model as an .amt file. Errors: as writeAmt() and writeSurfaceAmt().
 Status write(const Model& model, const std::string& path, const RunContext& context = {});
 

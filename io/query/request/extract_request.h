@@ -7,6 +7,7 @@
 
 #include "engine/criteria/region.h"
 #include "io/files/existing_file.h"
+#include "io/geo/bent/target.h"
 #include "io/query/request/cut_request.h"
 
 namespace arete {
@@ -15,8 +16,9 @@ namespace arete {
 struct ExtractRequest {
   CutRequest criterion;
   std::optional<Region> region;  ///< of terrain: criterion.region in plan coordinates
-  std::string output;  ///< a mesh by its extension; of terrain also .tif: sampled back on the source grid
-  std::string format;  ///< MeshWriteOptions::format; empty: by the extension
+  std::string output;      ///< a mesh by its extension; of terrain also .tif: sampled back on the source grid
+  std::string format;      ///< MeshWriteOptions::format; empty: by the extension
+  PlaceTarget place = {};  ///< of terrain: where the mesh is led, with edges split where that bends it
   std::string certificate;  ///< JSON; empty = none
   std::string errorRaster;  ///< of terrain: GeoTIFF of z_TIN - z_DEM; empty = none
   /// What happens to the other layers of a GeoPackage that exists.
