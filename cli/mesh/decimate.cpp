@@ -85,6 +85,22 @@ struct Outcome {
   std::string seams = {};  ///< seamsOf() where they keep most of the mesh from being smaller
 };
 
+/// The numbers as far as they do not depend on the mesh, which may take long to read.
+Status checkNumbers(const DecimateArguments& a) {
+  // Whether a share is a triangle or more is known with the faces.
+  const bool isShare = a.maxTriangles.find('%') != std::string::npos;
+  if (!a.maxTriangles.empty() && !isShare) ARETE_CHECK(triangleBudget(a.maxTriangles, 0));
+  for (const auto& [option, text] : {std::pair{"--max-error", a.maxError}, {"--drop-parts", a.dropParts}}) {
+    if (text.empty()) continue;
+    ARETE_TRY(const auto sizes, parseSurfaceTolerances(option, text, 1));
+    if (sizes.size() != 1)
+      return failure(ErrorCode::usage,
+                     option == std::string_view("--max-error") ? "takes one distance" : "takes one length",
+                     option);
+  }
+  return {};
+}
+
 Status checkArguments(const DecimateArguments& a) {
   const auto refuse = [&](const char* option, const std::string& method) {
     return failure(ErrorCode::usage, fmt::format("is for --operator {}, not {}", method, a.method), option);
@@ -102,7 +118,7 @@ Status checkArguments(const DecimateArguments& a) {
   if (a.clusterVertices != "quadric" && a.method != "cluster") return refuse("--cluster-vertices", "cluster");
   if (a.keepsBorders && a.method == "cluster")
     return failure(ErrorCode::usage, "cannot be combined with --operator cluster", "--keep-borders");
-  return {};
+  return checkNumbers(a);
 }
 
 /// @param mesh whose attributes and parts keep more.

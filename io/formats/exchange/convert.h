@@ -33,7 +33,8 @@ struct ConvertedMesh {
   std::vector<std::filesystem::path> filesBeside;  ///< MTL, pictures
   std::uint64_t triangles = 0, vertices = 0;       ///< of the mesh
   std::uint64_t joinedVertices = 0;                ///< MeshFile::joinedVertices
-  std::vector<std::uint32_t> triangleOf;           ///< trianglesOfFile()
+  double diagonal = 0;  ///< of the box of a scan; 0 of terrain, of which every digit may count
+  std::vector<std::uint32_t> triangleOf;  ///< trianglesOfFile()
   Warnings warnings;
   /// Of a PLY with doubles of a source with floats, which so takes twice the bytes for its coordinates: how
   /// far floats would have moved one; otherwise 0.
