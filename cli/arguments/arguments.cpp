@@ -249,6 +249,16 @@ std::vector<std::string> DemArguments::files() const {
   return all;
 }
 
+void DemArguments::addKindTo(CLI::App& command) {
+  command
+      .add_option_function<std::string>(
+          "--as", [this](const std::string&) { staysPoints = true; },
+          "points: a text whose points fill a grid is no raster, as in a build with --as points")
+      ->check(oneOf({"points"}))
+      ->type_name("points")
+      ->group(kGroup);
+}
+
 // Each option replaces what the file says, or says what it leaves open; the defaults leave it to the file.
 void DemArguments::addTo(CLI::App& command) {
   const std::string group = kGroup;
@@ -336,7 +346,7 @@ Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model) {
 }
 
 Result<DemRead> DemArguments::read(const Session& session) const {
-  Result<DemRead> dem = readDem(inputPath(path), reading, session.context());
+  Result<DemRead> dem = (staysPoints ? readDemAsItIs : readDem)(inputPath(path), reading, session.context());
   if (dem && path == kStandardStream) std::visit([&](auto& field) { field.source = path; }, dem->heightfield);
   if (dem)
     session.warn(dem->warnings, path);

@@ -78,10 +78,13 @@ struct DemArguments {
 
   std::string path;
   SourceReading reading;
+  bool staysPoints = false;  ///< a text whose points fill a grid is no raster
 
   void addTo(CLI::App& command);
   /// Adds the argument that names one DEM or the files of one.
   void addFilesTo(CLI::App& command, const std::string& help);
+  /// Adds --as points, of commands that have no other kinds.
+  void addKindTo(CLI::App& command);
   /// The path and what was named after it.
   std::vector<std::string> files() const;
   /// Reads the DEM and writes its warnings. An error names the option that caused it, if one did.

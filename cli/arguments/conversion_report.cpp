@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/mesh_options.h"
@@ -11,11 +14,23 @@
 
 namespace arete {
 
+// The numbers stand in the report of the writer, which is of any kind of loss.
+bool isFineRounding(const std::string& lost, double diagonal, double tolerance) {
+  constexpr std::string_view kBegin = "coordinates finer than ";
+  if (!lost.starts_with(kBegin)) return false;
+  const std::string numbers = lost.substr(kBegin.size(), lost.find(" (") - kBegin.size());
+  const auto rounding = parseNumbers("", numbers);
+  if (!rounding || rounding->empty()) return false;
+  const double most = std::ranges::max(*rounding);
+  return most <= kFineShareOfDiagonal * diagonal && most <= kFineShareOfTolerance * tolerance;
+}
+
 void warnOfConversion(const ConvertedMesh& converted, const std::string& input, std::string_view format,
                       const Session& session) {
   session.warn(converted.warnings, input);
-  if (!converted.lost.empty())
-    session.warn(fmt::format("{} cannot hold {}", format, fmt::join(converted.lost, ", or ")));
+  std::vector<std::string> lost = converted.lost;
+  std::erase_if(lost, [&](const std::string& what) { return isFineRounding(what, converted.diagonal); });
+  if (!lost.empty()) session.warn(fmt::format("{} cannot hold {}", format, fmt::join(lost, ", or ")));
 }
 
 std::string doublesText(double movedByFloats) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -8,6 +9,20 @@
 #include "io/formats/exchange/convert.h"
 
 namespace arete {
+
+/// Rounding of coordinates of this part of the diagonal is that of 32-bit floats around the middle of a scan,
+/// as most scans are stored: nothing that can be seen or measured of them is lost.
+inline constexpr double kFineShareOfDiagonal = 1e-7;
+/// Where a distance is promised, rounding of a hundredth of it still counts.
+inline constexpr double kFineShareOfTolerance = 1e-2;
+
+/// Whether what a format cannot hold is a rounding of coordinates too fine for a warning.
+///
+/// @param lost "coordinates finer than 1e-9, 1e-9, 1e-9 (x, y, z)", or something else.
+/// @param diagonal of the mesh; 0: every digit counts.
+/// @param tolerance the distance that is promised.
+bool isFineRounding(const std::string& lost, double diagonal,
+                    double tolerance = std::numeric_limits<double>::infinity());
 
 /// Writes the warnings of a conversion, and a line of what the format cannot hold.
 void warnOfConversion(const ConvertedMesh& converted, const std::string& input, std::string_view format,

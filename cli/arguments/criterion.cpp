@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/place_hint.h"
 #include "engine/base/counted.h"
 #include "io/files/text/stated_size.h"
 #include "io/geo/crs/data_unit.h"
@@ -24,6 +25,21 @@ namespace arete {
 namespace {
 
 constexpr std::uint32_t kMostTriangles = 0xFFFFFFFE;
+
+/// "5,000" is a list of two numbers, of which the second is none that may be meant.
+std::string groupedDigits(const std::vector<StatedSize>& sizes) {
+  if (sizes.size() < 2 || sizes.front().text.size() > 3) return {};
+  std::string whole = sizes.front().text;
+  bool hasZeroFirst = false;
+  for (std::size_t i = 1; i < sizes.size(); ++i) {
+    const std::string& text = sizes[i].text;
+    if (text.size() != 3 || text.find_first_not_of("0123456789") != text.npos) return {};
+    hasZeroFirst = hasZeroFirst || text.front() == '0';
+    whole += text;
+  }
+  if (!hasZeroFirst) return {};
+  return fmt::format("commas stand between several numbers, and digits are not grouped by them: {}?", whole);
+}
 
 }  // namespace
 
@@ -188,6 +204,12 @@ Status CriterionArguments::check() const {
     return failure(ErrorCode::usage, "--max-error, --max-triangles, --camera or --deadline is required");
   if (!outsideErrorText_.empty() && region_.empty() && focus_.empty() && camera_.empty())
     return failure(ErrorCode::usage, "requires --region, --focus or --camera", "--outside-error");
+  if (isLonLat_ && !region_.empty() && camera_.empty())
+    return failure(
+        ErrorCode::usage,
+        "is for --focus and --camera; --region-crs EPSG:4326 says that --region has longitudes and "
+        "latitudes",
+        "--lonlat");
   if (isLonLat_ && focus_.empty() && camera_.empty())
     return failure(ErrorCode::usage, "requires --focus or --camera", "--lonlat");
   if (method_ == "saturated" && (hasDeadline() || hasOtherOrder()))
@@ -250,10 +272,14 @@ Result<std::optional<Vec2>> CriterionArguments::placeAboveGround(const TerrainMo
 
 Status CriterionArguments::placeCamera(const TerrainModel& model, CutRequest& c) const {
   ARETE_TRY(const auto transform, transformOfPlaces(isLonLat_, model));
-  ARETE_TRY(const auto argument, readCameraArgument("--camera", camera_, transform, GroundHeights(model)));
-  Camera camera = argument.camera;
+  auto argument = readCameraArgument("--camera", camera_, transform, GroundHeights(model));
+  if (!argument && argument.error().code == ErrorCode::invalidData && !isLonLat_)
+    if (const auto place = readCameraPlace("--camera", camera_, transform))
+      argument.error().message += behindSemicolon(degreesHint(*place, model));
+  if (!argument) return tl::unexpected(argument.error());
+  Camera camera = argument->camera;
   if (!look_.empty()) {
-    if (argument.statesLook)
+    if (argument->statesLook)
       return failure(ErrorCode::usage, "cannot be combined with a direction in --camera", "--look " + look_);
     ARETE_TRY(const auto look, twoNumbers("--look", look_, ','));
     camera.azimuthDegrees = look.first;
@@ -270,13 +296,13 @@ Status CriterionArguments::placeCamera(const TerrainModel& model, CutRequest& c)
     if (const Result<View> view = viewOf(camera, model); !view)
       return failure(view.error().code, view.error().message, "--viewport " + viewport_);
   }
-  if (!std::isnan(fieldOfView_) && argument.statesFieldOfView)
+  if (!std::isnan(fieldOfView_) && argument->statesFieldOfView)
     return failure(ErrorCode::usage, "cannot be combined with a field of view in --camera", "--fov");
   if (!std::isnan(fieldOfView_)) camera.verticalFieldOfViewDegrees = fieldOfView_;
   if (const Result<View> view = viewOf(camera, model); !view)
     return failure(view.error().code, view.error().message, "--camera " + camera_);
   c.camera = camera;
-  c.cameraText = argument.positionText;
+  c.cameraText = argument->positionText;
   c.isLonLat = isLonLat_;
   if (!c.pixelError && !hasBudget()) c.pixelError = 1;
   return {};
@@ -288,6 +314,13 @@ Status CriterionArguments::placeFocus(const TerrainModel& model, CutRequest& c) 
   c.focus = {.xy = place, .growth = growth_, .text = focus_};
   c.isLonLat = isLonLat_;
   return {};
+}
+
+std::string CriterionArguments::focusHint(const TerrainModel& model) const {
+  if (focus_.empty() || isLonLat_) return {};
+  const auto place = readPlaceArgument("--focus", focus_, CrsTransform());
+  const std::string hint = place ? degreesHint(*place, model) : std::string();
+  return hint.empty() ? hint : fmt::format("--focus {} lies outside the DEM: {}", focus_, hint);
 }
 
 bool CriterionArguments::statesShares() const {
@@ -354,6 +387,8 @@ Result<std::vector<CriterionArguments::OfTerrain>> CriterionArguments::criteria(
 Result<std::vector<StatedTriangles>> parseTriangleBudgets(const std::string& text, std::uint64_t finest) {
   constexpr const char* kOption = "--max-triangles";
   ARETE_TRY(const std::vector<StatedSize> sizes, parseStatedSizes(text, kOption));
+  if (const std::string problem = groupedDigits(sizes); !problem.empty())
+    return failure(ErrorCode::usage, problem, kOption);
   std::vector<StatedTriangles> budgets;
   for (const StatedSize& size : sizes) {
     const double count = std::floor(size.of(static_cast<double>(finest)));

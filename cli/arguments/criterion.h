@@ -53,6 +53,9 @@ struct CriterionArguments {
   /// Precondition: check(). Errors: usage, naming the option; invalidData: no terrain below the camera.
   Result<std::vector<OfTerrain>> criteria(const TerrainModel& model) const;
 
+  /// A warning of a focus that looks like longitude and latitude on a map of lengths; empty: none.
+  std::string focusHint(const TerrainModel& model) const;
+
   /// What a surface can be cut by.
   struct OfSurface {
     std::string maxErrors;     ///< empty: not stated

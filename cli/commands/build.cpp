@@ -136,12 +136,17 @@ void report(Session& session, const BuildArguments& arguments, const TerrainMode
                     {"bytesPerSample", bytesPerSample}});
   session.say(fmt::format(
       "{}\n"
+      "{}"
       "  samples    {}{}\n"
       "  triangles  {} at the finest, {} in the multitriangulation\n"
       "  root       {}, {} ({} fixed), {}\n"
       "  built in   {:.2f} s, {} samples/s (read {:.2f} s, features {:.2f} s, write {:.2f} s)\n"
       "  size       {}, {:.0f} bytes a sample\n",
-      arguments.output, grouped(samples),
+      arguments.output,
+      model.georeference.verticalUnit.empty()
+          ? "  heights    no unit is stated: taken as metres where distances count (--vertical-unit)\n"
+          : "",
+      grouped(samples),
       model.isolated.empty() ? "" : fmt::format(", {} of them isolated", grouped(model.isolated.size())),
       grouped(mt.finestTriangleCount()), grouped(mt.triangleCount()),
       grouped(mt.rootTriangleCount(), "triangle", "triangles"),
@@ -228,10 +233,13 @@ Status runSurfaceBuild(const BuildArguments& arguments, MeshInput input, double 
 Status runBuild(BuildArguments& arguments, Session& session) {
   ARETE_CHECK(takeShape(arguments));
   const std::string extension = text::lowerExtension(arguments.output);
-  if (!extension.empty() && extension != "amt")
-    return failure(ErrorCode::usage,
-                   fmt::format("must end in .amt, not .{}; arete extract writes other formats", extension),
-                   fmt::format("--output {}", arguments.output));
+  if (extension != "amt")
+    return failure(
+        ErrorCode::usage,
+        extension.empty()
+            ? fmt::format("must end in .amt, as {}.amt", arguments.output)
+            : fmt::format("must end in .amt, not .{}; arete extract writes other formats", extension),
+        fmt::format("--output {}", arguments.output));
   std::vector<std::string> inputs = arguments.dem.files();
   inputs.push_back(arguments.fixedPath);
   ARETE_CHECK(checkOutput("--output", arguments.output, inputs));

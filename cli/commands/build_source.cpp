@@ -30,6 +30,12 @@ Result<PointReadOptions> pointOptions(const SourceReading& reading) {
   return options;
 }
 
+/// A text that fills a grid is a raster, unless points are asked for.
+DemArguments sourceOf(DemArguments dem, const std::string& kind) {
+  dem.staysPoints = kind == "points";
+  return dem;
+}
+
 Result<DemRead> readVertices(const DemArguments& dem, MeshFile mesh, Session& session) {
   ARETE_TRY(PointReadOptions options, pointOptions(dem.reading));
   if (options.verticalUnit.empty()) options.verticalUnit = mesh.verticalUnit;
@@ -60,7 +66,7 @@ Result<DemRead> readSource(const DemArguments& dem, const std::string& kind, Ses
     if (!mesh) {
       // A text of vertices alone reads as a text of points.
       if (mesh.error().code == ErrorCode::unsupported && kind != "surface" && looksLikePointText(dem.path))
-        return dem.read(session);
+        return sourceOf(dem, kind).read(session);
       return tl::unexpected(mesh.error());
     }
     const bool hasFaces = !mesh->mesh.triangles.empty();
@@ -71,10 +77,8 @@ Result<DemRead> readSource(const DemArguments& dem, const std::string& kind, Ses
   }
   if (kind == "surface")
     return failure(ErrorCode::usage, fmt::format("{} is no mesh", dem.path), "--as surface");
-  Result<DemRead> read = dem.read(session);
-  // A text that fills a grid is read as a raster, and holds points all the same.
-  if (read && kind == "points" && std::holds_alternative<RasterHeightfield>(read->heightfield) &&
-      !looksLikePointText(dem.path))
+  Result<DemRead> read = sourceOf(dem, kind).read(session);
+  if (read && kind == "points" && std::holds_alternative<RasterHeightfield>(read->heightfield))
     return failure(ErrorCode::usage, fmt::format("{} is a raster", dem.path), "--as points");
   return read;
 }

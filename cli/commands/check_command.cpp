@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <string_view>
 
 #include "io/files/shell_text.h"
+#include "io/files/text_scan.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/geo/dem/raster_writer.h"
 
@@ -25,6 +29,12 @@ std::string readingOptions(const SourceReading& reading) {
   if (reading.isDepth) options += fmt::format(" --positive {}", *reading.isDepth ? "down" : "up");
   if (!reading.crs.empty()) options += " --crs " + shellQuoted(reading.crs);
   return options;
+}
+
+/// The same text may be read as a raster where its points fill a grid.
+bool isTextOfPoints(const TerrainModel& model) {
+  constexpr std::array<std::string_view, 4> kTexts = {"csv", "tsv", "txt", "xyz"};
+  return !model.isRaster && std::ranges::count(kTexts, text::lowerExtension(model.source)) > 0;
 }
 
 }  // namespace
@@ -74,6 +84,7 @@ std::string checkCommand(const ExtractRequest& request, const TerrainModel& mode
   for (const std::string& file : model.reading.otherFiles) command += " " + shellQuoted(file);
   command += fmt::format(" --expect {}", promisedError);
   command += readingOptions(model.reading);
+  if (isTextOfPoints(model)) command += " --as points";
   if (!c.region.empty()) command += fmt::format(" --region {}", shellQuoted(c.region));
   if (!c.regionCrs.empty()) command += fmt::format(" --region-crs {}", shellQuoted(c.regionCrs));
   if (c.distance > 0) command += fmt::format(" --distance {}", c.distance);

@@ -20,6 +20,7 @@
 #include "cli/arguments/extract_outputs.h"
 #include "cli/arguments/mesh_options.h"
 #include "cli/arguments/option_kinds.h"
+#include "cli/arguments/place_hint.h"
 #include "cli/commands/check_command.h"
 #include "cli/commands/extract_text.h"
 #include "cli/session/model_file.h"
@@ -116,6 +117,13 @@ Status checkOutputs(const std::vector<ExtractRequest>& requests, const ExtractAr
   return checkOutputsOf(requests, inputs);
 }
 
+/// What a typed box that is not on the terrain looks like; empty: nothing else.
+std::string regionHint(const RegionText& region, const TerrainModel& model) {
+  const auto numbers = parseNumbers("--region", region.text);
+  if (!region.crs.empty() || !numbers || numbers->size() != 4) return {};
+  return degreesHint(Box2{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]}, model);
+}
+
 Result<std::optional<Region>> regionOf(const ExtractArguments& arguments, const TerrainModel& model,
                                        Session& session) {
   const std::string& text = arguments.criterion.region();
@@ -125,7 +133,9 @@ Result<std::optional<Region>> regionOf(const ExtractArguments& arguments, const 
   session.warn(read.warnings, text);
   Region region = planRegion(std::move(read.shape), model);
   if (region.isEmpty() || !meetsDomain(region, model.mt))
-    return failure(ErrorCode::usage, fmt::format("does not meet the data of {}", arguments.model),
+    return failure(ErrorCode::usage,
+                   fmt::format("does not meet the data of {}{}", arguments.model,
+                               behindSemicolon(regionHint(arguments.criterion.regionText(), model))),
                    fmt::format("--region {}", text));
   return std::optional<Region>(std::move(region));
 }
@@ -202,6 +212,7 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   ARETE_TRY(auto requests, requestsOf(arguments, outline, session));
   ARETE_CHECK(checkOutputs(requests, arguments, outline));
   warnOfMapMetres(requests, outline, session);
+  if (const std::string hint = arguments.criterion.focusHint(outline); !hint.empty()) session.warn(hint);
   ARETE_TRY(const auto region, regionOf(arguments, outline, session));
   for (ExtractRequest& request : requests) request.region = region;
   ARETE_TRY(PartAndCut part, readForExtract(file, requests, outline, session.context()));

@@ -13,13 +13,13 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/place_hint.h"
 #include "cli/arguments/terrain_error.h"
 #include "cli/session/model_file.h"
 #include "io/geo/crs/position_argument.h"
 #include "io/geo/crs/transform.h"
 #include "io/geo/table/height_table.h"
 #include "io/geo/table/point_table.h"
-#include "io/query/extract/model_file.h"
 #include "terrain/locate/ground_height.h"
 
 namespace arete {
@@ -95,6 +95,45 @@ Json jsonOf(const PointTable& table, const Heights& heights) {
   return points;
 }
 
+/// What the first place without a height that is no place of the map looks like; empty: nothing else.
+std::string hintOfPlaces(const PointTable& table, const Heights& heights, const TerrainModel& model) {
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    if (!heights[i])
+      if (std::string hint = degreesHint(table.positions[i], model); !hint.empty()) return hint;
+  return {};
+}
+
+/// Errors: invalidData: no row has a position, or no place has a height.
+Status checkFound(const HeightArguments& arguments, const PointTable& table, const Heights& heights,
+                  std::size_t found, const TerrainModel& model) {
+  const std::size_t places = heights.size();
+  if (table.withoutPlace == places)
+    return failure(ErrorCode::invalidData,
+                   places == 1 ? std::string("has no position in its only row")
+                               : fmt::format("has no position in any of its {} rows", grouped(places)),
+                   arguments.points);
+  if (found > 0) return {};
+  const std::string where =
+      places == 1 ? std::string("this place") : fmt::format("any of the {} places", grouped(places));
+  if (const std::string hint = hintOfPlaces(table, heights, model); !hint.empty())
+    return failure(
+        ErrorCode::invalidData, fmt::format("{} has no terrain at {}: {}", arguments.model, where, hint),
+        arguments.points.empty() ? "--at " + arguments.at.front() : "--points " + arguments.points);
+  return failure(ErrorCode::invalidData,
+                 fmt::format("has no terrain at {}; X,Y are coordinates of its CRS, or longitude,latitude "
+                             "with --lonlat",
+                             where),
+                 arguments.model);
+}
+
+/// Says which columns of the file get other names, since ours have theirs.
+void noteRenamed(const HeightArguments& arguments, const PointTable& table, const Session& session) {
+  if (arguments.points.empty()) return;
+  for (const auto& [own, here] : renamedColumns(table, arguments.output))
+    session.note(fmt::format("the column {} of {} is {} in the answer, which has a column of that name", own,
+                             arguments.points, here));
+}
+
 // What contradicts itself is refused before the model is opened, and the output is checked before the places
 // are read.
 Status runHeight(const HeightArguments& arguments, Session& session) {
@@ -107,7 +146,7 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
     if (!isHeightTable(arguments.output))
       return failure(ErrorCode::usage, "a table of heights ends in .csv or .gpkg", culprit);
   }
-  ARETE_TRY(const AmtFile file, openTerrainFile(arguments.model));
+  ARETE_TRY(const AmtFile file, openTerrain(arguments.model));
   ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
   ARETE_TRY(const TerrainError maxError, terrainErrorOf(arguments.maxError, file, session));
   if (!arguments.output.empty())
@@ -130,6 +169,9 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
   json["places"] = heights.size();
   json["withoutPlace"] = table.withoutPlace;
   json["onTerrain"] = found;
+  // A table of empty heights is no answer: it is not written where the command fails for it.
+  if (!arguments.output.empty()) ARETE_CHECK(checkFound(arguments, table, heights, found, outline));
+  noteRenamed(arguments, table, session);
   if (arguments.output.empty()) {
     session.say(textOf(arguments, table, heights));
     if (maxError.relief)
@@ -146,26 +188,14 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
     json["file"] = arguments.output;
   }
   session.answer(json);
-  if (table.withoutPlace == heights.size())
-    return failure(ErrorCode::invalidData,
-                   heights.size() == 1
-                       ? std::string("has no position in its only row")
-                       : fmt::format("has no position in any of its {} rows", grouped(heights.size())),
-                   arguments.points);
-  if (found == 0)
-    return failure(
-        ErrorCode::invalidData,
-        fmt::format("has no terrain at {}; X,Y are coordinates of its CRS, or longitude,latitude "
-                    "with --lonlat",
-                    heights.size() == 1 ? std::string("this place")
-                                        : fmt::format("any of the {} places", grouped(heights.size()))),
-        arguments.model);
+  ARETE_CHECK(checkFound(arguments, table, heights, found, outline));
   if (table.withoutPlace > 0)
     session.warn(fmt::format("{} of {} no position, and so no height", grouped(table.withoutPlace),
                              grouped(heights.size(), "row has", "rows have")));
   if (const std::size_t off = heights.size() - found - table.withoutPlace; off > 0)
-    session.warn(fmt::format("{} of {} no height: outside the DEM, or on NODATA", grouped(off),
-                             grouped(heights.size(), "place has", "places have")));
+    session.warn(fmt::format("{} of {} no height: outside the DEM, or on NODATA{}", grouped(off),
+                             grouped(heights.size(), "place has", "places have"),
+                             behindSemicolon(hintOfPlaces(table, heights, outline))));
   return {};
 }
 
@@ -199,10 +229,9 @@ void addHeightCommand(CLI::App& app, Session& session) {
   command->add_option("--layer", arguments->layer, "Layer of points, where the file has several")
       ->type_name("NAME");
   command
-      ->add_option(
-          "-o,--output", arguments->output,
-          "Write a table (.csv or .gpkg): the columns of the file, x, y, height and its bounds below, "
-          "above (default: CSV on stdout)")
+      ->add_option("-o,--output", arguments->output,
+                   "Write a table (.csv or .gpkg): the columns of the file, height and its bounds below, "
+                   "above (default: CSV on stdout)")
       ->type_name("FILE");
   addOverwriteTo(*command, arguments->existing);
   addTerrainErrorTo(*command, arguments->maxError, "How far from full resolution a height may be", true);

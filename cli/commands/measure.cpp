@@ -29,6 +29,7 @@
 #include "io/query/extract/model_file.h"
 #include "io/query/extract/region_argument.h"
 #include "io/query/placed/measure_placed.h"
+#include "io/store/amt/file.h"
 #include "terrain/measure/measure.h"
 #include "terrain/model/plan_region.h"
 #include "terrain/model/relief.h"
@@ -144,9 +145,13 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
                             : place.metresAbout
                                 ? ", in metres, where each sample is"
                                 : fmt::format(", in {}, where each sample is", crsName(place.crsWkt));
+  const bool coversNothing = report.covered == 0 && report.valid > 0;
+  const Box2 tinBox = planBoxOf(tin.mesh, 1), demBox = planBoxOf(field);
   session.say(fmt::format("{} against {}{}{}\n{}", arguments.tin, nameWithoutQuery(arguments.dem.path),
                           arguments.region.empty() ? "" : fmt::format(" in {}", arguments.region), where,
-                          measureReportText(report, georeference.verticalUnit, isRaster)));
+                          coversNothing
+                              ? apartText(report, tinBox, demBox)
+                              : measureReportText(report, georeference.verticalUnit, isRaster)));
   if (expects && promise)
     session.say(fmt::format("kept: nowhere more than {}\n",
                             withReliefShare(expected, georeference.verticalUnit, relief)));
@@ -158,24 +163,47 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
                  {"verticalUnit", georeference.verticalUnit}}}};
   if (!arguments.region.empty()) json["region"] = arguments.region;
   json.update(toJson(report, isRaster));
+  std::string apart;
+  if (isApart) {
+    for (const char* figure : {"maximum", "rms", "meanAbsolute", "mean"}) json["error"][figure] = nullptr;
+    for (const auto& [name, box] : {std::pair{"tin", tinBox}, {"dem", demBox}})
+      json[name]["extent"] = {box.xMin, box.yMin, box.xMax, box.yMax};
+    apart =
+        fmt::format("covers no sample of {}, so there is nothing to compare: the TIN has {}, the DEM {}{}",
+                    nameWithoutQuery(arguments.dem.path), rangesText(tinBox), rangesText(demBox),
+                    reasonOfApart(tinBox, planBoxOf(tin.mesh, 2), demBox));
+  }
   if (expects) {
     json["expect"] = std::isfinite(expected) ? Json(expected) : Json();
     json["expectPercent"] = std::isfinite(expected) && relief > 0 ? Json(100 * expected / relief) : Json();
     json["relief"] = relief;
     json["kept"] = promise.has_value();
-    if (!promise) json["broken"] = promise.error().message;
+    if (!promise) json["broken"] = isApart ? apart : promise.error().message;
   }
   session.answer(json);
+  if (isApart) return failure(promise ? ErrorCode::invalidData : promise.error().code, apart, arguments.tin);
   if (!promise) return failure(promise.error().code, promise.error().message, arguments.tin);
-  if (report.covered == 0 && report.valid > 0)
-    return failure(ErrorCode::invalidData,
-                   fmt::format("covers no sample of {}, so there is nothing to compare", arguments.dem.path),
-                   arguments.tin);
   return {};
 }
 
+/// A model of terrain is no reference, since it holds what is to be checked: the DEM that it was built from
+/// is.
+Error isModel(const std::string& path, AmtContainer container) {
+  const Result<AmtFile> file = openAmt(std::move(container));
+  const std::string source = file ? file->model().source : std::string();
+  return {ErrorCode::usage,
+          fmt::format("is a model; a TIN is measured against the DEM that it was built from{}",
+                      source.empty() ? "" : ", " + source),
+          path};
+}
+
 Status runMeasure(MeasureArguments arguments, Session& session) {
-  const Result<AmtContainer> model = openModelFile(arguments.dem.path);
+  if (!arguments.expectText.empty()) {
+    // Whether it is a size is checked before the unit of the data is read.
+    const DataUnit metre{1};
+    ARETE_TRY([[maybe_unused]] const auto stated, parseStatedSize(arguments.expectText, "--expect", &metre));
+  }
+  Result<AmtContainer> model = openModelFile(arguments.dem.path);
   const bool isAgainstMesh = isMeshFile(arguments.dem.path) || (model && model->isOfSurface());
   ARETE_CHECK(checkKind(arguments, isAgainstMesh));
   if (isAgainstMesh) {
@@ -199,7 +227,10 @@ Status runMeasure(MeasureArguments arguments, Session& session) {
   }
   ARETE_TRY(const MeshFile tin, readMesh(arguments.tin, session.context()));
   session.warn(tin.warnings, arguments.tin);
-  ARETE_TRY(const DemRead dem, arguments.dem.read(session));
+  Result<DemRead> read = arguments.dem.read(session);
+  if (!read && read.error().code == ErrorCode::unsupported && model)
+    return tl::unexpected(isModel(arguments.dem.path, std::move(*model)));
+  ARETE_TRY(const DemRead dem, std::move(read));
   return std::visit([&](const auto& field) { return compare(arguments, tin, field, session); },
                     dem.heightfield);
 }
@@ -286,6 +317,7 @@ void addMeasureCommand(CLI::App& app, Session& session) {
           ->add_option("--error-mesh", arguments->errorMesh,
                        "PLY to write: the first mesh, each vertex with its distance as 'quality' and colour")
           ->type_name("FILE"));
+  arguments->dem.addKindTo(*command);
   arguments->dem.addTo(*command);
   kinds.groupOfTerrain(*command, DemArguments::kGroup);
 }

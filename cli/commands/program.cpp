@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/arguments/spaced_numbers.h"
 #include "cli/arguments/unknown_words.h"
 #include "cli/commands/build.h"
 #include "cli/commands/convert.h"
@@ -109,6 +110,8 @@ ExitCode runProgram(int argc, char** argv) {
   session.setWords(words);
   const bool wantsJson = std::ranges::count(words, "--json") > 0;
   if (const std::string sentence = unknownCommand(app, words); !sentence.empty())
+    return session.refuse(sentence, "arete", wantsJson);
+  if (const std::string sentence = spacedNumbers(app, words); !sentence.empty())
     return session.refuse(sentence, "arete", wantsJson);
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them from the end

@@ -53,6 +53,7 @@ Result<std::uint64_t> compare(const ValidateArguments& arguments, const TerrainM
                               Session& session) {
   DemArguments source = arguments.source;
   source.reading = readingOf(source.reading, model.reading);
+  source.staysPoints = !model.isRaster;
   ARETE_TRY(const DemRead dem, source.read(session));
   return std::visit([&](const auto& field) { return compareWithSource(model, field); }, dem.heightfield);
 }

@@ -75,15 +75,23 @@ Result<StatedSize> distanceOf(const std::string& text, const DataUnit& unit) {
   return sizes.front();
 }
 
+/// For checks of a length before the mesh, and thus its unit, is read.
+constexpr DataUnit kAnyUnit{1};
+
 /// What is asked for, as far as the mesh does not decide it: a share of its faces is 1 here.
 Result<DecimationRequest> requestOf(const DecimateArguments& arguments) {
   DecimationRequest request = arguments.request;
   request.wantsFaces = !arguments.map.empty();
+  // Whether a share is a triangle or more is known with the faces.
+  const bool isShare = arguments.maxTriangles.find('%') != std::string::npos;
+  if (!arguments.maxTriangles.empty() && !isShare) ARETE_CHECK(triangleBudget(arguments.maxTriangles, 0));
   if (!arguments.maxTriangles.empty()) request.maxTriangles = 1;
   if (!arguments.maxError.empty()) {
-    // Whether it is a distance is checked before the mesh, and thus its unit, is read.
-    const DataUnit metre{1};
-    ARETE_TRY(request.maxError, distanceOf(arguments.maxError, metre));
+    ARETE_TRY(request.maxError, distanceOf(arguments.maxError, kAnyUnit));
+  }
+  if (!arguments.dropParts.empty()) {
+    ARETE_TRY(const auto least, parseSurfaceTolerances("--drop-parts", arguments.dropParts, 1, kAnyUnit));
+    if (least.size() != 1) return failure(ErrorCode::usage, "takes one length", "--drop-parts");
   }
   ARETE_CHECK(checkDecimation(request));
   return request;

@@ -3,12 +3,25 @@
 // The default of --earth depends on the model, so it is resolved after the model is open.
 #include "cli/sight/arguments.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "cli/arguments/arguments.h"
 #include "io/geo/crs/ellipsoid_earth.h"
+#include "io/geo/crs/position_argument.h"
 
 namespace arete {
+
+CLI::Validator megahertz() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        const auto number = readNumberText(text);
+        if (!number) return fmt::format("'{}' is not a number of MHz, as 2400", text);
+        return *number > 0 ? "" : fmt::format("must be above 0 MHz, not {}", text);
+      },
+      "");
+}
 
 // A stated coefficient is kept apart from the default one, since a stated one is an error on a plane.
 void SightArguments::addEarthTo(CLI::App& command) {

@@ -14,6 +14,9 @@
 
 namespace arete {
 
+/// A frequency in MHz, above 0.
+CLI::Validator megahertz();
+
 /// The options that los, profile and viewshed share.
 struct SightArguments {
   std::string earth;  ///< "ellipsoid", "plane" or empty: the ellipsoid where the DEM's CRS has one

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/place_hint.h"
 #include "cli/arguments/terrain_error.h"
 #include "cli/session/model_file.h"
 #include "cli/session/option_names.h"
@@ -27,7 +28,6 @@
 #include "io/geo/dem/clutter_raster.h"
 #include "io/geo/table/line_table.h"
 #include "io/geo/table/sight_pairs.h"
-#include "io/query/extract/model_file.h"
 #include "terrain/sight/paths.h"
 
 namespace arete {
@@ -94,6 +94,19 @@ Result<SightSite> siteOf(const std::string& option, const std::string& text, con
   return SightSite{stated.xy, position.xy, StatedHeight{position.height, position.kind}};
 }
 
+/// Warns of a typed end that looks like longitude and latitude on a map of lengths. An error where its height
+/// is above the ground, which is not there.
+Status checkPlaceOf(const std::string& option, const std::string& text, const SightSite& site, bool isLonLat,
+                    const TerrainModel& model, const Session& session) {
+  const std::string hint = isLonLat ? std::string() : degreesHint(site.stated, model);
+  if (hint.empty()) return {};
+  const std::string culprit = fmt::format("{} {}", option, text);
+  if (site.height && site.height->kind == HeightKind::aboveGround)
+    return failure(ErrorCode::invalidData, "lies outside the DEM: " + hint, culprit);
+  session.warn(fmt::format("{} lies outside the DEM: {}", culprit, hint));
+  return {};
+}
+
 /// Moves longitudes by whole turns to the DEM.
 void turnLongitudes(SightPairs& pairs, const TerrainModel& model) {
   const LongitudeTurns turns(model);
@@ -120,6 +133,7 @@ Result<SightPairs> readRows(const LosArguments& a, const TerrainModel& model, Se
     ARETE_TRY(auto read,
               siteOf(option, *text, toDem, heightUnitOf(dem), isTarget || !a.observerHeight.empty()));
     if (isTarget && a.isTargetOnGround()) read.height = StatedHeight{};
+    ARETE_CHECK(checkPlaceOf(option, *text, read, a.sight.lonLat, model, session));
     *site = read;
   }
   if (a.points.empty()) {
@@ -141,6 +155,33 @@ Result<SightPairs> readRows(const LosArguments& a, const TerrainModel& model, Se
   }
   for (auto& row : sites->rows) row = from ? std::array{fixed, row[0]} : std::array{row[0], fixed};
   return sites;
+}
+
+/// What states each end, where that is an option.
+std::array<std::string, 2> typedEnds(const LosArguments& a) {
+  return {a.from.empty() ? "" : "--from " + a.from, a.to.empty() ? "" : "--to " + a.to};
+}
+
+/// A height below the ground is an answer, blocked, and seldom meant.
+void warnOfBuriedEnds(const SightRows& rows, const GroundHeights& heights, const Session& session) {
+  const std::string& unit = heights.model().georeference.verticalUnit;
+  std::size_t buried = 0;
+  double deepest = 0;
+  for (std::size_t i = 0; i < rows.paths.size(); ++i)
+    for (int end = 0; end < 2; ++end) {
+      const SightPath& path = rows.paths[i];
+      const double below = depthBelowGround(end == 0 ? path.from : path.to,
+                                            end == 0 ? path.fromHeight : path.toHeight, heights);
+      if (!(below > 0)) continue;
+      ++buried;
+      deepest = std::max(deepest, below);
+      if (rows.paths.size() == 1)
+        session.warn(fmt::format("the {} end lies {} below the ground", end == 0 ? "first" : "second",
+                                 withUnit(below, unit)));
+    }
+  if (buried > 0 && rows.paths.size() > 1)
+    session.warn(fmt::format("{} below the ground, by up to {}", grouped(buried, "end lies", "ends lie"),
+                             withUnit(deepest, unit)));
 }
 
 /// Applies the heights of the options to ends that have none.
@@ -255,7 +296,7 @@ Status reportMany(const LosArguments& a, const SightResults& results, Json json,
 
 Status runLos(const LosArguments& a, Session& session) {
   ARETE_CHECK(checkArguments(a));
-  ARETE_TRY(const AmtFile file, openTerrainFile(a.model));
+  ARETE_TRY(const AmtFile file, openTerrain(a.model));
   ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
   ARETE_CHECK(checkGroundUnits(outline.georeference, {a.clutterFreeWithUnit}));
   if (!a.output.empty())
@@ -274,7 +315,8 @@ Status runLos(const LosArguments& a, Session& session) {
   const bool hasProfiles = options.frequencyMegahertz > 0 || options.clutter.height;
   const auto grid = hasProfiles && model.isRaster ? std::make_shared<const SightGrid>(model) : nullptr;
   const Profiles profiles(model, grid);
-  const SightRows rows = SightRows::of(pairs, profiles.heights());
+  const SightRows rows = SightRows::of(pairs, profiles.heights(), typedEnds(a));
+  warnOfBuriedEnds(rows, profiles.heights(), session);
   const SightMethod method = bestMethod(a.method, maxError.value, rows.paths.size(), model);
   if (!model.isRaster && method != SightMethod::descent)
     return failure(ErrorCode::usage, fmt::format("requires a raster; {} is made of points", a.model),
@@ -373,7 +415,7 @@ void addLosCommand(CLI::App& app, Session& session) {
       command
           ->add_option("--frequency", arguments->frequency,
                        "Compute how much of the first Fresnel zone is clear at this frequency")
-          ->check(finiteAbove(0))
+          ->check(megahertz())
           ->type_name("MHZ")
           ->group(radio);
   command

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/place_hint.h"
 #include "cli/arguments/terrain_error.h"
 #include "cli/session/model_file.h"
 #include "cli/sight/arguments.h"
@@ -26,7 +27,6 @@
 #include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/position_argument.h"
 #include "io/geo/crs/transform.h"
-#include "io/query/extract/model_file.h"
 #include "io/query/extract/region_reader.h"
 #include "terrain/sight/fresnel.h"
 #include "terrain/sight/paths.h"
@@ -104,8 +104,10 @@ Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference&
   if (a.sight.lonLat)
     return failure(ErrorCode::usage, "cannot be combined with --along FILE, which has a CRS of its own",
                    "--lonlat");
-  ARETE_TRY(auto read,
-            readRegion(a.along, dem.crsWkt, {.layer = a.layer, .takesLines = true}, session.context()));
+  auto found = readRegion(a.along, dem.crsWkt, {.layer = a.layer, .takesLines = true}, session.context());
+  if (!found && found.error().message.find("name one of them") != std::string::npos)
+    found.error().message += " (--layer)";
+  ARETE_TRY(auto read, std::move(found));
   session.warn(read.warnings, a.along);
   if (read.lines.empty()) return failure(ErrorCode::invalidData, "holds no line", a.along);
   std::vector<Way> ways;
@@ -114,6 +116,15 @@ Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference&
     ways.push_back({std::move(line), std::nullopt});
   }
   return ways;
+}
+
+/// Whether a typed line without terrain looks like longitudes and latitudes. Errors: invalidData.
+Status checkDegrees(const ProfileArguments& a, const std::vector<Way>& ways, const TerrainModel& model) {
+  if (a.sight.lonLat || isFile(a.along)) return {};
+  for (const Vec2 vertex : ways.front().vertices)
+    if (const std::string hint = degreesHint(vertex, model); !hint.empty())
+      return failure(ErrorCode::invalidData, "lies outside the DEM: " + hint, "--along " + a.along);
+  return {};
 }
 
 Result<SightTrack> trackOf(const Way& way, const SightEarth& earth, const TerrainModel& model) {
@@ -215,7 +226,9 @@ Result<Answer> answerWay(const Way& way, const ProfileArguments& a, double maxEr
   }
   SightPath path{sightPlan(model, way.vertices[0]), sightPlan(model, way.vertices[1])};
   for (int end = 0; end < 2; ++end) {
-    ARETE_TRY(const auto height, demHeight((*way.ends)[end], profiles.heights()));
+    auto found = demHeight((*way.ends)[end], profiles.heights());
+    if (!found) ARETE_CHECK(checkDegrees(a, {way}, model));
+    ARETE_TRY(const double height, std::move(found));
     (end == 0 ? path.fromHeight : path.toHeight) = height;
   }
   ARETE_TRY(auto line, sightLine(path, earth, model));
@@ -229,6 +242,19 @@ Result<Answer> answerWay(const Way& way, const ProfileArguments& a, double maxEr
   answer.line = std::move(line);
   answer.path = *seen;
   return answer;
+}
+
+/// Says how much of the lines has no terrain below it.
+void warnOfGaps(const std::vector<Answer>& answers, const Session& session) {
+  double length = 0, gap = 0;
+  for (const Answer& answer : answers) {
+    length += answer.profile.length;
+    gap += answer.profile.gapMetres;
+  }
+  // Less than a millimetre is the rounding of the ends.
+  if (gap > 1e-3)
+    session.warn(
+        fmt::format("{:.6g} of {:.6g} m have no terrain below: outside the DEM, or on NODATA", gap, length));
 }
 
 /// The terrain that the ways require.
@@ -266,10 +292,14 @@ Status drawPng(const ProfileArguments& a, const Answer& answer, const TerrainMod
 
 Status runProfile(const ProfileArguments& a, Session& session) {
   if (!a.output.empty() && text::lowerExtension(a.output) != "csv")
-    return failure(ErrorCode::usage, "a profile is written as .csv", "--output " + a.output);
+    return failure(ErrorCode::usage,
+                   text::lowerExtension(a.output) == "png"
+                       ? "a profile is written as .csv; --png draws it as a picture"
+                       : "a profile is written as .csv, and drawn by --png as .png",
+                   "--output " + a.output);
   if (!a.png.empty() && text::lowerExtension(a.png) != "png")
     return failure(ErrorCode::usage, "a picture ends in .png", "--png " + a.png);
-  ARETE_TRY(const AmtFile amt, openTerrainFile(a.model));
+  ARETE_TRY(const AmtFile amt, openTerrain(a.model));
   // The outline places the lines, and the lines decide which terrain is read.
   ARETE_TRY(const TerrainModel outline, outlineOf(amt, session));
   for (const auto& [option, path] : {std::pair{"--output", a.output}, {"--png", a.png}})
@@ -300,6 +330,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
     vertices += answer.profile.vertices.size();
     answers.push_back(std::move(answer));
   }
+  if (vertices == 0) ARETE_CHECK(checkDegrees(a, ways, outline));
   if (vertices == 0)
     return failure(
         ErrorCode::invalidData,
@@ -328,7 +359,9 @@ Status runProfile(const ProfileArguments& a, Session& session) {
   if (!a.png.empty()) {
     ARETE_CHECK(drawPng(a, answers.front(), model, wavelength));
     json["picture"] = a.png;
+    session.say(fmt::format("{}: a profile of {:.6g} km\n", a.png, answers.front().profile.length / 1000));
   }
+  warnOfGaps(answers, session);
   if (a.csv || (a.output.empty() && a.png.empty())) session.say(table.csv(answers));
   if (maxError.relief && a.output.empty())
     session.note(fmt::format("the profile is within {}", maxError.text(dem.verticalUnit)));
@@ -370,7 +403,7 @@ void addProfileCommand(CLI::App& app, Session& session) {
   CLI::Option* frequency = command
                                ->add_option("--frequency", arguments->frequency,
                                             "Frequency whose first Fresnel zone is computed and drawn")
-                               ->check(finiteAbove(0))
+                               ->check(megahertz())
                                ->type_name("MHZ")
                                ->group(radio);
   command

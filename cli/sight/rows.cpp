@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,7 +17,8 @@
 namespace arete {
 namespace {
 
-Result<SightPath> pathOf(const std::array<SightSite, 2>& row, const GroundHeights& heights) {
+Result<SightPath> pathOf(const std::array<SightSite, 2>& row, const GroundHeights& heights,
+                         const std::array<std::string, 2>& typed) {
   constexpr const char* kEnds[2] = {"the first end", "the second end"};
   constexpr const char* kOptions[2] = {"--observer-height", "--target-height"};
   SightPath path;
@@ -29,7 +31,9 @@ Result<SightPath> pathOf(const std::array<SightSite, 2>& row, const GroundHeight
                      kEnds[end]);
     if (!site.height)
       return failure(ErrorCode::usage, fmt::format("has no height; {} sets one", kOptions[end]), kEnds[end]);
-    ARETE_TRY(const auto height, demHeight({site.xy, site.height->height, site.height->kind}, heights));
+    auto found = demHeight({site.xy, site.height->height, site.height->kind}, heights);
+    if (!found && !typed[end].empty()) found.error().culprit = typed[end];
+    ARETE_TRY(const double height, std::move(found));
     (end == 0 ? path.from : path.to) = sightPlan(heights.model(), site.xy);
     (end == 0 ? path.fromHeight : path.toHeight) = height;
   }
@@ -46,12 +50,13 @@ Json numberOrNull(double value) {
 
 }  // namespace
 
-SightRows SightRows::of(const SightPairs& pairs, const GroundHeights& heights) {
+SightRows SightRows::of(const SightPairs& pairs, const GroundHeights& heights,
+                        const std::array<std::string, 2>& typed) {
   SightRows all;
   all.rows.reserve(pairs.rows.size());
   // A row without a path keeps its place, so that texts and tables have an entry for every row of the file.
   for (const auto& row : pairs.rows) {
-    auto path = pathOf(row, heights);
+    auto path = pathOf(row, heights, typed);
     if (path) {
       all.rows.push_back({all.paths.size(), std::nullopt});
       all.paths.push_back(*path);
@@ -60,6 +65,14 @@ SightRows SightRows::of(const SightPairs& pairs, const GroundHeights& heights) {
     }
   }
   return all;
+}
+
+double depthBelowGround(Vec2 plan, double height, const GroundHeights& heights) {
+  const auto ground = heights.at(heights.model().toSource(plan));
+  if (!ground) return std::nan("");
+  const double below = ground->height - height;
+  // A place on the ground is there but for rounding.
+  return below > 1e-9 * std::max(1.0, std::abs(ground->height)) ? below : 0;
 }
 
 SightMethod bestMethod(SightMethod asked, double maxError, std::size_t lines, const TerrainModel& model) {
@@ -138,7 +151,6 @@ std::string SightResults::textOf(std::size_t row) const {
                         placeText(a.fresnel->place));
   else if (hasFresnel)
     text += "Fresnel zone no answer: an end is below the ground, or there is no terrain between the ends\n";
-  text += fmt::format("visited      {}\n", grouped(a.sight.visited));
   return text;
 }
 

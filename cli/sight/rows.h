@@ -24,9 +24,15 @@ struct SightRows {
   };
   std::vector<Row> rows;
 
-  static SightRows of(const SightPairs& pairs, const GroundHeights& heights);
+  /// @param typed what states the first end and the second, for errors; empty: the rows of a file.
+  static SightRows of(const SightPairs& pairs, const GroundHeights& heights,
+                      const std::array<std::string, 2>& typed = {});
   std::size_t count() const { return rows.size(); }
 };
+
+/// How far a height at a place lies below the terrain at full resolution, beyond rounding; 0 or less: not
+/// below; NaN without terrain. O(log n).
+double depthBelowGround(Vec2 plan, double height, const GroundHeights& heights);
 
 /// The algorithm that is asked for, or methodFor() the lines.
 SightMethod bestMethod(SightMethod asked, double maxError, std::size_t lines, const TerrainModel& model);

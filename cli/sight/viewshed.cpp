@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/place_hint.h"
 #include "cli/arguments/terrain_error.h"
 #include "cli/session/model_file.h"
 #include "cli/sight/arguments.h"
@@ -30,7 +31,6 @@
 #include "io/geo/dem/raster_writer.h"
 #include "io/geo/polygons/polygon_file.h"
 #include "io/geo/table/sight_pairs.h"
-#include "io/query/extract/model_file.h"
 #include "io/query/extract/query_footprint.h"
 #include "io/store/amt/file.h"
 #include "terrain/sight/paths.h"
@@ -65,7 +65,8 @@ Status aim(ViewshedField& field, const SightBeam& beam) {
 struct PlacedObserver {
   PositionArgument position;
   ViewshedField field;
-  std::string culprit;  // the row of a file; empty: stated by an option
+  std::string culprit;  // the row of a file, or the option
+  bool isOfFile = false;
 };
 
 /// Reads the observers. `outline`: of the model, its root at least. Errors: usage, invalidData, naming the
@@ -77,7 +78,12 @@ Result<std::vector<PlacedObserver>> placeObservers(const ViewshedArguments& a, c
   const DataUnit unit = heightUnitOf(outline.georeference);
   for (const std::string& text : a.observers.typed) {
     ARETE_TRY(const auto position, readPositionArgument("--observer", text, toDem, &unit));
-    observers.push_back({position, field, {}});
+    const std::string culprit = "--observer " + text;
+    const std::string hint = a.sight.lonLat ? std::string() : degreesHint(position.xy, outline);
+    if (!hint.empty() && position.kind == HeightKind::aboveGround)
+      return failure(ErrorCode::invalidData, "lies outside the DEM: " + hint, culprit);
+    if (!hint.empty()) session.warn(fmt::format("{} lies outside the DEM: {}", culprit, hint));
+    observers.push_back({position, field, culprit});
   }
   if (a.observers.file.empty()) return observers;
   std::optional<StatedHeight> usual;
@@ -104,7 +110,7 @@ Result<std::vector<PlacedObserver>> placeObservers(const ViewshedArguments& a, c
                      culprit);
     const auto height = site.height ? site.height : usual;
     if (!height) return failure(ErrorCode::usage, "has no height; --observer-height sets one", culprit);
-    observers.push_back({{site.xy, height->height, height->kind}, field, culprit});
+    observers.push_back({{site.xy, height->height, height->kind}, field, culprit, true});
     if (Status turned = aim(observers.back().field, sites.beams[i]); !turned)
       return failure(turned.error().code, turned.error().message, culprit);
   }
@@ -134,10 +140,12 @@ Result<std::vector<ViewshedSite>> sitesOf(std::span<const PlacedObserver> observ
   std::vector<ViewshedSite> sites;
   for (const PlacedObserver& observer : observers) {
     const auto height = demHeight(observer.position, heights);
-    // A typed observer is named by its position, one of a file by its row as well.
-    if (!height && observer.culprit.empty()) return tl::unexpected(height.error());
+    // A typed observer is named by its option, one of a file by its row and its position.
+    if (!height && !observer.isOfFile)
+      return failure(height.error().code, height.error().message, observer.culprit);
     if (!height)
-      return failure(height.error().code, height.error().message,
+      return failure(height.error().code,
+                     height.error().message + behindSemicolon(degreesHint(observer.position.xy, model)),
                      fmt::format("{}: {}", observer.culprit, height.error().culprit));
     sites.push_back({{sightPlan(model, observer.position.xy), *height}, observer.field});
   }
@@ -195,6 +203,32 @@ Result<ViewshedAnswer> answerMany(const Question& q, const ViewshedMaker& maker,
   return ViewshedAnswer{viewshedPictureOfMany(mode, all), std::move(all.cells), all.withoutLine};
 }
 
+/// What leaves no sample to answer for: a radius below the spacing of the samples, or the options together.
+std::string whyNoSample(const Question& q) {
+  const ViewshedArguments& a = q.arguments;
+  if (!a.like.empty())
+    return fmt::format("no cell of {} is on the terrain and within the field of view", a.like);
+  double radius = 0;
+  for (const ViewshedSite& site : q.observers) radius = std::max(radius, site.field.greatestMetres);
+  const Vec2 plan = q.observers.front().observer.plan;
+  const Vec2 step = groundStep(q.model.georeference, plan.x, plan.y);
+  const std::string unit = q.model.georeference.crsWkt.empty() ? "" : " m";
+  if (radius < std::max(step.x, step.y))
+    return fmt::format(
+        "no sample is within the radius of {:g}{}: it is in metres, and the samples are {:.4g} x {:.4g}{} "
+        "apart",
+        radius, unit, step.x, step.y, unit);
+  std::string options;
+  const auto add = [&](const char* option, bool isStated) {
+    if (isStated) options += (options.empty() ? ": " : ", ") + std::string(option);
+  };
+  add("--radius", std::isfinite(a.fieldOfView.greatestMetres));
+  add("--min-distance", a.fieldOfView.leastMetres > 0);
+  add("--azimuth", !a.fieldOfView.azimuths.empty());
+  add("--elevation", !a.fieldOfView.elevations.empty());
+  return "no sample is within the field of view" + options;
+}
+
 /// Reports how many cells have which answer.
 void reportCounts(const Question& q, const std::vector<ViewshedCell>& cells, const PlacedGrid& grid,
                   Json json, Session& session) {
@@ -208,6 +242,8 @@ void reportCounts(const Question& q, const std::vector<ViewshedCell>& cells, con
   };
   const std::uint64_t seen = count(ViewshedCell::seen), hidden = count(ViewshedCell::hidden),
                       unknown = count(ViewshedCell::unknown), undecided = count(ViewshedCell::undecided);
+  if (seen + hidden + unknown + undecided == 0)
+    session.warn({{WarningCode::omitted, whyNoSample(q)}}, a.output);
   json["seen"] = seen;
   json["hidden"] = hidden;
   json["unknown"] = unknown;
@@ -285,7 +321,7 @@ Status answer(const Question& q, Session& session) {
 Status runViewshed(const ViewshedArguments& a, Session& session) {
   ARETE_CHECK(a.check());
   ARETE_TRY(auto options, a.options());
-  ARETE_TRY(const AmtFile file, openTerrainFile(a.model));
+  ARETE_TRY(const AmtFile file, openTerrain(a.model));
   ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
   ARETE_CHECK(
       checkGroundUnits(outline.georeference, {a.fieldOfView.greatestWithUnit, a.fieldOfView.leastWithUnit}));

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/conversion_report.h"
 #include "cli/mesh/tolerance.h"
 #include "cli/surface/criterion.h"
 #include "cli/surface/extract_text.h"
@@ -132,7 +133,8 @@ Status extractSurface(const SurfaceExtractArguments& arguments, const AmtContain
     if (!found) return tl::unexpected(named(found.error(), arguments, request, model, session.context()));
     Warnings warnings;
     for (const std::string& lost : found->written.lost)
-      warnings.push_back({WarningCode::omitted, fmt::format("cannot hold {}", lost)});
+      if (!isFineRounding(lost, model.diagonal, found->promisedError))
+        warnings.push_back({WarningCode::omitted, fmt::format("cannot hold {}", lost)});
     session.warn(warnings, request.output);
     if (found->leftByRounding > 0) session.warn(leftByRoundingText(request, *found, model));
     session.say(extractText(request, *found, model, requests.stateShares[i]));

@@ -219,9 +219,11 @@ Result<ViewLook> AppearanceArguments::look() const {
 
 void PictureArguments::addTo(CLI::App& command) {
   const std::string group = "Pictures";
-  // What writes pictures needs --headless, and what describes a flight's pictures needs --frames.
-  CLI::Option* headless =
-      command.add_flag("--headless", isHeadless, "Draw without a window or display")->group(group);
+  // What writes pictures draws without a window. What describes a flight's pictures needs --frames or --film.
+  command
+      .add_flag("--headless", isHeadless,
+                "Draw without a window or display; --screenshot, --frames and --film do")
+      ->group(group);
   command.add_option("--size", sizeText, "Size of the picture or window in pixels (default 1280x720)")
       ->type_name("WxH")
       ->group(group);
@@ -229,27 +231,23 @@ void PictureArguments::addTo(CLI::App& command) {
       ->check(wholeNumber(1, 32))
       ->type_name("N")
       ->group(group);
-  command.add_option("--screenshot", screenshot, "Write one picture")
-      ->needs(headless)
-      ->type_name("FILE.png")
+  command.add_option("--screenshot", screenshot, "Write one picture")->type_name("FILE.png")->group(group);
+  command.add_option("--frames", frames, "Write the pictures of the flight")
+      ->type_name("FOLDER")
       ->group(group);
-  CLI::Option* pictures = command.add_option("--frames", frames, "Write the pictures of the flight")
-                              ->needs(headless)
-                              ->type_name("FOLDER")
-                              ->group(group);
   command.add_option("--fps", framesPerSecond, "Pictures per second (default: the flight's)")
       ->check(finiteBetween(0.001, 1000))
-      ->needs(pictures)
       ->type_name("N")
       ->group(group);
-  command.add_option("--film", film, "Make a film of the pictures with ffmpeg")
-      ->needs(pictures)
+  command
+      .add_option("--film", film, "Make a film of the flight with ffmpeg; without --frames no picture stays")
       ->type_name("FILE.mp4")
       ->group(group);
   command.add_option("--figures", figures, "Write triangles, tolerance and times of each frame")
-      ->needs(pictures)
       ->type_name("FILE.json")
       ->group(group);
+  // Hidden: what other commands call their file, answered by check().
+  command.add_option("-o,--output", output)->type_name("FILE")->group("");
   // Hidden: pictures of the window itself.
   command.add_option("--window-screenshot", windowScreenshot)->group("");
   command.add_option("--window-frames", windowFrames)->group("");
@@ -270,7 +268,26 @@ void ViewArguments::addTo(CLI::App& command) {
   detail.addTo(command, kinds);
   appearance.addTo(command, kinds);
   pictures.addTo(command);
-  command.get_option("--frame-time")->excludes(command.get_option("--headless"));
+}
+
+// The folder of the pictures of a film alone is made by the command, which knows when it is no longer needed.
+Status ViewArguments::completePictures() {
+  PictureArguments& p = pictures;
+  if (!p.output.empty())
+    return failure(
+        ErrorCode::usage,
+        "is no option of view: --screenshot FILE.png writes a picture, --frames FOLDER the pictures "
+        "of a flight, --film FILE.mp4 a film",
+        "--output " + p.output);
+  const bool hasFlightPictures = !p.frames.empty() || !p.film.empty();
+  for (const auto& [option, isStated] :
+       {std::pair{"--fps", p.framesPerSecond > 0}, {"--figures", !p.figures.empty()}})
+    if (isStated && !hasFlightPictures)
+      return failure(ErrorCode::usage, "requires --frames FOLDER or --film FILE.mp4", option);
+  p.isHeadless = p.isHeadless || hasFlightPictures || !p.screenshot.empty();
+  if (p.isHeadless && detail.frameTime > 0)
+    return failure(ErrorCode::usage, "is for the window, and pictures are drawn without one", "--frame-time");
+  return {};
 }
 
 Status ViewArguments::check() const {
@@ -280,12 +297,13 @@ Status ViewArguments::check() const {
   const PictureArguments& p = pictures;
   if (detail.deadline > 0 && !detail.isCutByProcessor())
     return refuse("requires --cut processor", "--deadline");
-  if (p.isHeadless && p.screenshot.empty() && p.frames.empty())
-    return refuse("requires --screenshot FILE.png or --frames FOLDER", "--headless");
+  if (p.isHeadless && p.screenshot.empty() && p.frames.empty() && p.film.empty())
+    return refuse("requires --screenshot FILE.png, --frames FOLDER or --film FILE.mp4", "--headless");
   if (!p.screenshot.empty() && text::lowerExtension(p.screenshot) != "png")
     return refuse("a picture ends in .png", "--screenshot " + p.screenshot);
-  if (!p.frames.empty() && !viewpoint.hasFlight())
-    return refuse("requires --path FLIGHT.json or --round", "--frames " + p.frames);
+  if ((!p.frames.empty() || !p.film.empty()) && !viewpoint.hasFlight())
+    return refuse("requires --path FLIGHT.json or --round",
+                  p.frames.empty() ? "--film " + p.film : "--frames " + p.frames);
   if (p.isHeadless && p.screenshot.empty() && viewpoint.statesCamera())
     return refuse("requires --screenshot; the frames of a flight have cameras of their own",
                   viewpoint.home.empty() ? "--camera " + viewpoint.camera : "--home " + viewpoint.home);

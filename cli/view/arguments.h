@@ -67,6 +67,8 @@ struct AppearanceArguments {
 struct PictureArguments {
   bool isHeadless = false;
   std::string sizeText, screenshot, frames, film, figures;
+  bool dropsFrames = false;    ///< the pictures of the flight are for the film alone
+  std::string output;          ///< of --output, which is no option here
   double framesPerSecond = 0;  ///< 0 = the rate that the flight states
   int samples = 4;
   std::string windowScreenshot;  ///< for tests: the last picture of the window
@@ -86,6 +88,8 @@ struct ViewArguments {
   OptionKinds kinds;
 
   void addTo(CLI::App& command);
+  /// Takes what writes pictures as --headless. Errors: usage, naming the option.
+  Status completePictures();
   /// The rules between options that CLI11 cannot state. Errors: usage, naming the option; unsupported: a film
   /// without ffmpeg.
   Status check() const;

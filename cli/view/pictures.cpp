@@ -5,7 +5,9 @@
 #include "cli/view/pictures.h"
 
 #include <fmt/format.h>
+#include <stdlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -52,6 +54,35 @@ bool exceedsBudget(const ViewArguments& a, const FrameFigures& figures) {
 }
 
 }  // namespace
+
+Result<FramesFolder> FramesFolder::of(PictureArguments& pictures) {
+  FramesFolder folder;
+  if (!pictures.frames.empty() || pictures.film.empty()) return folder;
+  std::error_code failed;
+  std::string name = (std::filesystem::temp_directory_path(failed) / "arete-film-XXXXXX").string();
+  if (failed || mkdtemp(name.data()) == nullptr)
+    return failure(ErrorCode::unreadable, "there is no folder for temporary files; --frames names one",
+                   "--film " + pictures.film);
+  folder.temporary_ = name;
+  pictures.frames = name;
+  pictures.dropsFrames = true;
+  return folder;
+}
+
+FramesFolder::~FramesFolder() {
+  std::error_code ignored;
+  if (!temporary_.empty()) std::filesystem::remove_all(temporary_, ignored);
+}
+
+Status makeFilmOf(const PictureArguments& pictures, std::size_t frames, double rate, Session& session) {
+  Status encoded = encodeFilm(pictures.frames, frames, rate, pictures.film, session.context());
+  // Its sentence says that the pictures are there.
+  if (!encoded && pictures.dropsFrames)
+    encoded.error().message.erase(
+        std::min(encoded.error().message.find(';'), encoded.error().message.size()));
+  if (encoded) session.say(fmt::format("{}: {}\n", pictures.film, grouped(frames, "frame", "frames")));
+  return encoded;
+}
 
 void warnOfFramesBehind(const std::string& folder, std::size_t frames, const Session& session) {
   std::error_code ignored;
@@ -141,6 +172,7 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, const GroundHeight
   // The figures list every frame; they go to a file of their own only if one is named.
   for (const FilmFrame& frame : frames) {
     Json entry = {{"file", frame.file}, {"seconds", frame.seconds}, {"camera", jsonOf(frame.camera)}};
+    if (a.pictures.dropsFrames) entry.erase("file");
     entry.update(jsonOf(frame.figures));
     list.push_back(std::move(entry));
     triangles += frame.figures.triangles;
@@ -152,18 +184,15 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, const GroundHeight
     file.write(json.dump(1) + "\n");
     ARETE_CHECK(file.finish());
   }
-  session.say(fmt::format("{}: {}, {} in the mean\n", a.pictures.frames,
-                          grouped(frames.size(), "frame", "frames"),
-                          grouped(triangles / frames.size(), "triangle", "triangles")));
+  if (!a.pictures.dropsFrames)
+    session.say(fmt::format("{}: {}, {} in the mean\n", a.pictures.frames,
+                            grouped(frames.size(), "frame", "frames"),
+                            grouped(triangles / frames.size(), "triangle", "triangles")));
   // The film is encoded from the frames in their folder, at the rate at which they were drawn.
   if (!a.pictures.film.empty()) {
     const double rate =
         a.pictures.framesPerSecond > 0 ? a.pictures.framesPerSecond : flight.plan().framesPerSecond;
-    if (Status encoded =
-            encodeFilm(a.pictures.frames, frames.size(), rate, a.pictures.film, session.context());
-        !encoded)
-      return encoded;
-    session.say(a.pictures.film + "\n");
+    ARETE_CHECK(makeFilmOf(a.pictures, frames.size(), rate, session));
     json["film"] = a.pictures.film;
   }
   return {};

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+#include <utility>
+
 #include "cli/session/session.h"
 #include "cli/view/arguments.h"
 #include "engine/base/result.h"
@@ -17,6 +20,24 @@ namespace arete {
 /// @param inputs files that must not be overwritten.
 /// Errors: usage, naming the option; those of checkOutput().
 Status checkPictureOutputs(const ViewArguments& arguments, const std::vector<std::string>& inputs);
+
+/// The folder of the pictures of a flight: the stated one, or a temporary one for a film alone, which is
+/// removed with everything in it when this ends.
+class FramesFolder {
+ public:
+  /// Sets `frames` and `dropsFrames` where a film alone is stated. Errors: unreadable: no folder can be made.
+  static Result<FramesFolder> of(PictureArguments& pictures);
+  FramesFolder(FramesFolder&& other) noexcept : temporary_(std::exchange(other.temporary_, {})) {}
+  FramesFolder& operator=(FramesFolder&&) = delete;
+  ~FramesFolder();
+
+ private:
+  FramesFolder() = default;
+  std::string temporary_;  // empty: none
+};
+
+/// Makes the film of the pictures. Errors: those of encodeFilm().
+Status makeFilmOf(const PictureArguments& pictures, std::size_t frames, double rate, Session& session);
 
 /// Warns of frames in the folder that an earlier, longer film left behind the ones that were drawn.
 void warnOfFramesBehind(const std::string& folder, std::size_t frames, const Session& session);

@@ -120,6 +120,7 @@ class SurfacePictures {
       Json entry = {{"file", path.string()},
                     {"seconds", double(i) / rate},
                     {"camera", jsonOf(camera, view_.view().upright(), norm(from))}};
+      if (a_.pictures.dropsFrames) entry.erase("file");
       entry.update(jsonOf(figures));
       list.push_back(std::move(entry));
       triangles += figures.triangles;
@@ -134,12 +135,12 @@ class SurfacePictures {
       ARETE_CHECK(file.finish());
     }
     warnOfFramesBehind(a_.pictures.frames, count, session_);
-    session_.say(fmt::format("{}: {}, {} in the mean\n", a_.pictures.frames,
-                             grouped(count, "frame", "frames"),
-                             grouped(triangles / count, "triangle", "triangles")));
+    if (!a_.pictures.dropsFrames)
+      session_.say(fmt::format("{}: {}, {} in the mean\n", a_.pictures.frames,
+                               grouped(count, "frame", "frames"),
+                               grouped(triangles / count, "triangle", "triangles")));
     if (a_.pictures.film.empty()) return {};
-    ARETE_CHECK(encodeFilm(a_.pictures.frames, count, rate, a_.pictures.film, session_.context()));
-    session_.say(a_.pictures.film + "\n");
+    ARETE_CHECK(makeFilmOf(a_.pictures, count, rate, session_));
     json["film"] = a_.pictures.film;
     return {};
   }
@@ -165,6 +166,7 @@ class SurfacePictures {
 Status viewSurface(ViewArguments a, const AmtContainer& file, Session& session) {
   ARETE_TRY(SurfaceViewSettings settings, a.ofSurface());
   ARETE_CHECK(a.check());
+  ARETE_TRY(const FramesFolder frames, FramesFolder::of(a.pictures));
   if (a.viewpoint.isRound && a.pictures.frames.empty())
     return failure(ErrorCode::usage, "requires --frames, where the file is of a surface", "--round");
   ARETE_TRY(const auto size, a.pictures.size());

@@ -79,10 +79,12 @@ Result<std::optional<Flight>> flightOf(const ViewArguments& a, const TerrainMode
 }
 
 Status runView(ViewArguments a, Session& session) {
+  ARETE_CHECK(a.completePictures());
   ARETE_TRY(AmtContainer container, openModelFile(a.model));
   ARETE_CHECK(a.kinds.refuseOther(kindOf(container)));
   if (container.isOfSurface()) return viewSurface(a, container, session);
   ARETE_CHECK(a.check());
+  ARETE_TRY(const FramesFolder framesFolder, FramesFolder::of(a.pictures));
   ARETE_TRY(ViewSettings settings, a.settings());
   ARETE_TRY(const DrapeOptions drapeOptions, a.appearance.drapeOptions());
   ARETE_TRY(const auto size, a.pictures.size());
@@ -159,12 +161,12 @@ Status runView(ViewArguments a, Session& session) {
 
 void addViewCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<ViewArguments>();
-  CLI::App* command = session.addCommand(
-      app, "view", "Show a terrain or a surface in a window, or draw pictures without one",
-      "  arete view dem.amt\n"
-      "  arete view dem.amt --headless --screenshot view.png --camera 409050,3801450,300,20,-10\n"
-      "  arete view dem.amt --headless --round --frames frames --film flight.mp4 --figures figures.json",
-      [arguments](Session& s) { return runView(*arguments, s); });
+  CLI::App* command =
+      session.addCommand(app, "view", "Show a terrain or a surface in a window, or draw pictures without one",
+                         "  arete view dem.amt\n"
+                         "  arete view dem.amt --screenshot view.png --camera 409050,3801450,300,20,-10\n"
+                         "  arete view dem.amt --round --film flight.mp4",
+                         [arguments](Session& s) { return runView(*arguments, s); });
   arguments->addTo(*command);
 }
 

@@ -118,7 +118,7 @@ struct ExpectOptions {
 
 /// Checks that every sample is covered, none twice, no NODATA is covered (unless allowed), and that no error
 /// exceeds the expected one by more than MeasureReport::errorBeyondRounding leaves out. Errors:
-/// brokenPromise: the first of these that fails, with figures.
+/// brokenPromise: all of these that fail, the error first, with figures.
 Status checkPromise(const MeasureReport& report, double expectedError, const ExpectOptions& options = {});
 
 /// Whether checkPromise() succeeds.

@@ -21,6 +21,7 @@
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
 #include "io/files/shell_text.h"
+#include "io/geo/crs/ellipsoid_earth.h"
 #include "io/geo/dem/dem_reader.h"
 #include "io/query/extract/tin.h"
 #include "io/store/amt/file.h"
@@ -303,7 +304,10 @@ class Demo {
     std::size_t highest = 0;
     for (std::size_t i = 0; i < z.size(); ++i)
       if (!(z[i] <= z[highest]) && !std::isnan(z[i])) highest = i;
-    const auto earth = makePlaneEarth(model_);
+    // As the command asks by default.
+    const bool isCurved = isOnEllipsoid(model_.georeference);
+    ARETE_TRY(const std::unique_ptr<SightEarth> earth,
+              isCurved ? makeEllipsoidEarth(model_, kUsualRefraction) : makePlaneEarth(model_));
     ARETE_TRY(const ViewshedMaker maker, ViewshedMaker::make(model_, *earth, {}, quiet()));
     const Vec2 place{double(highest % field_.columns), double(highest / field_.columns)};
     const double up = kMetresUp / field_.georeference.verticalUnitMetres;
@@ -313,8 +317,9 @@ class Demo {
             field_, viewshed, place,
             {.width = options_.pictureWidth,
              .title = title("what is seen from the highest place, " + withUnit(z[highest], report_.unit)),
-             .caption = {"2 m above the ground   \u00b7   on a plane Earth   \u00b7   every "
-                         "sample has the answer of full resolution"}}),
+             .caption = {fmt::format("2 m above the ground   \u00b7   on {}   \u00b7   every "
+                                     "sample has the answer of full resolution",
+                                     isCurved ? "the ellipsoid, with refraction" : "a plane Earth")}}),
         "viewshed.png");
   }
 

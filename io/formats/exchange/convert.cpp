@@ -104,6 +104,16 @@ std::vector<Vec3> usedPositions(const TriangleMesh& mesh) {
   return used;
 }
 
+double boxDiagonal(const std::vector<Vec3>& positions) {
+  if (positions.empty()) return 0;
+  Vec3 low = positions.front(), high = low;
+  for (const Vec3& p : positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return norm(high - low);
+}
+
 }  // namespace
 
 double movedByFloats(const TriangleMesh& mesh) {
@@ -167,6 +177,7 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   const bool wasExact = mesh.frame.rounding == Vec3{};
   // Of terrain, whose numbers were rounded before; any other mesh is what its file says.
   const bool isTerrain = mesh.frame.origin || mesh.up == MeshUp::z;
+  if (!isTerrain) converted.diagonal = boxDiagonal(mesh.mesh.positions);
   const bool isNamed = std::ranges::any_of(
       converted.lost, [](const std::string& lost) { return lost.starts_with("coordinates finer"); });
   const bool isRounded =

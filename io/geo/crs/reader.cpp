@@ -159,6 +159,14 @@ Result<OGRSpatialReference> crsFromText(const std::string& text) {
 }
 
 Result<OGRSpatialReference> crsFromUser(const std::string& text) {
+  // A bare number is one of EPSG's.
+  const bool isNumber = text.size() >= 4 && text.size() <= 6 &&
+                        std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+  if (isNumber) {
+    auto numbered = parsedCrs("EPSG:" + text, nullptr);
+    if (!numbered) numbered.error().culprit = text;
+    return numbered;
+  }
   allowProjFiles(text);
   const StatedCrsAddress fetched;
   return parsedCrs(text, nullptr);
@@ -171,9 +179,10 @@ Result<OGRSpatialReference> chooseCrs(const OGRSpatialReference* own, const std:
   if (!text.empty()) {
     ARETE_TRY(auto stated, crsFromUser(text));
     if (isKnownCrs(own) && !own->IsSame(&stated))
-      warnings.push_back(
-          {WarningCode::position, fmt::format("the CRS of the file, {}, is replaced by the one stated, {}",
-                                              nameOf(*own), nameOf(stated))});
+      warnings.push_back({WarningCode::position,
+                          fmt::format("the CRS of the file, {}, is replaced by the one stated, {}; nothing "
+                                      "is reprojected, as gdalwarp -t_srs or ogr2ogr -t_srs would",
+                                      nameOf(*own), nameOf(stated))});
     chosen = std::move(stated);
   }
   chosen.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);

@@ -53,6 +53,9 @@ bool isPointCloud(const std::string& path) {
   return whole && std::memcmp(magic.data(), "LASF", magic.size()) == 0;
 }
 
+/// What becomes of a text whose points fill a grid.
+enum class GriddedText { isRaster, staysPoints };
+
 /// True if GDAL reads the file as a raster, with what GDAL says meanwhile: some of its messages come once in
 /// a process. Otherwise sets `opensAsVector`.
 bool isRaster(const std::string& path, bool& opensAsVector, Warnings& said) {
@@ -95,7 +98,7 @@ Result<DemRead> readAsRaster(const std::string& path, const SourceReading& readi
   return DemRead{std::move(read.heightfield), std::move(read.warnings)};
 }
 
-Result<DemRead> readAsPoints(const std::string& path, bool text, const SourceReading& reading,
+Result<DemRead> readAsPoints(const std::string& path, bool mayBecomeRaster, const SourceReading& reading,
                              const RunContext& context) {
   if (reading.band)
     return failure(ErrorCode::usage, fmt::format("holds points, which have no band {}", *reading.band), path);
@@ -116,7 +119,7 @@ Result<DemRead> readAsPoints(const std::string& path, bool text, const SourceRea
   NetworkReading network(context.cancel);
   ARETE_TRY(auto read, readPoints(path, pointOptions, context));
   if (Status same = network.finish(); !same) return failure(same.error().code, same.error().message, path);
-  if (text) {
+  if (mayBecomeRaster) {
     if (auto raster = asRaster(read.heightfield)) {
       read.warnings.push_back(
           {WarningCode::choice,
@@ -134,10 +137,11 @@ bool isTextOfNumbers(const std::string& path) {
 }
 
 /// Reads the only raster in an archive, or its only text of points.
-Result<DemRead> readZipped(const std::string& archive, const SourceReading& reading,
+Result<DemRead> readZipped(const std::string& archive, const SourceReading& reading, GriddedText gridded,
                            const RunContext& context) {
   ARETE_TRY(const std::string inside, findZippedRaster(archive, context));
-  if (isTextOfNumbers(inside)) return readAsPoints(inside, true, reading, context);
+  if (isTextOfNumbers(inside))
+    return readAsPoints(inside, gridded == GriddedText::isRaster, reading, context);
   return readAsRaster(archive, reading, context);
 }
 
@@ -178,7 +182,8 @@ Result<DemRead> readSeveral(const std::string& path, const std::vector<std::stri
   return DemRead{std::move(read.heightfield), std::move(read.warnings)};
 }
 
-Result<DemRead> readFrom(const std::string& given, const SourceReading& reading, const RunContext& context) {
+Result<DemRead> readFrom(const std::string& given, const SourceReading& reading, GriddedText gridded,
+                         const RunContext& context) {
   registerGdal();
   std::string path = given;
   if (!reading.otherFiles.empty() || namesSeveralFiles(path)) {
@@ -197,7 +202,7 @@ Result<DemRead> readFrom(const std::string& given, const SourceReading& reading,
           "instance with PDAL: pdal translate IN.laz ground.csv -f filters.range "
           "--filters.range.limits='Classification[2:2]'",
           path);
-  if (isPlainZip(path)) return readZipped(path, reading, context);
+  if (isPlainZip(path)) return readZipped(path, reading, gridded, context);
   bool opensAsVector = false;
   Warnings said;
   if (isRaster(path, opensAsVector, said)) {
@@ -212,7 +217,8 @@ Result<DemRead> readFrom(const std::string& given, const SourceReading& reading,
     return failure(status.error().code, status.error().message, path);
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
   const bool text = looksLikePointText(path);
-  if (text || opensAsVector) return readAsPoints(path, text, reading, context);
+  if (text || opensAsVector)
+    return readAsPoints(path, text && gridded == GriddedText::isRaster, reading, context);
   openGdal(path, GDAL_OF_RASTER | GDAL_OF_VECTOR);
   return tl::unexpected(explainOpenFailure(path, "DEM", errors));
 }
@@ -297,14 +303,12 @@ std::optional<std::string> loneHeightsWarning(const Heightfield& field) {
   return describe(lone, scale, offset);
 }
 
-}  // namespace
-
-Result<DemRead> readDem(const std::string& path, const SourceReading& reading,
-                        const RunContext& context) try {
+Result<DemRead> readDemOf(const std::string& path, const SourceReading& reading, GriddedText gridded,
+                          const RunContext& context) {
   NetworkReading network(context.cancel);
   // GDAL's driver of addresses fetches them by itself, and does not stop when told.
   const std::string opened = networkPathOf(path);
-  Result<DemRead> read = readFrom(opened, reading, context);
+  Result<DemRead> read = readFrom(opened, reading, gridded, context);
   if (!read) {
     if (read.error().culprit == opened) read.error().culprit = path;
     // What a driver says of bytes that it did not get is a consequence.
@@ -325,6 +329,20 @@ Result<DemRead> readDem(const std::string& path, const SourceReading& reading,
   std::visit([](auto& field) { stateMapScale(field.georeference, middleOf(extentOf(field))); },
              read->heightfield);
   return read;
+}
+
+}  // namespace
+
+Result<DemRead> readDem(const std::string& path, const SourceReading& reading,
+                        const RunContext& context) try {
+  return readDemOf(path, reading, GriddedText::isRaster, context);
+} catch (...) {
+  return caughtFailure(path);
+}
+
+Result<DemRead> readDemAsItIs(const std::string& path, const SourceReading& reading,
+                              const RunContext& context) try {
+  return readDemOf(path, reading, GriddedText::staysPoints, context);
 } catch (...) {
   return caughtFailure(path);
 }

@@ -35,4 +35,9 @@ struct DemRead {
 Result<DemRead> readDem(const std::string& path, const SourceReading& reading = {},
                         const RunContext& context = {});
 
+/// As readDem(), but a text whose points fill a grid stays a set of points. Errors: as readDem(), for rasters
+/// too.
+Result<DemRead> readDemAsItIs(const std::string& path, const SourceReading& reading = {},
+                              const RunContext& context = {});
+
 }  // namespace arete

@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "io/geo/gdal/support.h"
+
 namespace arete {
 namespace {
 
@@ -18,6 +20,22 @@ bool mayHold(OGRwkbGeometryType declared, LayerKind kind) {
   if (kind == LayerKind::polygonsAndLines && isLines) return true;
   if (kind == LayerKind::surfaces && OGR_GT_IsSubClassOf(type, wkbPolyhedralSurface)) return true;
   return OGR_GT_IsSubClassOf(type, wkbCurvePolygon) || OGR_GT_IsSubClassOf(type, wkbMultiSurface);
+}
+
+/// The only one of some layers that has features; null if there is none or several.
+OGRLayer* onlyFilled(GDALDataset& dataset, const std::vector<std::string>& names) {
+  const GdalErrors quiet;
+  OGRLayer* found = nullptr;
+  for (const std::string& name : names) {
+    OGRLayer* const layer = dataset.GetLayerByName(name.c_str());
+    layer->ResetReading();
+    const bool isFilled = OGRFeatureUniquePtr(layer->GetNextFeature()) != nullptr;
+    layer->ResetReading();
+    if (!isFilled) continue;
+    if (found) return nullptr;
+    found = layer;
+  }
+  return found;
 }
 
 }  // namespace
@@ -53,6 +71,9 @@ Result<OGRLayer*> chooseLayer(GDALDataset& dataset, const std::string& name, Lay
   if (fitting.empty())
     return failure(ErrorCode::unsupported,
                    fmt::format("has no layer of {}; its layers: {}", what, fmt::join(all, ", ")));
+  // GPX has a layer for each thing that it can hold, mostly empty.
+  if (fitting.size() > 1)
+    if (OGRLayer* const only = onlyFilled(dataset, fitting)) return only;
   if (fitting.size() > 1)
     return failure(ErrorCode::unsupported, fmt::format("has {} layers that may hold {}; name one of them: {}",
                                                        fitting.size(), what, fmt::join(fitting, ", ")));

@@ -20,7 +20,8 @@ enum class LayerKind {
   surfaces,      ///< polygons, TINs and polyhedral surfaces
 };
 
-/// Finds a layer by name or, for an empty name, the only layer that may hold geometries of that kind.
+/// Finds a layer by name or, for an empty name, the only layer that may hold geometries of that kind, or else
+/// the only one of them that is not empty.
 ///
 /// @return Owned by the dataset.
 ///

@@ -19,12 +19,18 @@
 namespace arete {
 namespace {
 
-constexpr std::array<std::string_view, 7> kOwnNames = {"x", "y", "height", "below", "above", "fid", "geom"};
-constexpr std::array<std::string_view, 8> kOwnNamesWithZ = {"x",     "y",   "height", "below",
-                                                            "above", "fid", "geom",   "z"};
-constexpr std::array<const char*, 5> kOwnFields = {"x", "y", "height", "below", "above"};
+constexpr std::array<std::string_view, 5> kOwnNames = {"height", "below", "above", "fid", "geom"};
+constexpr std::array<const char*, 3> kOwnFields = {"height", "below", "above"};
 constexpr const char* kLayer = "heights";
 constexpr std::size_t kRowsPerReport = 4096;
+
+/// The names of the input's other columns beside those of the place and of the answer.
+std::vector<std::string> namesOfInputs(const PointTable& table, bool hasZ) {
+  std::vector<std::string_view> own = {table.xName, table.yName};
+  own.insert(own.end(), kOwnNames.begin(), kOwnNames.end());
+  if (hasZ) own.emplace_back("z");
+  return namesBeside(table.attributes, own);
+}
 
 Status writeCsv(const std::string& path, const PointTable& table,
                 std::span<const std::optional<GroundHeight>> heights, const RunContext& context) {
@@ -60,9 +66,11 @@ class GeoPackageRows {
 
  private:
   bool createFields(OGRLayer& layer) {
-    const std::vector<std::string> names = namesBeside(table_.attributes, kOwnNames);
+    const std::vector<std::string> names = namesOfInputs(table_, false);
     for (std::size_t c = 0; c < names.size(); ++c)
       if (!addField(layer, names[c], table_.attributes.columns[c].kind)) return false;
+    for (const std::string& name : {table_.xName, table_.yName})
+      if (!addField(layer, name, PointAttributes::Kind::real)) return false;
     for (const char* name : kOwnFields)
       if (!addField(layer, name, PointAttributes::Kind::real)) return false;
     return true;
@@ -102,12 +110,13 @@ void forCsvLines(const PointTable& table, std::span<const std::optional<GroundHe
                  const std::function<void(std::string_view)>& write) {
   std::string line;
   const bool hasZ = !table.z.empty();
-  for (const std::string& name :
-       hasZ ? namesBeside(table.attributes, kOwnNamesWithZ) : namesBeside(table.attributes, kOwnNames)) {
+  std::vector<std::string> names = namesOfInputs(table, hasZ);
+  names.insert(names.end(), {table.xName, table.yName});
+  for (const std::string& name : names) {
     appendCsvField(line, name);
     line += ',';
   }
-  write(line += hasZ ? "x,y,z,height,below,above\n" : "x,y,height,below,above\n");
+  write(line += hasZ ? "z,height,below,above\n" : "height,below,above\n");
   for (std::size_t row = 0; row < table.stated.size(); ++row) {
     line.clear();
     for (std::size_t c = 0; c < table.attributes.columns.size(); ++c) {
@@ -128,6 +137,16 @@ void forCsvLines(const PointTable& table, std::span<const std::optional<GroundHe
       line += ",,\n";
     write(line);
   }
+}
+
+std::vector<std::array<std::string, 2>> renamedColumns(const PointTable& table, const std::string& path) {
+  const bool isCsv = text::lowerExtension(path) != "gpkg";
+  const std::vector<std::string> names = namesOfInputs(table, isCsv && !table.z.empty());
+  std::vector<std::array<std::string, 2>> renamed;
+  for (std::size_t c = 0; c < names.size(); ++c)
+    if (names[c] != table.attributes.columns[c].name)
+      renamed.push_back({table.attributes.columns[c].name, names[c]});
+  return renamed;
 }
 
 bool isHeightTable(const std::string& path) {

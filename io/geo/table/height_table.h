@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
@@ -15,10 +17,10 @@
 
 namespace arete {
 
-/// A table of heights has the columns of the input, then x and y as the input states them, in CSV the z of
-/// points that have one (a GeoPackage has it in its points), and height, below and above, which are empty
-/// without terrain. The height at full resolution is within [height - above, height + below]. A column of the
-/// input with one of these names gets the suffix "_in".
+/// A table of heights has the columns of the input, then x and y as the input states and names them, in CSV
+/// the z of points that have one (a GeoPackage has it in its points), and height, below and above, which are
+/// empty without terrain. The height at full resolution is within [height - above, height + below]. A column
+/// of the input with one of these names gets the suffix "_in".
 
 /// @return "1234.5": at most twelve significant digits, more than the precision of any DEM.
 std::string heightText(double height);
@@ -26,6 +28,10 @@ std::string heightText(double height);
 /// Formats the table as CSV (RFC 4180, with line feeds). Calls `write` for the header line and for each row.
 void forCsvLines(const PointTable& table, std::span<const std::optional<GroundHeight>> heights,
                  const std::function<void(std::string_view)>& write);
+
+/// @return The names of columns of the input, each with the one that it gets in the table, where they differ.
+/// @param path Of the table; empty: CSV on stdout.
+std::vector<std::array<std::string, 2>> renamedColumns(const PointTable& table, const std::string& path);
 
 /// @return True for a name that writeHeightTable() accepts: .csv, .gpkg.
 bool isHeightTable(const std::string& path);

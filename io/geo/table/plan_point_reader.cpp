@@ -64,7 +64,7 @@ Result<PlanPoints> readFrom(const std::string& path, const std::string& targetCr
   GdalErrors errors;
   PlanPoints read;
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
-  if (looksLikePointText(path)) {
+  if (looksLikePointText(path, 2)) {
     ARETE_TRY(auto rows, readPointText(path, {}, read.warnings, context, PointTextColumns::plan));
     // Text names its CRS by an SRID; without one its coordinates are the DEM's.
     if (rows.srid != 0) {

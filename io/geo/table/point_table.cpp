@@ -107,7 +107,7 @@ Result<PointTable> readFrom(const std::string& path, const Georeference& dem,
   GdalErrors errors;
   PointTable table;
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
-  const bool isText = looksLikePointText(path);
+  const bool isText = looksLikePointText(path, 2);
   Result<CrsTransform> transform = CrsTransform();
   if (isText) {
     if (!options.layer.empty())
@@ -117,6 +117,8 @@ Result<PointTable> readFrom(const std::string& path, const Georeference& dem,
     table.stated = std::move(rows.positions);
     table.z = std::move(rows.heights);
     table.withoutPlace = rows.withoutPlace;
+    table.xName = rows.xName;
+    table.yName = rows.yName;
     table.attributes.findKinds();
     ARETE_TRY(const auto crs, crsOfSrid(rows.srid));
     transform = transformOf(&crs, dem, options.lonLat, isText, table.warnings);

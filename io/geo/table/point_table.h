@@ -16,12 +16,13 @@ namespace arete {
 
 /// Query points with the attributes of their file: a row per point, in the order of the file.
 struct PointTable {
-  std::vector<Vec2> stated;        ///< as in the file; NaN where x or y is missing
-  std::vector<double> z;           ///< of the points themselves, NaN without; empty where none has one
-  std::string crsWkt;              ///< of `stated`; empty: unknown
-  std::vector<Vec2> positions;     ///< in the DEM's CRS; NaN without a position or outside its domain
-  PointAttributes attributes;      ///< without the columns of x and y
-  std::uint64_t withoutPlace = 0;  ///< rows without a position
+  std::vector<Vec2> stated;              ///< as in the file; NaN where x or y is missing
+  std::vector<double> z;                 ///< of the points themselves, NaN without; empty where none has one
+  std::string xName = "x", yName = "y";  ///< of their columns in a text that has names
+  std::string crsWkt;                    ///< of `stated`; empty: unknown
+  std::vector<Vec2> positions;           ///< in the DEM's CRS; NaN without a position or outside its domain
+  PointAttributes attributes;            ///< without the columns of x and y
+  std::uint64_t withoutPlace = 0;        ///< rows without a position
   Warnings warnings;
 };
 

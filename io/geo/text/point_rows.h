@@ -16,6 +16,8 @@ struct PointRows {
   int srid = 0;                        ///< the number of EPSG that a text states for all of them; 0: none
   std::uint64_t withoutPlace = 0;      ///< rows without x or y; what is missing is NaN
 
+  std::string xName = "x", yName = "y";  ///< of the columns, where a line names them
+
   void add(double x, double y, double z, std::uint64_t origin) {
     // -0 becomes 0, so that equal positions have equal bytes.
     positions.push_back({x + 0.0, y + 0.0});

@@ -165,6 +165,10 @@ class TextParser {
       if (!columns) return failure(columns.error().code, columns.error().message, path_);
       columns_ = *columns;
       namedColumns_ = fields.size();
+      if (columns_.wkt == kNoColumn) {
+        rows_.xName = fields[columns_.at[0]];
+        rows_.yName = fields[columns_.at[1]];
+      }
       nameAttributes(fields, true);
       return {};
     }
@@ -419,7 +423,7 @@ class TextParser {
 
 }  // namespace
 
-bool looksLikePointText(const std::string& path) {
+bool looksLikePointText(const std::string& path, std::size_t needed) {
   const std::string extension = text::lowerExtension(path);
   if (extension == "csv" || extension == "tsv" || extension == "txt" || extension == "xyz") return true;
   if (findPipeProblem(path)) return false;
@@ -438,8 +442,9 @@ bool looksLikePointText(const std::string& path) {
     if (line.empty() || line.front() == '#') continue;
     const std::vector<std::string_view> fields = fieldsOf(line, separatorOf(line));
     const auto areNumbers = [&](std::size_t from) {
-      return fields.size() >= from + 3 &&
-             std::all_of(fields.begin() + std::ptrdiff_t(from), fields.begin() + std::ptrdiff_t(from) + 3,
+      return fields.size() >= from + needed &&
+             std::all_of(fields.begin() + std::ptrdiff_t(from),
+                         fields.begin() + std::ptrdiff_t(from + needed),
                          [](std::string_view f) { return readCell(f).kind != CellNumber::Kind::notANumber; });
     };
     return areNumbers(0) || areNumbers(1) ||

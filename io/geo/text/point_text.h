@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,9 @@
 namespace arete {
 
 /// @return True for a name that ends in .csv, .tsv, .txt or .xyz, and for any other file whose first line
-/// that is not a comment begins with three numbers.
-bool looksLikePointText(const std::string& path);
+/// that is not a comment begins with three numbers, or with as many as are needed.
+/// @param needed 2 where places are read and no heights.
+bool looksLikePointText(const std::string& path, std::size_t needed = 3);
 
 /// The columns that a text of points must have.
 enum class PointTextColumns {

@@ -217,5 +217,11 @@ TEST_F(Arguments, LeaveNoFolderBehindADemoOfNothing) {
   expectRefusal({"demo", "nothing.tif", "-o", "folder"}, 3, "nothing.tif");
 }
 
+TEST_F(Arguments, SayWhatCommasBetweenDigitsMean) {
+  expectRefusal(
+      {"extract", "dem.amt", "-o", "x.ply", "--max-triangles", "5,000"}, 2,
+      "--max-triangles: commas stand between several numbers, and digits are not grouped by them: 5000?");
+}
+
 }  // namespace
 }  // namespace arete::cli_test

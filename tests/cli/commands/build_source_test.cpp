@@ -85,5 +85,47 @@ TEST_F(BuildSource, RefusesAKindThatContradictsTheFile) {
   EXPECT_EQ(build("hill.obj", {"--as", "scan"}).code, 2);
 }
 
+TEST_F(BuildSource, TextThatFillsAGridStaysPointsWhereStated) {
+  std::string text;
+  for (int y = 0; y < 6; ++y)
+    for (int x = 0; x < 6; ++x)
+      if (x != 3 || y != 3)
+        text += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(x * y) + "\n";
+  write("grid.xyz", text);
+  EXPECT_NE(build("grid.xyz").err.find("read as a raster"), std::string::npos);
+  EXPECT_EQ(run({"info", "x.amt", "--json"}).json()["kind"], "raster");
+  const Outcome points = build("grid.xyz", {"--as", "points"});
+  ASSERT_EQ(points.code, 0) << points.err;
+  EXPECT_EQ(points.err, "");
+  EXPECT_EQ(points.json()["samples"], 35);
+  EXPECT_EQ(run({"info", "x.amt", "--json"}).json()["kind"], "points");
+  const Outcome valid = run({"validate", "x.amt", "--against", "grid.xyz"});
+  EXPECT_EQ(valid.code, 0) << valid.err;
+  // The command of a certificate reads the text as the build did: as a raster it has a hole.
+  ASSERT_EQ(
+      run({"extract", "x.amt", "-o", "t.ply", "--max-error", "0", "--certificate", "c.json", "-q"}).code, 0);
+  EXPECT_NE(read("c.json").find("--as points"), std::string::npos);
+  EXPECT_EQ(run({"measure", "t.ply", "grid.xyz", "--expect", "0", "--as", "points"}).code, 0);
+  EXPECT_EQ(run({"measure", "t.ply", "grid.xyz", "--expect", "0"}).code, 5);
+  makeRaster("dem.tif", "flat", 5, 5);
+  EXPECT_NE(build("dem.tif", {"--as", "points"}).err.find("--as points: dem.tif is a raster"),
+            std::string::npos);
+}
+
+TEST_F(BuildSource, AModelHasItsEnding) {
+  const Outcome refused = run({"build", "points.csv", "-o", "maunga"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("--output maunga: must end in .amt, as maunga.amt"), std::string::npos)
+      << refused.err;
+  EXPECT_FALSE(exists("maunga"));
+}
+
+TEST_F(BuildSource, SaysThatNoUnitOfHeightsIsStated) {
+  const std::string without = run({"build", "points.csv", "-o", "x.amt"}).out;
+  EXPECT_NE(without.find("no unit is stated: taken as metres"), std::string::npos) << without;
+  const std::string with = run({"build", "points.csv", "-o", "x.amt", "--vertical-unit", "m"}).out;
+  EXPECT_EQ(with.find("no unit is stated"), std::string::npos) << with;
+}
+
 }  // namespace
 }  // namespace arete::cli_test

@@ -198,5 +198,16 @@ TEST_F(Convert, NamesNoLossOfCoordinatesThatFloatsHold) {
   }
 }
 
+TEST_F(Convert, NamesNoRoundingOfAScanThatFloatsAroundItsMiddleHave) {
+  write("scan.obj", "v 0.1 0.2 0.3\nv 1.1 0.7 0.2\nv 0.3 1.9 0.1\nf 1 2 3\n");
+  for (const char* name : {"scan.glb", "scan.stl"}) {
+    const Outcome outcome = run({"convert", "scan.obj", "-o", name, "--json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err.find("finer"), std::string::npos) << outcome.err;
+    // The report is whole.
+    EXPECT_NE(outcome.out.find("coordinates finer"), std::string::npos) << outcome.out;
+  }
+}
+
 }  // namespace
 }  // namespace arete::cli_test

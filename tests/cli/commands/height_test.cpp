@@ -170,5 +170,42 @@ TEST_F(HeightCommand, GivesEverySampleOfARealDem) {
   }
 }
 
+TEST_F(HeightCommand, WritesNoTableOfEmptyHeights) {
+  makeModel("flat");
+  write("away.csv", "x,y\n1,1\n2,2\n");
+  const auto before = files();
+  for (const char* output : {"h.csv", "h.gpkg"}) {
+    const Outcome outcome = run({"height", "dem.amt", "--points", "away.csv", "-o", output});
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(files(), before) << output;
+  }
+}
+
+TEST_F(HeightCommand, KeepsTheNamesOfTheColumns) {
+  makeModel("flat");
+  write("huts.csv", "easting,northing,height,hut\n500100,5199900,7,A\n");
+  const Outcome outcome = run({"height", "dem.amt", "--points", "huts.csv"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.substr(0, outcome.out.find('\n')),
+            "height_in,hut,easting,northing,height,below,above");
+  EXPECT_NE(outcome.err.find("the column height of huts.csv is height_in in the answer"), std::string::npos)
+      << outcome.err;
+  write("upper.csv", "Y,X\n5199900,500100\n");
+  const std::string upper = run({"height", "dem.amt", "--points", "upper.csv"}).out;
+  EXPECT_EQ(upper.substr(0, upper.find('\n')), "X,Y,height,below,above");
+}
+
+TEST_F(HeightCommand, TakesTwoNumbersALineFromAPipe) {
+  makeModel("flat");
+  write("places.xyz", "500100 5199900\n500200 5199800\n");
+  const Outcome ofFile = run({"height", "dem.amt", "--points", "places.xyz"});
+  const std::string command = "cd '" + (folder_ / "here").string() +
+                              "' && cat places.xyz | '" ARETE_PROGRAM
+                              "' height dem.amt --points - > piped.csv";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(read("piped.csv"), ofFile.out);
+}
+
 }  // namespace
 }  // namespace arete::cli_test

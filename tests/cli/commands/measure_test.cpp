@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/arguments_fixture.h"
@@ -48,6 +50,59 @@ TEST_F(MeasureCommand, WritesTheErrorsAsARaster) {
   const Outcome refused = run({"measure", "tin.ply", "dem.tif", "--error-raster", "errors.png"});
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("--error-raster errors.png: "), std::string::npos) << refused.err;
+}
+
+TEST_F(MeasureCommand, NamesEveryBrokenPromiseAndTheErrorFirst) {
+  ASSERT_EQ(run({"extract", "dem.amt", "-o", "part.obj", "--max-error", "20", "-q"}).code, 0);
+  // Without its last triangle.
+  std::string obj = read("part.obj");
+  obj.erase(obj.rfind("\nf ") + 1);
+  write("part.obj", obj);
+  const Outcome outcome = run({"measure", "part.obj", "dem.tif", "--expect", "0.001"});
+  EXPECT_EQ(outcome.code, 5);
+  const std::size_t error = outcome.err.find("the largest error is"),
+                    hole = outcome.err.find("in no triangle");
+  ASSERT_NE(error, std::string::npos) << outcome.err;
+  ASSERT_NE(hole, std::string::npos) << outcome.err;
+  EXPECT_LT(error, hole);
+}
+
+TEST_F(MeasureCommand, SaysWhereBothLieInsteadOfFiguresOfNothing) {
+  ASSERT_EQ(run({"convert", "tin.ply", "-o", "tin.obj", "-q"}).code, 0);
+  std::istringstream lines(read("tin.obj"));
+  std::string local, upright, kind;
+  for (std::string line; std::getline(lines, line);) {
+    double x = 0, y = 0, z = 0;
+    std::istringstream words(line);
+    if (words >> kind >> x >> y >> z; kind == "v") {
+      local += fmt::format("v {} {} {}\n", x - 500000, y - 5199000, z);
+      upright += fmt::format("v {} {} {}\n", x, z, -y);
+    } else {
+      local += line + "\n";
+      upright += line + "\n";
+    }
+  }
+  write("local.obj", local);
+  write("upright.obj", upright);
+  for (const auto& [name, guess] :
+       {std::pair{"local.obj", "local coordinates"}, {"upright.obj", "is its y up?"}}) {
+    const Outcome outcome = run({"measure", name, "dem.tif"});
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_EQ(outcome.out.find("maximum error"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("the DEM            x "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.err.find("covers no sample of dem.tif"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(guess), std::string::npos) << outcome.err;
+    const Outcome expected = run({"measure", name, "dem.tif", "--expect", "5", "--json"});
+    EXPECT_EQ(expected.code, 5);
+    EXPECT_TRUE(expected.json()["error"]["maximum"].is_null()) << expected.out;
+    EXPECT_EQ(expected.json()["dem"]["extent"].size(), 4u);
+  }
+}
+
+TEST_F(MeasureCommand, NamesTheDemOfAModel) {
+  const Outcome outcome = run({"measure", "tin.ply", "dem.amt"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("the DEM that it was built from, dem.tif"), std::string::npos) << outcome.err;
 }
 
 }  // namespace

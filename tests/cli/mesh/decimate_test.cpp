@@ -59,5 +59,19 @@ TEST_F(MeshDecimate, KeepsADistanceAndNamesTheLeastCount) {
   refused({"--max-triangles", "9", "--drop-parts", "99"}, "leaves nothing");
 }
 
+TEST_F(MeshDecimate, ChecksItsNumbersBeforeItReads) {
+  for (const std::vector<std::string>& numbers :
+       std::vector<std::vector<std::string>>{{"--max-error", "1mm"},
+                                             {"--max-triangles", "many"},
+                                             {"--max-triangles", "1.5"},
+                                             {"--max-error", "1", "--drop-parts", "big"}}) {
+    std::vector<std::string> words = {"mesh", "decimate", "none.ply", "-o", "x.ply"};
+    words.insert(words.end(), numbers.begin(), numbers.end());
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_EQ(outcome.err.find("none.ply"), std::string::npos) << outcome.err;
+  }
+}
+
 }  // namespace
 }  // namespace arete::cli_test

@@ -232,5 +232,17 @@ TEST_F(Los, MethodsThatCannotAnswerAreRefusedByName) {
   EXPECT_EQ(run({"los", "points.amt", "--from", "20,20,5", "--to", "10,20,5"}).code, 0);
 }
 
+TEST_F(Los, RemarksOnAnEndBelowTheGround) {
+  makeModel();
+  const Outcome buried = run({"los", "dem.amt", "--from", "1105,1895,10", "--to", "1205,1895,40msl"});
+  ASSERT_EQ(buried.code, 0) << buried.err;
+  EXPECT_NE(buried.err.find("the second end lies 60 m below the ground"), std::string::npos) << buried.err;
+  EXPECT_EQ(buried.out.find("visited"), std::string::npos) << buried.out;
+  EXPECT_EQ(run({"los", "dem.amt", "--from", "1105,1895,0", "--to", "1205,1895,100msl"}).err, "");
+  write("sites.csv", "x,y,h\n1205,1895,-5\n1215,1895,-7\n1225,1895,1\n");
+  const Outcome many = run({"los", "dem.amt", "--from", "1105,1895,10", "--points", "sites.csv"});
+  EXPECT_NE(many.err.find("2 ends lie below the ground, by up to 7 m"), std::string::npos) << many.err;
+}
+
 }  // namespace
 }  // namespace arete::cli_test

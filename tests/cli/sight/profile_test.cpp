@@ -70,5 +70,43 @@ TEST_F(Profiles, DrawsTheLineOfSight) {
           "requires a line of sight");
 }
 
+TEST_F(Profiles, SaysWhatItWroteAndWhatHasNoTerrain) {
+  makeModel();
+  const Outcome whole = run({"profile", "dem.amt", "--along", "1105,1895:1205,1895", "--png", "p.png"});
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  EXPECT_EQ(whole.err, "");
+  EXPECT_EQ(whole.out, "p.png: a profile of 0.1 km\n");
+  // The DEM ends at x 1605.
+  const Outcome part = run({"profile", "dem.amt", "--along", "1505,1895:1705,1895", "--png", "p.png"});
+  ASSERT_EQ(part.code, 0) << part.err;
+  EXPECT_NE(part.err.find("100 of 200 m have no terrain below"), std::string::npos) << part.err;
+  refused({"profile", "dem.amt", "--along", "1105,1895:1205,1895", "-o", "x.png"}, 2,
+          "--output x.png: a profile is written as .csv; --png draws it as a picture");
+}
+
+TEST_F(Profiles, TakesTheOnlyLayerWithLines) {
+  makeModel("EPSG:32632");
+  // GPX has a layer for routes and one for tracks; both exist whenever it is opened.
+  write("track.gpx",
+        R"(<gpx version="1.1" creator="x" xmlns="http://www.topografix.com/GPX/1/1"><trk><trkseg>)"
+        R"(<trkpt lat="46.9525" lon="9.001"/><trkpt lat="46.951" lon="9.006"/></trkseg></trk></gpx>)");
+  const Outcome one = run({"profile", "dem.amt", "--along", "track.gpx", "-o", "t.csv"});
+  EXPECT_EQ(one.code, 0) << one.err;
+  write("both.gpx",
+        R"(<gpx version="1.1" creator="x" xmlns="http://www.topografix.com/GPX/1/1"><rte>)"
+        R"(<rtept lat="46.9525" lon="9.001"/><rtept lat="46.951" lon="9.006"/></rte><trk><trkseg>)"
+        R"(<trkpt lat="46.9525" lon="9.001"/><trkpt lat="46.951" lon="9.006"/></trkseg></trk></gpx>)");
+  refused({"profile", "dem.amt", "--along", "both.gpx"}, 3, "--layer");
+  EXPECT_EQ(run({"profile", "dem.amt", "--along", "both.gpx", "--layer", "routes", "-q"}).code, 0);
+}
+
+TEST_F(Profiles, AsksWhetherAFrequencyIsInMegahertz) {
+  makeModel();
+  refused({"profile", "dem.amt", "--along", "1105,1895,1:1205,1895,1", "--frequency", "2.4GHz"}, 2,
+          "'2.4GHz' is not a number of MHz");
+  refused({"los", "dem.amt", "--from", "1105,1895,1", "--to", "1205,1895,1", "--frequency", "2.4GHz"}, 2,
+          "'2.4GHz' is not a number of MHz");
+}
+
 }  // namespace
 }  // namespace arete::cli_test

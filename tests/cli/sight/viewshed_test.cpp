@@ -227,5 +227,26 @@ TEST_F(Viewsheds, RefusesWhatMakesNoSense) {
   EXPECT_FALSE(exists("v.tif"));
 }
 
+TEST_F(Viewsheds, WarnsOfAFieldOfViewWithoutASample) {
+  makeModel();
+  const auto warned = [&](const std::vector<std::string>& more, const std::string& sentence) {
+    std::vector<std::string> words = {"viewshed", "dem.amt", "--observer", "1108,1898,20", "-o", "v.tif"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find(sentence), std::string::npos) << sentence << "\n" << outcome.err;
+  };
+  // The nearest sample is 4.2 away.
+  warned({"--radius", "2"},
+         "v.tif: no sample is within the radius of 2: it is in metres, and the samples are "
+         "10 x 10 apart");
+  warned({"--min-distance", "5000"}, "no sample is within the field of view: --min-distance");
+  warned({"--elevation", "80,90"}, "no sample is within the field of view: --elevation");
+  const Outcome seen =
+      run({"viewshed", "dem.amt", "--observer", "1108,1898,20", "--radius", "5", "-o", "v.tif"});
+  EXPECT_EQ(seen.err, "");
+  EXPECT_NE(seen.out.find("v.tif: 1 sample seen"), std::string::npos) << seen.out;
+}
+
 }  // namespace
 }  // namespace arete::cli_test

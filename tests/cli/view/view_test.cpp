@@ -157,7 +157,9 @@ TEST_F(ViewCommand, SaysWhatIsWrongInASentence) {
     std::string says;
   };
   const std::vector<Case> cases = {
-      {{"--screenshot", "a.png"}, 2, "--screenshot requires --headless"},
+      {{"--output", "a.png"},
+       2,
+       "--output a.png: is no option of view: --screenshot FILE.png writes a picture"},
       {{"--headless"}, 2, "--screenshot FILE.png"},
       {{"--headless", "--screenshot", "a.jpg"}, 2, ".png"},
       {{"--headless", "--screenshot", "a.png", "--size", "12"}, 2, "WIDTHxHEIGHT"},
@@ -166,7 +168,9 @@ TEST_F(ViewCommand, SaysWhatIsWrongInASentence) {
       {{"--headless", "--screenshot", "a.png", "--pixel-error", "0"}, 2, "--pixel-error"},
       {{"--headless", "--screenshot", "no/where/a.png"}, 3, "no/where"},
       {{"--headless", "--screenshot", "a.png", "--deadline", "5"}, 2, "--cut processor"},
-      {{"--headless", "--screenshot", "a.png", "--figures", "f.json"}, 2, "--figures requires --frames"},
+      {{"--headless", "--screenshot", "a.png", "--figures", "f.json"},
+       2,
+       "--figures: requires --frames FOLDER or --film"},
       {{"--headless", "--screenshot", "a.png", "--fps", "3"}, 2, "--fps"},
       {{"--headless", "--round", "--frames", "g", "--fps", "1e9"}, 2, "--fps"},
       {{"--headless", "--screenshot", "a.png", "--frame-time", "5"}, 2, "--frame-time"},
@@ -182,7 +186,9 @@ TEST_F(ViewCommand, SaysWhatIsWrongInASentence) {
       {{"--headless", "--screenshot", "a.png", "--exaggeration", "1e300"}, 2, "--exaggeration: must be"},
       {{"--headless", "--frames", "h", "--path", "both.json"}, 4, "leave one out"},
       {{"--headless", "--frames", "f"}, 2, "--path FLIGHT.json or --round"},
-      {{"--headless", "--screenshot", "a.png", "--film", "a.mp4"}, 2, "--film requires --frames"},
+      {{"--headless", "--screenshot", "a.png", "--film", "a.mp4"},
+       2,
+       "--film a.mp4: requires --path FLIGHT.json or --round"},
       {{"--headless", "--frames", "f", "--path", "one.json"}, 4, "one.json"},
       {{"--headless", "--frames", "f", "--path", "equal.json"}, 4, "key frame 2"},
       {{"--headless", "--frames", "f", "--path", "broken.json"}, 4, "broken.json"},
@@ -210,6 +216,30 @@ TEST_F(ViewCommand, AMachineWithoutOpenGlGetsASentence) {
   EXPECT_EQ(o.code, 3) << o.err;
   EXPECT_NE(o.err.find("no OpenGL 4.5 context can be had"), std::string::npos) << o.err;
   EXPECT_FALSE(exists("a.png"));
+}
+
+TEST_F(ViewCommand, APictureNeedsNoWordForNoWindow) {
+  const Outcome outcome = run({"view", "dem.amt", "--screenshot", "x.png", "--size", "64x64"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(exists("x.png"));
+  EXPECT_EQ(
+      run({"view", "dem.amt", "--round", "--frames", "f", "--fps", "0.1", "--size", "64x64", "-q"}).code, 0);
+  EXPECT_TRUE(exists("f/frame_00000.png"));
+}
+
+TEST_F(ViewCommand, AFilmAloneLeavesNoPictures) {
+  const auto before = files();
+  const Outcome film =
+      run({"view", "dem.amt", "--round", "--film", "a.mp4", "--fps", "0.1", "--size", "64x64", "--json"});
+  if (film.err.find("a film needs ffmpeg") != std::string::npos) {
+    EXPECT_EQ(files(), before);
+    GTEST_SKIP() << "ffmpeg is not installed";
+  }
+  ASSERT_EQ(film.code, 0) << film.err;
+  auto expected = before;
+  expected.insert("a.mp4");
+  EXPECT_EQ(files(), expected);
+  EXPECT_FALSE(film.json()["frames"][0].contains("file"));
 }
 
 }  // namespace

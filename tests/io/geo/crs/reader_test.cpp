@@ -70,7 +70,20 @@ TEST(CrsReader, TakesTheStatedCrsBeforeThatOfTheFile) {
   EXPECT_TRUE(warnings.empty()) << test::joined(warnings);
   EXPECT_TRUE(chooseCrs(&*utm, "EPSG:32612", warnings)->IsSame(&*other));
   ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].sentence.find("nothing is reprojected"), std::string::npos) << warnings[0].sentence;
   EXPECT_FALSE(chooseCrs(&*utm, "gibberish", warnings));
+}
+
+TEST(CrsReader, TakesABareNumberForOneOfEpsg) {
+  const auto utm = crsFromText("EPSG:32611");
+  const auto bare = crsFromUser("32611");
+  ASSERT_TRUE(bare) << bare.error().describe();
+  EXPECT_TRUE(bare->IsSame(&*utm));
+  const auto unknown = crsFromUser("999999");
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().culprit, "999999");
+  EXPECT_EQ(unknown.error().code, ErrorCode::usage);
+  for (const char* none : {"32", "2193.5", "-4326", ""}) EXPECT_FALSE(crsFromUser(none)) << none;
 }
 
 TEST(CrsReader, DescribesKindUnitsAndEllipsoid) {
