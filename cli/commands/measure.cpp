@@ -149,9 +149,8 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
   const Box2 tinBox = planBoxOf(tin.mesh, 1), demBox = planBoxOf(field);
   session.say(fmt::format("{} against {}{}{}\n{}", arguments.tin, nameWithoutQuery(arguments.dem.path),
                           arguments.region.empty() ? "" : fmt::format(" in {}", arguments.region), where,
-                          coversNothing
-                              ? apartText(report, tinBox, demBox)
-                              : measureReportText(report, georeference.verticalUnit, isRaster)));
+                          coversNothing ? apartText(report, tinBox, demBox)
+                                        : measureReportText(report, georeference.verticalUnit, isRaster)));
   if (expects && promise)
     session.say(fmt::format("kept: nowhere more than {}\n",
                             withReliefShare(expected, georeference.verticalUnit, relief)));

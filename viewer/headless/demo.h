@@ -33,7 +33,7 @@ struct DemoResult {
   double percentOfFinest = 0;
   double measuredMax = 0;
   double measuredRms = 0;
-  double measuredMean = 0;  ///< TIN minus DEM
+  double measuredMean = 0;      ///< TIN minus DEM
   std::uint64_t uncovered = 0;  ///< valid samples in no triangle, isolated ones not counted
   double cutSeconds = 0;        ///< of the minimal cut alone
   bool isKept = false;          ///< checkPromise() of the measurement
