@@ -163,7 +163,7 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
   if (!arguments.region.empty()) json["region"] = arguments.region;
   json.update(toJson(report, isRaster));
   std::string apart;
-  if (isApart) {
+  if (coversNothing) {
     for (const char* figure : {"maximum", "rms", "meanAbsolute", "mean"}) json["error"][figure] = nullptr;
     for (const auto& [name, box] : {std::pair{"tin", tinBox}, {"dem", demBox}})
       json[name]["extent"] = {box.xMin, box.yMin, box.xMax, box.yMax};
@@ -177,10 +177,10 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
     json["expectPercent"] = std::isfinite(expected) && relief > 0 ? Json(100 * expected / relief) : Json();
     json["relief"] = relief;
     json["kept"] = promise.has_value();
-    if (!promise) json["broken"] = isApart ? apart : promise.error().message;
+    if (!promise) json["broken"] = coversNothing ? apart : promise.error().message;
   }
   session.answer(json);
-  if (isApart) return failure(promise ? ErrorCode::invalidData : promise.error().code, apart, arguments.tin);
+  if (coversNothing) return failure(promise ? ErrorCode::invalidData : promise.error().code, apart, arguments.tin);
   if (!promise) return failure(promise.error().code, promise.error().message, arguments.tin);
   return {};
 }
