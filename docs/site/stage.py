@@ -30,7 +30,7 @@ READERS = {
     "Visibility": ["visibility"],
     "Meshes": ["surfaces", "meshes", "decimation", "distance"],
     "Drawing": ["viewer", "flights", "geomorphing"],
-    "Programming": ["python", "library", "package", "services", "multitriangulation", "amt-format", "sources"],
+    "Programming": ["python", "library", "package", "services", "log", "multitriangulation", "amt-format", "sources"],
 }
 # What CMake knows of whoever answers for the build; pages name neither where it is empty.
 CONTACT = {"ARETE_TRACKER_URL": "Faults are reported at", "ARETE_CONTACT": "The contact of this build, also for reports in private, is"}

@@ -24,11 +24,11 @@ CHANGED = [(re.compile(pattern), added) for pattern, added in (
 )]
 
 # Programs that a page uses and that a machine may lack; what needs them is then counted as not run here.
-PROGRAMS = ("gdalinfo", "gdal_translate", "gdalbuildvrt", "gdaldem", "gdalwarp", "ogr2ogr", "ogrinfo", "rio", "xvfb-run", "ffmpeg")
+PROGRAMS = ("gdalinfo", "gdal_translate", "gdalbuildvrt", "gdaldem", "gdalwarp", "ogr2ogr", "ogrinfo", "rio", "jq", "xvfb-run", "ffmpeg")
 
 # Python packages of which the same holds.
 MODULES = {"rasterio", "rioxarray", "xarray", "geopandas", "shapely", "fiona", "meshio", "matplotlib", "trimesh", "pyvista", "osgeo",
-           "pandas", "affine", "pyproj"}
+           "pandas", "affine", "pyproj", "IPython"}
 
 
 def reason_not_to_run(command):

@@ -19,7 +19,7 @@ import marks
 BUILD = pathlib.Path(os.environ["ARETE_BUILD"])
 OUTPUT = re.compile(r"(?:^|\s)(?:-o|--output|--screenshot|--png|--figures|--film|--certificate|--map|--error-raster|--error-mesh)\s+([\w./-]+\.\w+)")
 
-# What is done with a block of JSON: it is a flight.
+# What is done with a block of JSON that has frames: it is a flight.
 FLY = "arete view dem.amt --headless --path flight.json --frames frames --fps 1 --size 96x54"
 
 
@@ -82,7 +82,8 @@ def run_page(page, page_blocks, made, variables, scratch):
 def main():
     of_page = collections.defaultdict(list)
     for block in blocks.all_blocks():
-        if block.kind in ("shell", "json") and (len(sys.argv) < 2 or block.page in sys.argv[1:]):
+        is_run = block.kind == "shell" or (block.kind == "json" and '"frames"' in block.text)
+        if is_run and (len(sys.argv) < 2 or block.page in sys.argv[1:]):
             of_page[block.page].append(block)
     total, left_out, failed = 0, collections.Counter(), []
     with tempfile.TemporaryDirectory(prefix="arete-pages-") as name:

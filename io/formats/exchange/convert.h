@@ -39,7 +39,6 @@ struct ConvertedMesh {
   std::vector<std::uint32_t> triangleOf;           ///< trianglesOfFile()
   std::optional<PlacedFigures> placed;             ///< with ConvertOptions::place
   double diagonal = 0;  ///< of the box of a scan; 0 of terrain, of which every digit may count
-  std::vector<std::uint32_t> triangleOf;  ///< trianglesOfFile()
   Warnings warnings;
   /// Of a PLY with doubles of a source with floats, which so takes twice the bytes for its coordinates: how
   /// far floats would have moved one; otherwise 0.
