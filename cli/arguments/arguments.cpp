@@ -187,14 +187,14 @@ Result<double> lengthOf(const std::string& option, const std::string& text,
   return inDataUnit(length, heightUnitOf(georeference), culprit);
 }
 
-CLI::Validator groundLength(const std::string& option, std::string& stated) {
-  return validator([option, &stated](std::string& text) -> std::string {
+CLI::Validator groundLength(const std::string& option, std::string& stated, double metres) {
+  return validator([option, &stated, metres](std::string& text) -> std::string {
     if (numberOf(text)) return {};  // the checks behind this one refuse nan
     const Result<StatedLength> length = parseLength(text, "");
     if (!length) return length.error().message;
     if (!length->hasUnit()) return {};
     stated = fmt::format("{} {}", option, text);
-    text = fmt::format("{}", length->number * length->unitMetres);
+    text = fmt::format("{}", length->number * length->unitMetres / metres);
     return {};
   });
 }

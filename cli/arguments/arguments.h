@@ -49,10 +49,11 @@ CLI::Validator lengthAtLeast(double least);
 /// The length in the unit of heights. Errors: usage, naming the option.
 Result<double> lengthOf(const std::string& option, const std::string& text, const Georeference& georeference);
 
-/// A length along the ground, in metres or with a unit, which becomes a number of metres.
+/// A length along the ground, as a number or with a unit, which becomes a number of metres.
 ///
 /// @param stated gets "OPTION TEXT" where it has a unit, for checkGroundUnits(); must outlive the parser.
-CLI::Validator groundLength(const std::string& option, std::string& stated);
+/// @param metres in what the option counts in: 1000 for kilometres.
+CLI::Validator groundLength(const std::string& option, std::string& stated, double metres = 1);
 /// Refuses a length with a unit where lengths along the ground are in the units of a map without a CRS.
 ///
 /// @param stated of groundLength(); those that are empty have none.

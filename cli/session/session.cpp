@@ -338,9 +338,24 @@ void Session::warn(const Warnings& warnings, const std::string& culprit) const {
 }
 
 // A file that was replaced is said on stderr, where what a person should know goes while text is piped away.
+// The pictures of a flight are many: they are counted.
 void Session::sayFiles() const {
   if (json_) return;  // the answer lists them
-  for (const WrittenFile& file : writtenFiles()) {
+  constexpr std::size_t kMostNamed = 20;
+  const std::vector<WrittenFile> files = writtenFiles();
+  if (files.size() > kMostNamed) {
+    std::uint64_t bytes = 0;
+    std::size_t replaced = 0;
+    for (const WrittenFile& file : files) {
+      bytes += file.bytes;
+      replaced += file.olderBytes && !file.isAddedTo ? 1 : 0;
+    }
+    say(fmt::format("Wrote {} files ({}), {} to {}\n", files.size(), byteCount(bytes), files.front().path,
+                    files.back().path));
+    if (replaced > 0) note(fmt::format("Replaced {} of {} files", replaced, files.size()));
+    return;
+  }
+  for (const WrittenFile& file : files) {
     const std::string named = fmt::format("{} ({})", file.path, byteCount(file.bytes));
     if (file.olderBytes && !file.isAddedTo)
       note("Replaced " + named);

@@ -165,7 +165,9 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
           ->group(group));
   kinds.ofTerrain(command
                       .add_option("--contours", contours,
-                                  "Interval of contour lines, in the DEM's unit of height (default: none)")
+                                  "Interval of contour lines, in the DEM's unit of height or with a unit "
+                                  "(default: none)")
+                      ->transform(groundLength("--contours", contoursWithUnit))
                       ->check(finiteAbove(0))
                       ->type_name("H")
                       ->group(group));
@@ -174,7 +176,9 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
       ->group(group);
   kinds.ofTerrain(command
                       .add_option("--haze", hazeKilometres,
-                                  "Distance at which haze hides about two thirds (default: no haze)")
+                                  "Distance at which haze hides about two thirds, in kilometres or with a "
+                                  "unit (default: no haze)")
+                      ->transform(groundLength("--haze", hazeWithUnit, 1000))
                       ->check(finiteAbove(0))
                       ->type_name("KM")
                       ->group(group));

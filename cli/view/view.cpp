@@ -18,6 +18,7 @@
 #include "cli/view/arguments.h"
 #include "cli/view/pictures.h"
 #include "cli/view/surface.h"
+#include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/query/extract/camera_argument.h"
 #include "io/query/extract/model_file.h"
@@ -92,6 +93,11 @@ Status runView(ViewArguments a, Session& session) {
   ARETE_TRY(const TerrainModel model, file.read({}, session.context()));
   ARETE_CHECK(a.detail.findBudget(model.mt.finestTriangleCount()));
   settings.maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);
+  ARETE_CHECK(checkGroundUnits(model.georeference, {a.appearance.hazeWithUnit}));
+  if (const std::string& stated = a.appearance.contoursWithUnit; !stated.empty()) {
+    const StatedLength interval{.number = settings.look.contourInterval, .unitMetres = 1};
+    ARETE_TRY(settings.look.contourInterval, inDataUnit(interval, heightUnitOf(model.georeference), stated));
+  }
   const GroundHeights heights(model);
   ARETE_TRY(const Camera camera, cameraOf(a, model, heights, size.first, size.second));
   // A camera below the ground may be meant, so it is allowed.

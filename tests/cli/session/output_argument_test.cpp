@@ -157,7 +157,7 @@ TEST_F(OutputArgument, AGeoPackageThatKeepsItsOtherLayersIsAddedTo) {
   EXPECT_NE(replaced.err.find("Replaced all.gpkg ("), std::string::npos) << replaced.out << replaced.err;
 }
 
-TEST_F(OutputArgument, FilesOfABrokenPromiseAreNamedAsWell) {
+TEST_F(OutputArgument, StdoutIsNotNamedAsAFile) {
   const Outcome stdoutOnly = run({"extract", "dem.amt", "-o", "-", "--format", "ply", "--max-error", "2"});
   EXPECT_EQ(stdoutOnly.code, 0);
   EXPECT_EQ(stdoutOnly.err.find("Wrote"), std::string::npos) << "stdout has no name";

@@ -28,6 +28,25 @@ TEST_F(ViewCommand, DrawsAPictureWithoutAScreen) {
   EXPECT_EQ(shot.json()["screenshot"]["figures"]["pixelError"], 1.0);
 }
 
+TEST_F(ViewCommand, ContoursAndHazeTakeUnits) {
+  const Outcome built =
+      run({"build", "dem.tif", "-o", "feet.amt", "--vertical-unit", "ft", "--crs", "EPSG:32611"});
+  ASSERT_EQ(built.code, 0) << built.err;
+  const auto picture = [&](const std::string& name, const std::string& contours, const std::string& haze) {
+    const Outcome shot = run({"view", "feet.amt", "--headless", "--screenshot", name, "--size", "120x80",
+                              "--contours", contours, "--haze", haze});
+    EXPECT_TRUE(shot.code == 0 || isWithoutOpenGl(shot)) << shot.err;
+    return read(name);
+  };
+  const std::string plain = picture("plain.png", "50", "40");
+  EXPECT_EQ(picture("stated.png", "15.24m", "40000m"), plain);
+  EXPECT_EQ(picture("feet.png", "50ft", "40km"), plain);
+  const Outcome refused =
+      run({"view", "feet.amt", "--headless", "--screenshot", "x.png", "--contours", "5M"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("mm, cm, m, km"), std::string::npos) << refused.err;
+}
+
 TEST_F(ViewCommand, APictureOfTheSkyAloneIsWarnedOf) {
   const auto shoot = [&](const char* camera) {
     return run({"view", "dem.amt", "--headless", "--screenshot", "sky.png", "--size", "64x64", "--json",
