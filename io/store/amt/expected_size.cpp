@@ -24,7 +24,7 @@ constexpr double kIsolatedBytes = 12;       ///< of a sample in no triangle, bes
 
 /// The number type that holds heights exactly: as encodeHeights() chooses it.
 struct HeightSteps {
-  double bytes = 2, step = 1;  ///< step: 0 = that of the floating-point number
+  double bytes = 2, step = 1;  ///< step: 0 = the least of the floating-point number
 
   double stepAt(double height) const {
     if (step > 0) return step;
