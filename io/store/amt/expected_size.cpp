@@ -84,6 +84,20 @@ ExpectedAmtSize expectedAmtSize(const RasterHeightfield& field) {
           packedBytes(samples, triangles, foretold > 0 ? bits / foretold : 0)};
 }
 
+ExpectedAmtSize expectedAmtSize(const SurfaceMesh& mesh) {
+  constexpr double kPlain = 61.3, kPacked = 11.5, kPlainOfDoubles = 6, kPackedOfDoubles = 4.5,
+                   kPlainWithCorners = 1.8, kPackedWithCorners = 2.5;
+  const double triangles = double(mesh.triangles.size());
+  const auto isFloat = [](double x) { return double(float(x)) == x; };
+  const bool areFloats = std::ranges::all_of(
+      mesh.positions, [&](const Vec3& p) { return isFloat(p.x) && isFloat(p.y) && isFloat(p.z); });
+  const bool hasCorners = !mesh.wedgeAttributes.empty();
+  const double plain = triangles * (kPlain + (areFloats ? 0 : kPlainOfDoubles)),
+               packed = triangles * (kPacked + (areFloats ? 0 : kPackedOfDoubles));
+  return {kHeaderBytes + plain * (hasCorners ? kPlainWithCorners : 1),
+          kHeaderBytes + packed * (hasCorners ? kPackedWithCorners : 1)};
+}
+
 ExpectedAmtSize expectedAmtSize(const PointHeightfield& field) {
   const HeightSteps steps = stepsOf(field.heights, 1, 0);
   const double points = double(field.heights.size()), triangles = 2 * points;
