@@ -173,7 +173,7 @@ TEST_F(RunLogs, HaveWarningsWithTheirCodesEvenWhenQuiet) {
 }
 
 TEST_F(RunLogs, OfAKilledRunEndAtTheirStage) {
-  makeRaster("large.tif", "noise", 700, 700);
+  makeRaster("large.tif", "noise", 1200, 1200);
   const auto whenItSimplifies = [&](int signal) {
     return [this, signal](pid_t child) {
       for (int i = 0; i < 60'000 && read("run.jsonl").find(R"("stage":"simplify")") == std::string::npos; ++i)
