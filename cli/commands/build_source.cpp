@@ -3,12 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
 #include <filesystem>
-#include <system_error>
 #include <utility>
 #include <variant>
 
+#include "cli/surface/build.h"
 #include "io/formats/exchange/axes.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/geo/dem/point_reader.h"
@@ -86,26 +85,7 @@ Result<DemRead> readSource(const DemArguments& dem, const std::string& kind, Ses
 ExpectedAmtSize announceSize(const DemRead& dem, const std::string& output, bool isPacked, Session& session) {
   const ExpectedAmtSize size =
       std::visit([](const auto& field) { return expectedAmtSize(field); }, dem.heightfield);
-  const auto text = [](double bytes) { return byteCount(static_cast<std::uint64_t>(bytes)); };
-  // Small files surprise by nothing.
-  constexpr double kLeastBytes = 1e6;
-  if (size.plain >= kLeastBytes && !session.wantsJson()) {
-    session.note(isPacked
-                     ? fmt::format("{} will be about {}; without --packed about {}, which opens three times "
-                                   "as fast",
-                                   output, text(size.packed), text(size.plain))
-                     : fmt::format("{} will be about {}; with --packed about {}, which takes three times as "
-                                   "long to open",
-                                   output, text(size.plain), text(size.packed)));
-  }
-  std::error_code error;
-  const std::filesystem::path folder = std::filesystem::absolute(output, error).parent_path();
-  const auto room = std::filesystem::space(folder, error);
-  const double needed = isPacked ? size.packed : size.plain;
-  if (!error && static_cast<double>(room.available) < needed)
-    session.warn(fmt::format("{}: its disk has {} free, less than the file of about {} needs{}", output,
-                             text(static_cast<double>(room.available)), text(needed),
-                             isPacked ? "" : fmt::format("; with --packed about {}", text(size.packed))));
+  announceSize(size, output, isPacked, session);
   return size;
 }
 

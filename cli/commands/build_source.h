@@ -23,8 +23,8 @@ bool isMesh(const DemArguments& dem);
 /// Precondition: it is no mesh with faces, unless `kind` says what its vertices are.
 Result<DemRead> readSource(const DemArguments& dem, const std::string& kind, Session& session);
 
-/// Says, before the work, about how large the file will be in its plain and in its packed form; with --json
-/// the answer says it. Warns where the file system of the output has less room than that.
+/// Says, before the work, about how large the file will be, as announceSize() does of a size
+/// (cli/surface/build.h).
 ExpectedAmtSize announceSize(const DemRead& dem, const std::string& output, bool isPacked, Session& session);
 
 }  // namespace arete

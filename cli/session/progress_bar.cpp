@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kTicks = 40;  // a number every four: 0...10...20
 
-constexpr double kLeastSeconds = 5, kSecondsBetween = 2, kSecondsWithoutANumber = 15;
+constexpr double kLeastSeconds = 5, kSecondsBetween = 2, kSecondsWithoutANumber = 60;
 
 double steadySeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

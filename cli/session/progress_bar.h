@@ -13,7 +13,7 @@
 namespace arete {
 
 /// Progress as GDAL writes it, one line per stage: "build 0...10...20 ... 100 - done." Where the work takes
-/// longer than some seconds, the time left is said behind a number, and every quarter of a minute at most
+/// longer than some seconds, the time left is said behind a number, and every minute at most
 /// in between: "30 (2 min left)...40".
 class ProgressBar {
  public:

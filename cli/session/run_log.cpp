@@ -87,7 +87,7 @@ Status checkLogContent(int descriptor, const std::string& path, bool& endsInALin
   std::array<char, kBegin.size()> begin = {};
   const ssize_t read = ::pread(descriptor, begin.data(), begin.size(), 0);
   if (read != static_cast<ssize_t>(begin.size()) || std::string_view(begin.data(), begin.size()) != kBegin)
-    return failure(ErrorCode::usage, "exists and is no log; a log is appended to logs alone", path);
+    return failure(ErrorCode::usage, "exists and holds something other than a log", path);
   char last = '\n';
   if (::pread(descriptor, &last, 1, status.st_size - 1) == 1) endsInALine = last == '\n';
   return {};
@@ -201,7 +201,7 @@ void RunLog::report(std::string_view stage, double fraction) {
   const std::lock_guard lock(mutex_);
   if (hasEnded_) return;
   const bool isSame = stage == stage_.name;
-  // A report of the end where the stage has ended already is no new stage.
+  // A stage that has ended does not begin anew by a second report of its end.
   if (!isSame && fraction >= 1) return;
   if (!isSame || fraction < stage_.fraction) {
     endStage();

@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "cli/arguments/arguments.h"
@@ -24,7 +27,8 @@ struct Seconds {
 };
 
 void report(const SurfaceBuildArguments& arguments, std::uint64_t faces, std::uint64_t vertices,
-            const SurfaceModel& model, const Seconds& seconds, Session& session) {
+            const SurfaceModel& model, const ExpectedAmtSize& expected, const Seconds& seconds,
+            Session& session) {
   const MultiTriangulation& mt = model.mt;
   std::error_code error;
   const auto size = std::filesystem::file_size(arguments.output, error);
@@ -54,36 +58,63 @@ void report(const SurfaceBuildArguments& arguments, std::uint64_t faces, std::ui
       model.displacement.isEmpty() ? "" : fmt::format("displacement {:.2f} s, ", seconds.displace),
       seconds.write, byteCount(bytes), perVertex);
   session.say(text);
-  session.answer({{"file", arguments.output},
-                  {"kind", "surface"},
-                  {"source", model.source},
-                  {"crs", crsName(model.crsWkt)},
-                  {"sourceFaces", faces},
-                  {"sourceVertices", vertices},
-                  {"vertices", mt.vertexCount()},
-                  {"diagonal", model.diagonal},
-                  {"triangles", mt.triangleCount()},
-                  {"finestTriangles", mt.finestTriangleCount()},
-                  {"rootTriangles", mt.rootTriangleCount()},
-                  {"rootVertices", mt.rootVertexCount()},
-                  {"rootError", mt.largestError()},
-                  {"levels", model.levels},
-                  {"mended", mendedJson(model.mending)},
-                  {"seconds",
-                   {{"read", seconds.read},
-                    {"build", seconds.build},
-                    {"displace", seconds.displace},
-                    {"write", seconds.write}}},
-                  {"bytes", bytes},
-                  {"bytesPerVertex", perVertex}});
+  session.answer(
+      {{"file", arguments.output},
+       {"kind", "surface"},
+       {"source", model.source},
+       {"crs", crsName(model.crsWkt)},
+       {"sourceFaces", faces},
+       {"sourceVertices", vertices},
+       {"vertices", mt.vertexCount()},
+       {"diagonal", model.diagonal},
+       {"triangles", mt.triangleCount()},
+       {"finestTriangles", mt.finestTriangleCount()},
+       {"rootTriangles", mt.rootTriangleCount()},
+       {"rootVertices", mt.rootVertexCount()},
+       {"rootError", mt.largestError()},
+       {"levels", model.levels},
+       {"mended", mendedJson(model.mending)},
+       {"seconds",
+        {{"read", seconds.read},
+         {"build", seconds.build},
+         {"displace", seconds.displace},
+         {"write", seconds.write}}},
+       {"expectedBytes", {{"plain", std::round(expected.plain)}, {"packed", std::round(expected.packed)}}},
+       {"bytes", bytes},
+       {"bytesPerVertex", perVertex}});
 }
 
 }  // namespace
+
+void announceSize(const ExpectedAmtSize& size, const std::string& output, bool isPacked, Session& session) {
+  const auto text = [](double bytes) { return byteCount(static_cast<std::uint64_t>(bytes)); };
+  // Small files surprise by nothing.
+  constexpr double kLeastBytes = 1e6;
+  if (size.plain >= kLeastBytes && !session.wantsJson()) {
+    session.note(isPacked
+                     ? fmt::format("{} will be about {}; without --packed about {}, which opens three times "
+                                   "as fast",
+                                   output, text(size.packed), text(size.plain))
+                     : fmt::format("{} will be about {}; with --packed about {}, which takes three times as "
+                                   "long to open",
+                                   output, text(size.plain), text(size.packed)));
+  }
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::absolute(output, error).parent_path();
+  const auto room = std::filesystem::space(folder, error);
+  const double needed = isPacked ? size.packed : size.plain;
+  if (!error && static_cast<double>(room.available) < needed)
+    session.warn(fmt::format("{}: its disk has {} free, less than the file of about {} needs{}", output,
+                             text(static_cast<double>(room.available)), text(needed),
+                             isPacked ? "" : fmt::format("; with --packed about {}", text(size.packed))));
+}
 
 Status buildSurfaceFile(const SurfaceBuildArguments& arguments, MeshInput input, double secondsToRead,
                         Session& session) {
   Seconds seconds;
   seconds.read = secondsToRead;
+  const ExpectedAmtSize expected = expectedAmtSize(input.file.mesh);
+  announceSize(expected, arguments.output, arguments.isPacked, session);
   // What the report says of the file.
   const std::uint64_t faces = input.fileFaces, vertices = input.fileVertices;
   const Result<BuiltSurface> built =
@@ -103,7 +134,7 @@ Status buildSurfaceFile(const SurfaceBuildArguments& arguments, MeshInput input,
   const SurfaceWriteOptions options{.isPacked = arguments.isPacked, .positionBits = arguments.positionBits};
   ARETE_CHECK(writeSurfaceModel(arguments.output, built->model, session.context(), options));
   seconds.write = writing.seconds();
-  report(arguments, faces, vertices, built->model, seconds, session);
+  report(arguments, faces, vertices, built->model, expected, seconds, session);
   return {};
 }
 

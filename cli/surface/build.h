@@ -6,6 +6,7 @@
 #include "cli/session/session.h"
 #include "engine/base/result.h"
 #include "io/query/surface/build_model.h"
+#include "io/store/amt/expected_size.h"
 
 namespace arete {
 
@@ -20,5 +21,9 @@ struct SurfaceBuildArguments {
 /// buildSurfaceModel() and writeSurfaceModel().
 Status buildSurfaceFile(const SurfaceBuildArguments& arguments, MeshInput input, double secondsToRead,
                         Session& session);
+
+/// Says, before the work, about how large the file will be in its plain and in its packed form; with --json
+/// the answer says it. Warns where the file system of the output has less room than that.
+void announceSize(const ExpectedAmtSize& size, const std::string& output, bool isPacked, Session& session);
 
 }  // namespace arete

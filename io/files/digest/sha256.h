@@ -13,8 +13,8 @@ namespace arete {
 /// for the layout of an .amt, whose checksums are faster (io/store/format/checksum.h).
 class Sha256 {
  public:
-  /// Adds bytes behind those before. O(bytes); with the instructions of newer x86 processors about 1.5 GB/s,
-  /// without them about 0.25 GB/s.
+  /// Adds bytes behind those before. O(bytes); with the instructions of newer x86 processors about 1.3 GB/s,
+  /// without them about 0.23 GB/s.
   void add(std::span<const std::byte> bytes);
   /// 64 lower-case hexadecimal digits. Call once, at the end.
   std::string hex();

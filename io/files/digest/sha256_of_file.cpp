@@ -33,7 +33,8 @@ Result<FileDigest> sha256OfFile(const std::string& path, const std::atomic<bool>
   struct ::stat before {
   }, after{};
   if (file.value < 0 || ::fstat(file.value, &before) != 0) return cannotBeRead(path, errno);
-  if (!S_ISREG(before.st_mode)) return failure(ErrorCode::unreadable, "is no regular file", path);
+  if (!S_ISREG(before.st_mode))
+    return failure(ErrorCode::unreadable, "is a folder, a pipe or a device", path);
   Sha256 digest;
   FileDigest result;
   std::vector<std::byte> piece(kPieceBytes);

@@ -50,7 +50,7 @@ struct CellValues {
 /// @param take its error ends the work
 /// @param stage under which progress is reported
 ///
-/// Errors: those of `take`; interrupted. O(cells + corners log corners); memory: 8 bytes for each run of
+/// Errors: what `take` returns; interrupted. O(cells + corners log corners); memory: 8 bytes for each run of
 /// equal values in a row, a bit for each cell, and the rings of polygons that are not complete.
 Status forCellPolygons(const CellValues& raster, const std::function<double(const CellRun&)>& areaOf,
                        const std::function<Status(CellPolygon)>& take, std::string_view stage,

@@ -29,11 +29,11 @@ struct PolygonReport {
 };
 
 /// Writes a raster as polygons into a layer of a GeoPackage (.gpkg): forCellPolygons(), with the fields
-/// "answer", that of the value, "cells" and "area_m2" (GroundAreas; null where the ground is not known).
-/// Coordinates are those of the corners of cells in the CRS; without a position, columns and rows. The file
-/// appears complete or not at all; an older one keeps its other layers, unless it is replaced.
+/// "answer", PolygonFields::value, "cells" and "area_m2" (GroundAreas; null where the ground is not known).
+/// Coordinates are corners of cells in the CRS; without a position, columns and rows. The file appears
+/// complete or not at all; an older one keeps its other layers, unless it is replaced.
 ///
-/// Errors: usage: another kind of file. Those of writeGeoPackage(). O(forCellPolygons() + polygons).
+/// Errors: usage: another kind of file. What writeGeoPackage() returns. O(forCellPolygons() + polygons).
 Result<PolygonReport> writePolygons(const std::string& path, const CellValues& raster,
                                     const Georeference& georeference, const PolygonFields& fields,
                                     ExistingFile existing, const RunContext& context);

@@ -24,7 +24,7 @@ constexpr double kIsolatedBytes = 12;       ///< of a sample in no triangle, bes
 
 /// The number type that holds heights exactly: as encodeHeights() chooses it.
 struct HeightSteps {
-  double bytes = 2, step = 1;  ///< step: 0 = that of the floating-point number
+  double bytes = 2, step = 1;  ///< step: 0 = the least of the floating-point number
 
   double stepAt(double height) const {
     if (step > 0) return step;
@@ -82,6 +82,20 @@ ExpectedAmtSize expectedAmtSize(const RasterHeightfield& field) {
   const double isolated = std::max(0.0, samples - triangles);
   return {kHeaderBytes + kBytesPerTriangle * triangles + steps.bytes * samples + kIsolatedBytes * isolated,
           packedBytes(samples, triangles, foretold > 0 ? bits / foretold : 0)};
+}
+
+ExpectedAmtSize expectedAmtSize(const SurfaceMesh& mesh) {
+  constexpr double kPlain = 61.3, kPacked = 11.5, kPlainOfDoubles = 6, kPackedOfDoubles = 4.5,
+                   kPlainWithCorners = 1.8, kPackedWithCorners = 2.5;
+  const double triangles = double(mesh.triangles.size());
+  const auto isFloat = [](double x) { return double(float(x)) == x; };
+  const bool areFloats = std::ranges::all_of(
+      mesh.positions, [&](const Vec3& p) { return isFloat(p.x) && isFloat(p.y) && isFloat(p.z); });
+  const bool hasCorners = !mesh.wedgeAttributes.empty();
+  const double plain = triangles * (kPlain + (areFloats ? 0 : kPlainOfDoubles)),
+               packed = triangles * (kPacked + (areFloats ? 0 : kPackedOfDoubles));
+  return {kHeaderBytes + plain * (hasCorners ? kPlainWithCorners : 1),
+          kHeaderBytes + packed * (hasCorners ? kPackedWithCorners : 1)};
 }
 
 ExpectedAmtSize expectedAmtSize(const PointHeightfield& field) {

@@ -38,6 +38,19 @@ TEST_F(SurfaceCommands, BuildInfoValidateAndExtract) {
   EXPECT_TRUE(exists("skin.png"));
 }
 
+TEST_F(SurfaceCommands, ABuildForetellsTheSizeOfTheFile) {
+  write("large.obj", ball(60, 40));
+  for (const bool isPacked : {false, true}) {
+    std::vector<std::string> words = {"build", "large.obj", "-o", "large.amt", "--json"};
+    if (isPacked) words.emplace_back("--packed");
+    const Outcome outcome = run(words);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const double expected = outcome.json()["expectedBytes"][isPacked ? "packed" : "plain"];
+    const double bytes = outcome.json()["bytes"];
+    EXPECT_LT(std::abs(std::log(expected / bytes)), std::log(2.5)) << expected << " of " << bytes;
+  }
+}
+
 TEST_F(SurfaceCommands, AFitLeavesLessOfTheDistanceAndKeepsTheTolerance) {
   std::string shape;  // without a texture, whose seam would stay
   std::istringstream lines(ball(24, 14));

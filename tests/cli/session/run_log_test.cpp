@@ -31,6 +31,12 @@ class RunLogs : public Arguments {
                          [&](const Json& line) { return line["event"] == event; });
     return found;
   }
+  /// "X,Y" of the first sample.
+  std::string corner() const {
+    const Json g = run({"info", "dem.amt", "--json"}).json()["grid"]["geoTransform"];
+    return fmt::format("{},{}", g[0].get<double>() + g[1].get<double>() / 2,
+                       g[3].get<double>() + g[5].get<double>() / 2);
+  }
   std::string sha256(const std::string& name) const { return sha256OfFile(path(name)).value().sha256; }
 };
 
@@ -43,7 +49,7 @@ TEST_F(RunLogs, SayWhatWasAskedForAndWhatCameOfIt) {
   EXPECT_EQ(start["event"], "start");
   EXPECT_EQ("arete " + start["version"].get<std::string>() + "\n", run({"--version"}).out);
   EXPECT_EQ(start["command"], "build");
-  EXPECT_EQ(start["arguments"].size(), 9u);
+  EXPECT_EQ(start["arguments"].size(), 10u);
   EXPECT_EQ(start["options"]["shape"], "fidelity");
   EXPECT_EQ(start["options"]["no-features"], true);
   EXPECT_EQ(start["options"]["DEM"], "dem.tif");
@@ -94,15 +100,17 @@ TEST_F(RunLogs, HaveEveryStageWithItsTimeAndMemory) {
 }
 
 TEST_F(RunLogs, AreTheSameAnswerAndTheSameTextWithAndWithoutJson) {
+  const std::string at = middle();
+  const std::string along = fmt::format("{}:{}", at, corner());
   const std::vector<std::vector<std::string>> commands = {
       {"info", "dem.amt"},
-      {"height", "dem.amt", "--at", "1,1"},
+      {"height", "dem.amt", "--at", at},
       {"extract", "dem.amt", "-o", "x.ply", "--max-error", "2"},
       {"measure", "tin.ply", "dem.tif"},
       {"convert", "tin.ply", "-o", "x.obj"},
       {"mesh", "info", "tin.ply"},
       {"mesh", "repair", "tin.ply", "-o", "r.ply"},
-      {"profile", "dem.amt", "--along", "1,1:20,20"},
+      {"profile", "dem.amt", "--along", along},
       {"validate", "dem.amt", "--fronts", "1"}};
   for (std::vector<std::string> command : commands) {
     SCOPED_TRACE(command[0] + " " + command[1]);
