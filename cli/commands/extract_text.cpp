@@ -10,6 +10,12 @@
 #include "io/query/extract/extract.h"
 
 namespace arete {
+namespace {
+
+/// Of the error: a mean error up to this needs no explanation.
+constexpr double kLargestMean = 0.02;
+
+}  // namespace
 
 std::string extractText(const ExtractRequest& request, const ExtractedTin& tin, const std::string& unit) {
   const std::string share =
@@ -38,7 +44,10 @@ std::string extractText(const ExtractRequest& request, const ExtractedTin& tin, 
     text += fmt::format("; {} before the fit", withUnit(tin.fit->errorBefore, unit));
   if (tin.measured) text += fmt::format("; measured {}", withUnit(tin.measured->maxAbsError, unit));
   if (tin.measured && request.criterion.fit == CutFit::unbiased)
-    text += fmt::format(", mean {}", withUnit(tin.measured->meanError, unit));
+    text += fmt::format(", mean {}{}", withUnit(tin.measured->meanError, unit),
+                        std::abs(tin.measured->meanError) > kLargestMean * tin.promisedError
+                            ? " (left by bounds and fixed vertices)"
+                            : "");
   if (tin.measuredInside) text += fmt::format(", {} inside", withUnit(tin.measuredInside->maxAbsError, unit));
   if (!request.certificate.empty()) text += fmt::format("\n  certificate {}", request.certificate);
   if (!request.errorRaster.empty()) text += fmt::format("\n  error raster {}", request.errorRaster);
