@@ -12,7 +12,7 @@
 namespace arete {
 namespace {
 
-/// Of the error: a mean error up to this needs no explanation.
+/// A mean error up to this part of the largest needs no explanation.
 constexpr double kLargestMean = 0.02;
 
 }  // namespace
@@ -45,7 +45,7 @@ std::string extractText(const ExtractRequest& request, const ExtractedTin& tin, 
   if (tin.measured) text += fmt::format("; measured {}", withUnit(tin.measured->maxAbsError, unit));
   if (tin.measured && request.criterion.fit == CutFit::unbiased)
     text += fmt::format(", mean {}{}", withUnit(tin.measured->meanError, unit),
-                        std::abs(tin.measured->meanError) > kLargestMean * tin.promisedError
+                        std::abs(tin.measured->meanError) > kLargestMean * tin.storedError
                             ? " (left by bounds and fixed vertices)"
                             : "");
   if (tin.measuredInside) text += fmt::format(", {} inside", withUnit(tin.measuredInside->maxAbsError, unit));
