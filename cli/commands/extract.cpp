@@ -262,6 +262,7 @@ void addExtractCommand(CLI::App& app, Session& session) {
       "  arete extract dem.amt -o tin.ply --max-error 1,5,20      tin_1.ply, tin_5.ply, tin_20.ply\n"
       "  arete extract dem.amt -o 'out/{}m.obj' --max-error 5     out/5m.obj\n"
       "  arete extract dem.amt -o tin.ply --max-error 5 --fit triangles\n"
+      "  arete extract dem.amt -o tin.ply --max-error 5 --fit unbiased    the same triangles, mean error 0\n"
       "  arete extract dem.amt -o tin.ply --max-triangles 50000 --certificate\n"
       "  arete extract dem.amt -o tin.ply --max-error 0.5% --max-triangles 50000   whichever ends first\n"
       "  arete extract dem.amt -o tin.ply --max-error 1 --region park.gpkg --outside-error 20\n"

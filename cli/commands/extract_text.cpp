@@ -11,6 +11,12 @@
 #include "io/query/extract/extract.h"
 
 namespace arete {
+namespace {
+
+/// A mean error up to this part of the largest needs no explanation.
+constexpr double kLargestMean = 0.02;
+
+}  // namespace
 
 std::string extractText(const ExtractRequest& request, const ExtractedTin& tin, const std::string& unit) {
   const std::string share =
@@ -40,7 +46,10 @@ std::string extractText(const ExtractRequest& request, const ExtractedTin& tin, 
   if (tin.placed) text += placedText(*tin.placed);
   if (tin.measured) text += fmt::format("; measured {}", withUnit(tin.measured->maxAbsError, unit));
   if (tin.measured && request.criterion.fit == CutFit::unbiased)
-    text += fmt::format(", mean {}", withUnit(tin.measured->meanError, unit));
+    text += fmt::format(", mean {}{}", withUnit(tin.measured->meanError, unit),
+                        std::abs(tin.measured->meanError) > kLargestMean * tin.storedError
+                            ? " (left by bounds and fixed vertices)"
+                            : "");
   if (tin.measuredInside) text += fmt::format(", {} inside", withUnit(tin.measuredInside->maxAbsError, unit));
   if (!request.certificate.empty()) text += fmt::format("\n  certificate {}", request.certificate);
   if (!request.errorRaster.empty()) text += fmt::format("\n  error raster {}", request.errorRaster);

@@ -14,7 +14,8 @@
 namespace arete {
 
 /// Fitted cuts: the vertices of a cut keep their positions in the plan, and their heights are changed so that
-/// fewer triangles keep the bound, or the same triangles keep a smaller one. docs/topics/fit.md.
+/// fewer triangles keep the bound, or the same triangles keep a smaller one or have no mean error.
+/// docs/topics/fit.md.
 
 struct FitOptions {
   /// How many rings of vertices around a removed vertex may be moved, at most; 1 or more.
@@ -64,7 +65,7 @@ Result<FittedCut> fitLeastError(const TerrainModel& model, const Cut& cut, const
 /// samples together and in the neighbourhood of every vertex, as far as the tolerance and fixed heights
 /// permit. At every sample |z_TIN - z_sample| stays within the tolerance. The result is the same for any
 /// number of threads. Precondition: the cut is one of the model, and within the tolerance. O(samples) for
-/// each of some thirty sweeps; 8 bytes per sample of the model and about 120 per vertex of the cut. Errors:
+/// each of some thirty sweeps; 40 bytes per sample of the model and about 120 per vertex of the cut. Errors:
 /// as fitFewestTriangles().
 Result<FittedCut> fitUnbiased(const TerrainModel& model, const Cut& cut, const FitTolerance& tolerance,
                               const FitOptions& options = {}, const RunContext& context = {});

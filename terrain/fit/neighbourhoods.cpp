@@ -42,8 +42,9 @@ FitCells cellsOf(const FitMesh& mesh, std::uint32_t across) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
   const double side = std::max(high.x - low.x, high.y - low.y);
-  if (across <= 1 || !(side > 0)) return cells;
   const double perCell = across / side;
+  // A file may hold any positions.
+  if (across <= 1 || !(side > 0) || !std::isfinite(side) || !std::isfinite(perCell)) return cells;
   const auto along = [&](double length) {
     return std::clamp(std::ceil(length * perCell), 1.0, double(across));
   };

@@ -267,6 +267,7 @@ TEST_F(OutOfMemory, IsAnErrorOfFits) {
   const Result<Cut> cut = takeCut(model_.mt, *criterion_);
   ASSERT_TRUE(cut);
   failAllocationsOf("least error", [&] { return fitLeastError(model_, *cut); });
+  failAllocationsOf("unbiased", [&] { return fitUnbiased(model_, *cut, {.maxError = cut->achievedError}); });
 }
 
 // Of allocations of at least 1 KiB alone: the destructor of nlohmann's JSON values, which nothing may leave,

@@ -62,15 +62,14 @@ double storedErrorInside(const TerrainModel& model, const Cut& cut, const Region
   return largest;
 }
 
-/// What a fit that keeps a cut's triangles may use: the tolerance, or the error that the cut reached.
+/// What a fit that keeps a cut's triangles may use: the error that the cut has reached, so that no fit makes
+/// the largest error larger.
 FitTolerance toleranceOf(const TerrainModel& model, const CutRequest& c, const std::optional<Region>& region,
-                         double reserve, const Cut& cut) {
+                         const Cut& cut) {
   const double inside = region ? storedErrorInside(model, cut, *region) : cut.achievedError;
-  FitTolerance tolerance{.maxError = inside, .region = region ? &*region : nullptr};
-  if (c.promisesMaxError(cut.isComplete) && std::isfinite(*c.maxError))
-    tolerance.maxError = std::max(inside, *c.maxError - reserve);
-  tolerance.outsideError = std::max(tolerance.maxError, c.outsideError);
-  return tolerance;
+  return {.maxError = inside,
+          .region = region ? &*region : nullptr,
+          .outsideError = std::max(inside, c.outsideError)};
 }
 
 /// A file's name without its folder, which an export does not tell.
@@ -174,7 +173,7 @@ Result<TinExport> takeTin(const TerrainModel& model, const CutRequest& c, const 
     taken = std::move(cut);
   }
   if (c.fit == CutFit::unbiased)
-    return finish(fitUnbiased(model, *taken, toleranceOf(model, c, region, reserve, *taken), {}, context));
+    return finish(fitUnbiased(model, *taken, toleranceOf(model, c, region, *taken), {}, context));
   if (c.fit == CutFit::error || (c.fit == CutFit::triangles && !region))
     return finish(fitLeastError(model, *taken, {}, context));
   if (c.camera) tin.pixels = worstSeverity(model.mt, *criterion, *taken);

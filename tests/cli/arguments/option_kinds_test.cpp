@@ -372,7 +372,7 @@ TEST_F(OptionsOfBothKinds, ValuesForTheOtherKindAreRefusedByName) {
     EXPECT_NE(outcome.err.find(culprit + ": is for "), std::string::npos) << outcome.err;
   };
   refused("extract dem.amt -o $.ply --max-error 2%", "--fit rms");
-  for (const char* word : {"triangles", "error"})
+  for (const char* word : {"triangles", "error", "unbiased"})
     refused("extract ball.amt -o $.ply --max-error 2%", fmt::format("--fit {}", word));
   refused("view dem.amt --headless --screenshot $.png", "--color material");
   for (const char* word : {"height", "slope", "aspect"})
