@@ -33,7 +33,7 @@ namespace {
 constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
 constexpr int kMostRounds = 48;
 constexpr std::uint8_t kGenerationsOfASeam = 12;  // an edge split so often is straight, or torn
-constexpr double kMostTriangles = 5e7;
+constexpr double kMostTriangles = 2e7;
 constexpr double kSafety = 1.05, kLongEdgeMetres = 10'000;
 
 struct BendEdge {
@@ -81,7 +81,7 @@ class Bender {
       findEdges();
       ARETE_CHECK(measureEdges());
       shapeTriangles();
-      if (std::exchange(isFirst, false)) setRimLimit();
+      if (std::exchange(isFirst, false)) ARETE_CHECK(setRimLimit());
       if (!judge()) return finish();
       if (wanted_ > kMostTriangles)
         return failure(
@@ -265,16 +265,24 @@ class Bender {
 
   double coincidence() const { return 8 * map_.rounding(); }
 
-  void setRimLimit() {
-    double area = 0, shortest = std::numeric_limits<double>::infinity();
+  Status setRimLimit() {
+    double area = 0, turned = 0, shortest = std::numeric_limits<double>::infinity();
     for (const BentShape& s : shapes_)
-      if (!s.vanishes && std::isfinite(s.rise)) area += std::abs(s.rise) / 2;
+      if (!s.vanishes && std::isfinite(s.rise)) {
+        area += std::abs(s.rise) / 2;
+        turned += s.rise / 2;
+      }
     for (const BendEdge& e : edges_) {
       const double length = norm(levelPart(at(e.b) - at(e.a), upOf(e)));
       if (length > coincidence()) shortest = std::min(shortest, length);
     }
     const double pixel = options_.samples > 0 ? std::sqrt(area / double(options_.samples)) : shortest;
     rimLimit_ = kRimPixels * pixel;
+    if (turned < 0)
+      return refuse(fmt::format("{} has axes that turn the other way round: the terrain would be mirrored",
+                                map_.name()),
+                    result_.source.positions[0]);
+    return {};
   }
 
   /// Whether the triangle holds the lens of an edge of it.

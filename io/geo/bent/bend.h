@@ -51,7 +51,7 @@ struct BentMesh {
 /// @param errors  by triangle, in the unit of heights of the target; empty: 0
 /// Errors, with the culprit of the map: invalidData: a position that the target does not have; a mesh that
 /// is torn apart by a seam of the target; heights that differ at a pole. interrupted. unsupported: more than
-/// about 50 million triangles. O(n log n) of the result for each round of splits.
+/// about 20 million triangles. O(n log n) of the result for each round of splits.
 Result<BentMesh> bendMesh(TriangleMesh mesh, std::span<const float> errors, const PlaceMap& map,
                           const BendOptions& options, const RunContext& context = {});
 
