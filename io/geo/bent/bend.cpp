@@ -278,7 +278,8 @@ class Bender {
     }
     const double pixel = options_.samples > 0 ? std::sqrt(area / double(options_.samples)) : shortest;
     rimLimit_ = kRimPixels * pixel;
-    if (turned < 0)
+    constexpr double kNearlyAll = 0.9;  // coarse triangles of half the globe may turn either way
+    if (turned < -kNearlyAll * area)
       return refuse(fmt::format("{} has axes that turn the other way round: the terrain would be mirrored",
                                 map_.name()),
                     result_.source.positions[0]);
