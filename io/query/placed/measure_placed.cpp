@@ -25,7 +25,7 @@ using placed::PlacedSample;
 
 namespace {
 
-/// The samples of a DEM that a TIN should have, and those of NODATA that it should not.
+/// The samples that a TIN should have, and the NODATA that it should not.
 struct DemSamples {
   std::vector<PlacedSample> all;
   std::size_t size = 0;       ///< of the DEM
