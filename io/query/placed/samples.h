@@ -41,9 +41,10 @@ using SideSeen = std::function<std::pair<Vec3, Vec3>(std::size_t sample, const R
 /// than `most`. O(n log n + pairs that are near).
 /// @param places  of the samples, in the plan of which `plan` has the vertices
 /// @param reach   how far in that plan a sample may be from a side that is near to it
+/// @param turn    x of the plan is known up to multiples of this; 0: it is known
 void coverBesideRim(std::vector<PlacedSample>& samples, std::span<const Vec2> places,
-                    const std::vector<RimSide>& rim, std::span<const Vec2> plan, Vec2 reach, double most,
-                    const SideSeen& seen);
+                    const std::vector<RimSide>& rim, std::span<const Vec2> plan, Vec2 reach, double turn,
+                    double most, const SideSeen& seen);
 
 /// Fills what a TIN in metres has at each sample (measure_metric.cpp).
 /// @param pixel  a step between samples in the DEM's coordinates
