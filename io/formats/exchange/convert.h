@@ -55,7 +55,7 @@ double movedByFloats(const TriangleMesh& mesh);
 /// With a place, edges are split where bending adds more than a tenth of the largest error of a triangle that
 /// the file states, or of a metre where it states none (placeInTarget()).
 ///
-/// Errors: those of writeMesh(), placeMesh() and placeInTarget(). usage: attributes that splits cannot keep.
+/// Errors: as writeMesh(), placeMesh() and placeInTarget(). usage: attributes that splits cannot keep.
 /// usage, with the text as culprit: options.crs is not a CRS; culprit `unit`: options.crs states the unit.
 /// O(size), O(n log n) to a format that rounds.
 Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& path,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Errors are in the unit of the heights, which a metric target changes to metres: all figures for bending are
-// in the target's unit, those of the report in the source's.
+// in the target's unit, and the report is in the source's.
 #include "io/formats/exchange/placed_mesh.h"
 
 #include <fmt/format.h>
@@ -51,7 +51,7 @@ Status checkPlacing(const PlaceTarget& target, const MeshFormat& format) {
     return failure(
         ErrorCode::usage,
         fmt::format(
-            "is no frame of a map, which a {} holds; `toCrs` with the value utm gives it a CRS in metres",
+            "is not a frame of a map, which a {} holds; `toCrs` with the value utm gives it a CRS in metres",
             format.name),
         "metric");
   return {};

@@ -21,7 +21,7 @@ namespace arete {
 struct PlacedFigures {
   std::string target;  ///< "WGS 84 / UTM zone 32N (EPSG:32632)", "metres"
   bool isMetric = false;
-  std::string unit;  ///< of the figures below: that of the source's heights; empty: not known
+  std::string unit;  ///< of the errors below, which is the source's heights; empty: not known
   std::uint64_t addedVertices = 0, addedTriangles = 0;  ///< by splits of edges
   double added = 0;         ///< the most that bending adds to the error of a triangle, in the source's unit
   double largestError = 0;  ///< with it: the largest error of a triangle, in that unit
@@ -57,7 +57,7 @@ struct PlacingOptions {
 Status checkPlacing(const PlaceTarget& target, const MeshFormat& format);
 
 /// Leads a mesh of terrain into a target for a format: bendMesh() (io/geo/bent/bend.h), where nothing below a
-/// millimetre is split for. Errors: those of PlaceMap::of(), bendMesh() and checkPlacing().
+/// millimetre is split for. Errors: as PlaceMap::of(), bendMesh() and checkPlacing().
 Result<PlacedMesh> placeInTarget(const TriangleMesh& mesh, std::span<const float> errors,
                                  const Georeference& source, const PlaceTarget& target,
                                  const MeshFormat& format, const PlacingOptions& options,

@@ -9,7 +9,7 @@
 // gives the height, and the difference of the two gradients times the lens's height bounds what it adds. The
 // lens lies within the triangle of the edge's ends and a point twice as high. Where the neighbour contains
 // that point, it contains the lens; otherwise the largest gradient around both triangles stands for what may
-// be there. On the rim there is no neighbour, and a sample in the lens belongs to the nearest point of the
+// be there. The rim has no neighbour beyond it, and a sample in the lens belongs to the nearest point of the
 // edge.
 //
 // A round finds what is too much, marks edges, and splits all of them. Triangles of which two corners come
@@ -33,7 +33,8 @@ namespace {
 constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
 constexpr int kMostRounds = 48;
 constexpr std::uint8_t kGenerationsOfASeam = 12;  // an edge split so often is straight, or torn
-constexpr double kMostTriangles = 5e7;
+constexpr double kMostTriangles = 2e7, kMostPieces = 4096;
+constexpr int kRoundsOfCoarseTriangles = 3;  // whose shapes say little about how many are needed
 constexpr double kSafety = 1.05, kLongEdgeMetres = 10'000;
 
 struct BendEdge {
@@ -81,11 +82,11 @@ class Bender {
       findEdges();
       ARETE_CHECK(measureEdges());
       shapeTriangles();
-      if (std::exchange(isFirst, false)) setRimLimit();
+      if (std::exchange(isFirst, false)) ARETE_CHECK(setRimLimit());
       if (!judge()) return finish();
-      if (wanted_ > kMostTriangles)
+      if (round >= kRoundsOfCoarseTriangles && wanted_ > kMostTriangles)
         return failure(
-            ErrorCode::unsupported,
+            ErrorCode::usage,
             fmt::format("would need about {:.2g} triangles to keep the error, the most near {:.9g}, "
                         "{:.9g}; a larger tolerance needs fewer",
                         wanted_, worst_.x, worst_.y),
@@ -101,7 +102,7 @@ class Bender {
                    map_.culprit());
   }
 
-  /// Triangles that turn clockwise on the map, as those of other programs may, are turned over meanwhile.
+  /// Triangles that turn clockwise on the map, as other programs may write them, are turned over meanwhile.
   void turnUp() {
     const auto& p = result_.source.positions;
     isTurned_.assign(triangles_, 0);
@@ -265,16 +266,25 @@ class Bender {
 
   double coincidence() const { return 8 * map_.rounding(); }
 
-  void setRimLimit() {
-    double area = 0, shortest = std::numeric_limits<double>::infinity();
+  Status setRimLimit() {
+    double area = 0, turned = 0, shortest = std::numeric_limits<double>::infinity();
     for (const BentShape& s : shapes_)
-      if (!s.vanishes && std::isfinite(s.rise)) area += std::abs(s.rise) / 2;
+      if (!s.vanishes && std::isfinite(s.rise)) {
+        area += std::abs(s.rise) / 2;
+        turned += s.rise / 2;
+      }
     for (const BendEdge& e : edges_) {
       const double length = norm(levelPart(at(e.b) - at(e.a), upOf(e)));
       if (length > coincidence()) shortest = std::min(shortest, length);
     }
     const double pixel = options_.samples > 0 ? std::sqrt(area / double(options_.samples)) : shortest;
     rimLimit_ = kRimPixels * pixel;
+    constexpr double kNearlyAll = 0.9;  // coarse triangles of half the globe may turn either way
+    if (turned < -kNearlyAll * area)
+      return refuse(fmt::format("{} has axes that turn the other way round: the terrain would be mirrored",
+                                map_.name()),
+                    result_.source.positions[0]);
+    return {};
   }
 
   /// Whether the triangle holds the lens of an edge of it.
@@ -346,7 +356,7 @@ class Bender {
       added_[t] = plane + lens + map_.rounding() * (1 + s.slope);
       const double allowed = std::max(options_.least, options_.share * std::max(own_[t], options_.tolerance));
       // What bending adds falls with the square of a triangle's size, as its area does.
-      const double pieces = std::max(1.0, s.isFolded ? 1.0 : plane / allowed);
+      const double pieces = s.isFolded ? 1.0 : std::clamp(plane / allowed, 1.0, kMostPieces);
       wanted_ += pieces;
       if (pieces > most) {
         most = pieces;

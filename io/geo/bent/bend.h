@@ -45,13 +45,13 @@ struct BentMesh {
 /// and where the rim would leave its samples. The result depends on nothing but the mesh and the map.
 ///
 /// What bending adds is bounded from the images of the middle of each edge, and of its quarters where it is
-/// long, as of a map that is quadratic along an edge, with allowances for the rest. This is not a proof; a
+/// long, as if the map were quadratic along an edge, with allowances for the rest. This is not a proof; a
 /// measurement of every sample is (io/query/placed/measure_placed.h).
 ///
 /// @param errors  by triangle, in the unit of heights of the target; empty: 0
 /// Errors, with the culprit of the map: invalidData: a position that the target does not have; a mesh that
-/// is torn apart by a seam of the target; heights that differ at a pole. interrupted. unsupported: more than
-/// about 50 million triangles. O(n log n) of the result for each round of splits.
+/// is torn apart by a seam of the target; heights that differ at a pole. interrupted. usage: more than
+/// about 20 million triangles are needed. O(n log n) of the result for each round of splits.
 Result<BentMesh> bendMesh(TriangleMesh mesh, std::span<const float> errors, const PlaceMap& map,
                           const BendOptions& options, const RunContext& context = {});
 

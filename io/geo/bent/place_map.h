@@ -21,7 +21,7 @@ class PlaceMap {
   ///                   their middle
   /// @param origin     in source coordinates: of the metric frame, and of formats of 32-bit floats
   /// Errors, with the field and its value as culprit: usage: no CRS, a target that is no CRS or states
-  /// heights, those of utmOf(). unsupported: a geocentric CRS. invalidData: there is no transformation but
+  /// heights, as utmOf(). unsupported: a geocentric CRS. invalidData: PROJ knows no transformation but
   /// one that ignores the datums.
   static Result<PlaceMap> of(const Georeference& source, const PlaceTarget& target,
                              std::span<const Vec3> positions, const Vec3& origin);
@@ -63,7 +63,7 @@ class PlaceMap {
   double turn_ = 0, xMiddle_ = 0, sourceMiddle_ = 0, perSource_ = 0;
 };
 
-/// The georeference of the coordinates of a mesh file: its CRS and unit of heights. Errors: those of
+/// The georeference of the coordinates of a mesh file: its CRS and unit of heights. Errors: as
 /// crsFromText() and describeCrs().
 Result<Georeference> georeferenceOf(const std::string& crsWkt, const std::string& verticalUnit,
                                     double verticalUnitMetres = 0);

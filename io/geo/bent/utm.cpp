@@ -75,12 +75,12 @@ Result<OGRSpatialReference> utmOf(const Georeference& georeference, std::span<co
   for (Vec2 p : places) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y))
       return refuse(ErrorCode::invalidData, "a vertex has no longitude and latitude");
-    // Longitudes of a map jump at the antimeridian; those of a CRS in degrees do not.
+    // Longitudes of a map jump at the antimeridian; a CRS in degrees has no such jump.
     if (!lonLat->isPlain()) p.x = places[0].x + std::remainder(p.x - places[0].x, 360);
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  if (places.empty()) return refuse(ErrorCode::usage, "there is no vertex that a zone could be chosen for");
+  if (places.empty()) return refuse(ErrorCode::usage, "has no vertex that a zone could be chosen for");
   constexpr double kEarthMetres = 6378137;
   const bool isOnEarth = std::abs(georeference.semiMajorAxisMetres / kEarthMetres - 1) < 0.01;
   const Vec2 middle = 0.5 * (low + high);

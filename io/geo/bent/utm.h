@@ -13,7 +13,7 @@ namespace arete {
 
 /// The UTM zone of the middle of the longitudes and latitudes of some positions, on the datum of their CRS,
 /// so that no datum is shifted. On the Earth the wider zones of Norway and Svalbard (31V to 32V, 31X to 37X)
-/// are those of the official grid.
+/// count, as in the official grid.
 ///
 /// Errors, with the culprit "toCrs utm": usage: no CRS, positions more than 3 degrees beyond the zone, south
 /// of -80 or north of 84 degrees. unsupported: a prime meridian other than Greenwich. Those of CrsLonLat.

@@ -34,7 +34,7 @@ namespace {
 /// Heights are written as float32 if rounding changes them by less than this, in their unit.
 constexpr double kNegligibleRounding = 1e-3;
 
-/// What a triangle that keeps the tolerance may come to where a mesh is bent, and that of tolerances near 0.
+/// What a triangle that keeps the tolerance may come to where a mesh is bent, and the least gain.
 constexpr double kMostOfTolerance = 1.1, kLeastGain = 1e-2;
 
 bool isRaster(const ExtractRequest& request) {

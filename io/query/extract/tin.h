@@ -54,7 +54,7 @@ struct ExtractedTin {
 Status checkExtractOutput(const std::string& path, const TerrainModel& model, const std::string& format = {});
 
 /// Checks that a request's output can be written where ExtractRequest::place leads it. Errors: usage, naming
-/// the field: a .tif, which is on the DEM's grid; those of checkPlacing().
+/// the field: a .tif, which is on the DEM's grid; as checkPlacing().
 Status checkExtractPlace(const ExtractRequest& request);
 
 /// The cut of a request, or its fit, as a mesh; nothing is written. Heights that were fitted promise nothing

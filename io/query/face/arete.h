@@ -87,7 +87,7 @@ Result<SightPathAnswer> lineOfSight(const Model& model, const Vec3& observer, co
 Result<MeshWriteReport> write(const Tin& tin, const std::string& path, const RunContext& context = {});
 /// The same in another CRS (`{.crs = "utm"}`) or in metres (`{.isMetric = true}`), of terrain. Edges are
 /// split where bending adds more than a tenth of the largest error, and the errors in the file count it.
-/// Errors: also those of placeInTarget() (io/formats/exchange/placed_mesh.h).
+/// Errors: also as placeInTarget() (io/formats/exchange/placed_mesh.h).
 Result<MeshWriteReport> write(const Tin& tin, const std::string& path, const PlaceTarget& place,
                               const RunContext& context = {});
 /// Writes a model as an .amt file. Errors: as writeAmt() and writeSurfaceAmt().

@@ -20,7 +20,7 @@
 namespace arete::placed {
 namespace {
 
-constexpr double kGapMetres = 1e-8;     // between neighbours, by rounding
+constexpr double kGapMetres = 3e-8;     // between neighbours, by rounding
 constexpr double kInsideMetres = 1e-6;  // a sample so far within two triangles is covered twice
 constexpr double kTurn = 360;
 
@@ -200,7 +200,7 @@ Result<double> findInMetres(const TriangleMesh& mesh, const Vec3& about, const G
   for (Vec2& place : places) place.x = middle + std::remainder(place.x - middle, kTurn);
   coverBesideRim(
       samples, planOfSamples, rimOf(mesh), places,
-      {2 * pixel.x * ellipsoid.degreesPerUnit(), 2 * pixel.y * ellipsoid.degreesPerUnit()},
+      {2 * pixel.x * ellipsoid.degreesPerUnit(), 2 * pixel.y * ellipsoid.degreesPerUnit()}, kTurn,
       kBeyondRimPixels * std::sqrt(area / double(std::max<std::size_t>(samples.size(), 1))),
       [&](std::size_t i, const RimSide& side) {
         Vec3 from, n;

@@ -25,7 +25,7 @@ using placed::PlacedSample;
 
 namespace {
 
-/// The samples of a DEM that a TIN should have, and those of NODATA that it should not.
+/// The samples that a TIN should have, and the NODATA that it should not.
 struct DemSamples {
   std::vector<PlacedSample> all;
   std::size_t size = 0;       ///< of the DEM
@@ -154,7 +154,7 @@ Result<MeasureReport> findOnMap(const TriangleMesh& mesh, const TinPlace& place,
   std::vector<Vec2> vertices;
   vertices.reserve(mesh.positions.size());
   for (const Vec3& p : mesh.positions) vertices.push_back({p.x, p.y});
-  placed::coverBesideRim(samples.all, plan, placed::rimOf(mesh), vertices, {most, most}, most,
+  placed::coverBesideRim(samples.all, plan, placed::rimOf(mesh), vertices, {most, most}, 0, most,
                          [&](std::size_t i, const placed::RimSide& side) {
                            const Vec3 &a = mesh.positions[side.from], &b = mesh.positions[side.to];
                            return std::pair(Vec3{a.x - plan[i].x, a.y - plan[i].y, a.z},

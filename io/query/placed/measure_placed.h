@@ -34,7 +34,7 @@ bool isElsewhere(const TinPlace& place, const Georeference& dem);
 /// Errors and positions in the report are in the DEM's units. Areas are in square pixels of the mean spacing.
 /// NODATA counts as covered within a triangle and on its edges.
 ///
-/// Errors: those of measure(); invalidData, usage: no transformation leads there. O(n log n).
+/// Errors: as measure(); invalidData, usage: no transformation leads there. O(n log n).
 Result<MeasureReport> measureElsewhere(const TriangleMesh& mesh, const TinPlace& place,
                                        const RasterHeightfield& dem, const MeasureOptions& options = {},
                                        const RunContext& context = {}, MeasureRasters* rasters = nullptr);

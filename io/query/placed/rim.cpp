@@ -31,18 +31,18 @@ std::vector<RimSide> rimOf(const TriangleMesh& mesh) {
 }
 
 void coverBesideRim(std::vector<PlacedSample>& samples, std::span<const Vec2> places,
-                    const std::vector<RimSide>& rim, std::span<const Vec2> plan, Vec2 reach, double most,
-                    const SideSeen& seen) {
+                    const std::vector<RimSide>& rim, std::span<const Vec2> plan, Vec2 reach, double turn,
+                    double most, const SideSeen& seen) {
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < samples.size(); ++i)
     if (std::isnan(samples[i].tin) && !std::isnan(samples[i].height) && std::isfinite(places[i].x))
       open.push_back(i);
   std::ranges::sort(open, {}, [&](std::size_t i) { return std::pair(places[i].x, i); });
   std::vector<double> distance(open.size(), std::numeric_limits<double>::infinity());
-  for (const RimSide& side : rim) {
+  const auto visit = [&](const RimSide& side, double shift) {
     const Vec2 &a = plan[side.from], &b = plan[side.to];
-    const auto [west, east] = std::minmax(a.x, b.x);
-    const auto [south, north] = std::minmax(a.y, b.y);
+    const double west = std::min(a.x, b.x) + shift, east = std::max(a.x, b.x) + shift;
+    const double south = std::min(a.y, b.y), north = std::max(a.y, b.y);
     auto at = std::ranges::lower_bound(open, west - reach.x, {}, [&](std::size_t i) { return places[i].x; });
     for (; at != open.end() && places[*at].x <= east + reach.x; ++at) {
       const double y = places[*at].y;
@@ -58,6 +58,11 @@ void coverBesideRim(std::vector<PlacedSample>& samples, std::span<const Vec2> pl
       samples[*at].tin = p.z + part * (q.z - p.z);
       samples[*at].triangle = side.triangle;
     }
+  };
+  for (const RimSide& side : rim) {
+    visit(side, 0);
+    if (turn > 0)
+      for (const double shift : {-turn, turn}) visit(side, shift);
   }
 }
 

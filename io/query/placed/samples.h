@@ -37,18 +37,19 @@ std::vector<RimSide> rimOf(const TriangleMesh& mesh);
 /// unit.
 using SideSeen = std::function<std::pair<Vec3, Vec3>(std::size_t sample, const RimSide& side)>;
 
-/// Gives samples that no triangle holds the height at the nearest point of the rim, where that is no farther
+/// Gives samples that no triangle holds the height at the nearest point of the rim, if it is not farther
 /// than `most`. O(n log n + pairs that are near).
 /// @param places  of the samples, in the plan of which `plan` has the vertices
 /// @param reach   how far in that plan a sample may be from a side that is near to it
+/// @param turn    x of the plan is known up to multiples of this; 0: it is known
 void coverBesideRim(std::vector<PlacedSample>& samples, std::span<const Vec2> places,
-                    const std::vector<RimSide>& rim, std::span<const Vec2> plan, Vec2 reach, double most,
-                    const SideSeen& seen);
+                    const std::vector<RimSide>& rim, std::span<const Vec2> plan, Vec2 reach, double turn,
+                    double most, const SideSeen& seen);
 
 /// Fills what a TIN in metres has at each sample (measure_metric.cpp).
 /// @param pixel  a step between samples in the DEM's coordinates
 /// @return the TIN's area in the plan, in square metres
-/// Errors: those of LocalFrame::create(); unsupported: the DEM has no longitude and latitude. interrupted.
+/// Errors: as LocalFrame::create(); unsupported: the DEM has no longitude and latitude. interrupted.
 Result<double> findInMetres(const TriangleMesh& mesh, const Vec3& about, const Georeference& dem, Vec2 pixel,
                             std::vector<PlacedSample>& samples, const RunContext& context);
 
