@@ -98,7 +98,7 @@ bool isTextName(const std::string& path) {
   return std::ranges::count(kTexts, text::lowerExtension(path)) > 0;
 }
 
-/// The rows of a text of points, as the vertices of one line. Errors: those of readPointTable(). invalidData:
+/// The rows of a text of points, as the vertices of one line. Errors: as readPointTable(). invalidData:
 /// one row, or a row without a place on the map.
 Result<std::vector<Way>> wayOfRows(const ProfileArguments& a, const Georeference& dem,
                                    const LongitudeTurns& turns, Session& session) {
