@@ -253,7 +253,7 @@ void DemArguments::addKindTo(CLI::App& command) {
   command
       .add_option_function<std::string>(
           "--as", [this](const std::string&) { staysPoints = true; },
-          "points: a text whose points fill a grid is no raster, as in a build with --as points")
+          "points: a text whose points fill a grid stays points, as in a build with --as points")
       ->check(oneOf({"points"}))
       ->type_name("points")
       ->group(kGroup);

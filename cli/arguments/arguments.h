@@ -79,7 +79,7 @@ struct DemArguments {
 
   std::string path;
   SourceReading reading;
-  bool staysPoints = false;  ///< a text whose points fill a grid is no raster
+  bool staysPoints = false;  ///< a text whose points fill a grid is not made a raster
 
   void addTo(CLI::App& command);
   /// Adds the argument that names one DEM or the files of one.

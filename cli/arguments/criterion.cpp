@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::uint32_t kMostTriangles = 0xFFFFFFFE;
 
-/// "5,000" is a list of two numbers, of which the second is none that may be meant.
+/// "5,000" is a list of two numbers, of which the second cannot be meant.
 std::string groupedDigits(const std::vector<StatedSize>& sizes) {
   if (sizes.size() < 2 || sizes.front().text.size() > 3) return {};
   std::string whole = sizes.front().text;

@@ -9,7 +9,7 @@
 namespace arete {
 
 /// What to say of a place that looks like longitude and latitude where the map of the DEM has lengths:
-/// "longitude, latitude? add --lonlat". A place that looks like latitude and longitude is told as well.
+/// "longitude, latitude? add --lonlat". The other order is recognised as well.
 ///
 /// @param place as it is stated, in the DEM's CRS for all that is known.
 /// @param model its root is enough.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A number behind the value of an option that takes one is no argument of any command, unless a file has that
-// name.
+// A number behind the value of an option that takes one does not belong to any command, unless a file has
+// that name.
 #include "cli/arguments/spaced_numbers.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -29,7 +31,7 @@ bool isFileName(const std::string& word) {
 /// "X,Y,H", "FILE|BOX".
 bool takesCommas(const CLI::Option& option) {
   const std::string type = option.get_type_name();
-  return option.get_items_expected_max() == 1 && (type.find(',') != type.npos || type.ends_with("BOX"));
+  return type.find(',') != type.npos || type.ends_with("BOX");
 }
 
 const CLI::App& namedCommand(const CLI::App& app, const std::vector<std::string>& words, std::size_t& at) {
@@ -58,6 +60,11 @@ std::string spacedNumbers(const CLI::App& app, const std::vector<std::string>& w
     std::size_t end = at + 1;
     while (end < words.size() && looksLikeNumbers(words[end]) && !isFileName(words[end])) ++end;
     if (end < at + 3) continue;
+    // An option that is repeated may have several values behind one name, each with commas.
+    const auto hasComma = [](const std::string& word) { return word.find(',') != word.npos; };
+    if (option->get_items_expected_max() != 1 &&
+        std::any_of(words.begin() + std::ptrdiff_t(at) + 1, words.begin() + std::ptrdiff_t(end), hasComma))
+      continue;
     std::string apart = name, joined = name + " ";
     for (std::size_t i = at + 1; i < end; ++i) {
       apart += " " + words[i];

@@ -233,7 +233,7 @@ Status runSurfaceBuild(const BuildArguments& arguments, MeshInput input, double 
 Status runBuild(BuildArguments& arguments, Session& session) {
   ARETE_CHECK(takeShape(arguments));
   const std::string extension = text::lowerExtension(arguments.output);
-  if (extension != "amt")
+  if (extension != "amt" && arguments.output != "-")  // checkOutput() answers that
     return failure(
         ErrorCode::usage,
         extension.empty()

@@ -95,7 +95,7 @@ Json jsonOf(const PointTable& table, const Heights& heights) {
   return points;
 }
 
-/// What the first place without a height that is no place of the map looks like; empty: nothing else.
+/// What the first place without a height looks like, if not like a place on the map; empty: nothing else.
 std::string hintOfPlaces(const PointTable& table, const Heights& heights, const TerrainModel& model) {
   for (std::size_t i = 0; i < heights.size(); ++i)
     if (!heights[i])
@@ -169,7 +169,7 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
   json["places"] = heights.size();
   json["withoutPlace"] = table.withoutPlace;
   json["onTerrain"] = found;
-  // A table of empty heights is no answer: it is not written where the command fails for it.
+  // The command fails where all heights would be empty, and then writes no table of them.
   if (!arguments.output.empty()) ARETE_CHECK(checkFound(arguments, table, heights, found, outline));
   noteRenamed(arguments, table, session);
   if (arguments.output.empty()) {

@@ -185,7 +185,7 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
   return {};
 }
 
-/// A model of terrain is no reference, since it holds what is to be checked: the DEM that it was built from
+/// A model of terrain cannot be the reference, since it is what is checked: the DEM that it was built from
 /// is.
 Error isModel(const std::string& path, AmtContainer container) {
   const Result<AmtFile> file = openAmt(std::move(container));

@@ -112,7 +112,7 @@ ExitCode runProgram(int argc, char** argv) {
   if (const std::string sentence = unknownCommand(app, words); !sentence.empty())
     return session.refuse(sentence, "arete", wantsJson);
   if (const std::string sentence = spacedNumbers(app, words); !sentence.empty())
-    return session.refuse(sentence, "arete", wantsJson);
+    return session.refuse(sentence, "arete " + words.front(), wantsJson);
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them from the end
   } catch (const CLI::ParseError& error) {

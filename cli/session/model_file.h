@@ -14,7 +14,7 @@ namespace arete {
 // A command that reads only the part of a file that its question needs opens the file, reads the outline,
 // finds with it which places the question touches, and reads the terrain there. Every check is done.
 
-/// Opens a model of terrain. Errors: those of openTerrainFile(); of a model of a surface it says how terrain
+/// Opens a model of terrain. Errors: as openTerrainFile(); of a model of a surface it says how terrain
 /// is made of the same file.
 inline Result<AmtFile> openTerrain(const std::string& path) {
   Result<AmtFile> file = openTerrainFile(path);

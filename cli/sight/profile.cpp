@@ -27,6 +27,7 @@
 #include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/position_argument.h"
 #include "io/geo/crs/transform.h"
+#include "io/geo/table/point_table.h"
 #include "io/query/extract/region_reader.h"
 #include "terrain/sight/fresnel.h"
 #include "terrain/sight/paths.h"
@@ -93,6 +94,28 @@ Result<Way> typedWay(const std::string& text, const CrsTransform& toDem, const D
   return way;
 }
 
+bool isTextName(const std::string& path) {
+  constexpr std::array<std::string_view, 4> kTexts = {"csv", "tsv", "txt", "xyz"};
+  return std::ranges::count(kTexts, text::lowerExtension(path)) > 0;
+}
+
+/// The rows of a text of points, as the vertices of one line. Errors: as readPointTable(). invalidData:
+/// one row, or a row without a place on the map.
+Result<std::vector<Way>> wayOfRows(const ProfileArguments& a, const Georeference& dem,
+                                   const LongitudeTurns& turns, Session& session) {
+  ARETE_TRY(auto table, readPointTable(a.along, dem, {.lonLat = a.sight.lonLat}, session.context()));
+  session.warn(table.warnings, a.along);
+  turns.apply(table.positions);
+  for (std::size_t i = 0; i < table.positions.size(); ++i)
+    if (!std::isfinite(table.positions[i].x + table.positions[i].y))
+      return failure(ErrorCode::invalidData, "has no place on the map of the DEM",
+                     fmt::format("{}, row {}", a.along, i + 1));
+  if (table.positions.size() < 2) return failure(ErrorCode::invalidData, "holds no line", a.along);
+  session.note(fmt::format("{}: its {} are the vertices of one line", a.along,
+                           grouped(table.positions.size(), "row", "rows")));
+  return std::vector<Way>{{std::move(table.positions), std::nullopt}};
+}
+
 Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference& dem,
                                   const LongitudeTurns& turns, const CrsTransform& toDem, Session& session) {
   if (!isFile(a.along)) {
@@ -100,11 +123,14 @@ Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference&
     ARETE_TRY(auto way, typedWay(a.along, toDem, heightUnitOf(dem)));
     return std::vector<Way>{std::move(way)};
   }
-  // A file states its CRS, and its longitudes may be a whole turn away from the DEM's.
-  if (a.sight.lonLat)
+  // A layer states its CRS, and its longitudes may be a whole turn away from the DEM's.
+  auto found = readRegion(a.along, dem.crsWkt, {.layer = a.layer, .takesLines = true}, session.context());
+  const bool isText = isTextName(a.along);
+  if (!found && isText && a.layer.empty() && found.error().code == ErrorCode::unsupported)
+    return wayOfRows(a, dem, turns, session);
+  if (a.sight.lonLat && (found || !isText))
     return failure(ErrorCode::usage, "cannot be combined with --along FILE, which has a CRS of its own",
                    "--lonlat");
-  auto found = readRegion(a.along, dem.crsWkt, {.layer = a.layer, .takesLines = true}, session.context());
   if (!found && found.error().message.find("name one of them") != std::string::npos)
     found.error().message += " (--layer)";
   ARETE_TRY(auto read, std::move(found));
@@ -120,7 +146,7 @@ Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference&
 
 /// Whether a typed line without terrain looks like longitudes and latitudes. Errors: invalidData.
 Status checkDegrees(const ProfileArguments& a, const std::vector<Way>& ways, const TerrainModel& model) {
-  if (a.sight.lonLat || isFile(a.along)) return {};
+  if (a.sight.lonLat || (isFile(a.along) && !isTextName(a.along))) return {};
   for (const Vec2 vertex : ways.front().vertices)
     if (const std::string hint = degreesHint(vertex, model); !hint.empty())
       return failure(ErrorCode::invalidData, "lies outside the DEM: " + hint, "--along " + a.along);
@@ -387,7 +413,8 @@ void addProfileCommand(CLI::App& app, Session& session) {
   command
       ->add_option(
           "--along,--line", arguments->along,
-          "Layer of lines, or places; two places with heights, X,Y,H:X,Y,H, are a line of sight as well")
+          "Layer of lines, a text of one line's vertices (CSV, XYZ), or places; two places with heights, "
+          "X,Y,H:X,Y,H, are a line of sight as well")
       ->required()
       ->type_name("FILE|X,Y:X,Y[:...]");
   command->add_option("--layer", arguments->layer, "Layer, where the file has several")->type_name("NAME");

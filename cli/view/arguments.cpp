@@ -274,13 +274,13 @@ void ViewArguments::addTo(CLI::App& command) {
   pictures.addTo(command);
 }
 
-// The folder of the pictures of a film alone is made by the command, which knows when it is no longer needed.
+// The folder of the pictures of a film alone is made by the command, which removes it at its end.
 Status ViewArguments::completePictures() {
   PictureArguments& p = pictures;
   if (!p.output.empty())
     return failure(
         ErrorCode::usage,
-        "is no option of view: --screenshot FILE.png writes a picture, --frames FOLDER the pictures "
+        "does not exist here: --screenshot FILE.png writes a picture, --frames FOLDER the pictures "
         "of a flight, --film FILE.mp4 a film",
         "--output " + p.output);
   const bool hasFlightPictures = !p.frames.empty() || !p.film.empty();

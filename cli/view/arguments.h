@@ -69,7 +69,7 @@ struct PictureArguments {
   bool isHeadless = false;
   std::string sizeText, screenshot, frames, film, figures;
   bool dropsFrames = false;    ///< the pictures of the flight are for the film alone
-  std::string output;          ///< of --output, which is no option here
+  std::string output;          ///< of --output, which other commands have
   double framesPerSecond = 0;  ///< 0 = the rate that the flight states
   int samples = 4;
   std::string windowScreenshot;  ///< for tests: the last picture of the window

@@ -61,7 +61,7 @@ Result<FramesFolder> FramesFolder::of(PictureArguments& pictures) {
   std::error_code failed;
   std::string name = (std::filesystem::temp_directory_path(failed) / "arete-film-XXXXXX").string();
   if (failed || mkdtemp(name.data()) == nullptr)
-    return failure(ErrorCode::unreadable, "there is no folder for temporary files; --frames names one",
+    return failure(ErrorCode::unreadable, "a folder for temporary files cannot be made; --frames names one",
                    "--film " + pictures.film);
   folder.temporary_ = name;
   pictures.frames = name;

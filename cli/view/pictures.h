@@ -36,7 +36,7 @@ class FramesFolder {
   std::string temporary_;  // empty: none
 };
 
-/// Makes the film of the pictures. Errors: those of encodeFilm().
+/// Makes the film of the pictures. Errors: as encodeFilm().
 Status makeFilmOf(const PictureArguments& pictures, std::size_t frames, double rate, Session& session);
 
 /// Warns of frames in the folder that an earlier, longer film left behind the ones that were drawn.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The promise of a TIN, checked on a report: no error above the stated one, every sample covered, none twice,
-// no NODATA covered. All that is broken is named, the error first: it is what a reader asks for. What is
+// no NODATA covered. All that is broken is named, the error first: readers look at it first. What is
 // forgiven as rounding is left out of MeasureReport::errorBeyondRounding.
 #include <fmt/format.h>
 

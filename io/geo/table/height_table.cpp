@@ -24,7 +24,7 @@ constexpr std::array<const char*, 3> kOwnFields = {"height", "below", "above"};
 constexpr const char* kLayer = "heights";
 constexpr std::size_t kRowsPerReport = 4096;
 
-/// The names of the input's other columns beside those of the place and of the answer.
+/// The names of the input's other columns beside ours.
 std::vector<std::string> namesOfInputs(const PointTable& table, bool hasZ) {
   std::vector<std::string_view> own = {table.xName, table.yName};
   own.insert(own.end(), kOwnNames.begin(), kOwnNames.end());

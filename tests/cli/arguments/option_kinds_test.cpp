@@ -153,6 +153,7 @@ const std::map<std::string, Tried>& triedCommands() {
                      {"--region-crs", {"--region-crs EPSG:4326", "--region BOX"}},
                      {"--distance", {"--distance 2", "--region BOX"}},
                      {"--error-raster", {"--error-raster $e.tif"}},
+                     {"--as", {"--as points"}},
                      {"--both-ways", {"--both-ways"}},
                      {"--samples", {"--samples 60", "", ""}},
                      {"--seed", {"--seed 2"}},

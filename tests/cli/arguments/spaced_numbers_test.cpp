@@ -29,7 +29,12 @@ TEST(SpacedNumbers, AreJoinedInTheOrderOfTheWords) {
   EXPECT_NE(problemOf({"mesh", "crop", "a.obj", "--box", "0", "0", "0", "1", "1", "1"}), "");
 }
 
-TEST(SpacedNumbers, AreNoneWhereAnOptionTakesOneNumber) {
+TEST(SpacedNumbers, OfAnOptionThatIsRepeatedHaveNoComma) {
+  EXPECT_NE(problemOf({"height", "x.amt", "--at", "390000", "3800000"}), "");
+  EXPECT_EQ(problemOf({"height", "x.amt", "--at", "390000,3800000", "390010,3800000"}), "");
+}
+
+TEST(SpacedNumbers, AreNotFoundWhereAnOptionTakesOneNumber) {
   EXPECT_EQ(problemOf({"los", "x.amt", "--from", "1,2,3", "--to", "4,5,6"}), "");
   EXPECT_EQ(problemOf({"extract", "x.amt", "--threads", "4", "5"}), "");
   EXPECT_EQ(problemOf({"los", "x.amt", "--from=1", "2", "3"}), "");
@@ -44,7 +49,7 @@ TEST_F(SpacedPlaces, AreRefusedBeforeAnythingIsRead) {
           "--from 1105,1895,30");
   // "2" is a file here, and may be meant.
   write("2", "");
-  refused({"height", "none.amt", "--at", "1", "2"}, 2, "");
+  refused({"los", "none.amt", "--from", "1105", "2", "--to", "1205,1895,2"}, 2, "not expected: 2");
 }
 
 }  // namespace

@@ -56,7 +56,8 @@ TEST_F(MeasureCommand, NamesEveryBrokenPromiseAndTheErrorFirst) {
   ASSERT_EQ(run({"extract", "dem.amt", "-o", "part.obj", "--max-error", "20", "-q"}).code, 0);
   // Without its last triangle.
   std::string obj = read("part.obj");
-  obj.erase(obj.rfind("\nf ") + 1);
+  const std::size_t last = obj.rfind("\nf ");
+  obj.erase(last, obj.find('\n', last + 1) - last);
   write("part.obj", obj);
   const Outcome outcome = run({"measure", "part.obj", "dem.tif", "--expect", "0.001"});
   EXPECT_EQ(outcome.code, 5);

@@ -100,6 +100,28 @@ TEST_F(Profiles, TakesTheOnlyLayerWithLines) {
   EXPECT_EQ(run({"profile", "dem.amt", "--along", "both.gpx", "--layer", "routes", "-q"}).code, 0);
 }
 
+TEST_F(Profiles, TakesTheRowsOfATextForTheVerticesOfALine) {
+  makeModel("EPSG:32632");
+  const Outcome typed =
+      run({"profile", "dem.amt", "--along", "500105,5199895:500205,5199895:500205,5199800"});
+  ASSERT_EQ(typed.code, 0) << typed.err;
+  write("way.csv", "x,y\n500105,5199895\n500205,5199895\n500205,5199800\n");
+  write("way.xyz", "500105 5199895\n500205 5199895\n500205 5199800\n");
+  for (const char* name : {"way.csv", "way.xyz"}) {
+    const Outcome rows = run({"profile", "dem.amt", "--along", name});
+    EXPECT_EQ(rows.code, 0) << rows.err;
+    EXPECT_EQ(rows.out, typed.out) << name;
+    EXPECT_NE(rows.err.find("its 3 rows are the vertices of one line"), std::string::npos) << rows.err;
+  }
+  write("degrees.csv", "lon,lat\n9.001,46.9525\n9.006,46.951\n");
+  refused({"profile", "dem.amt", "--along", "degrees.csv"}, 4, "longitude,latitude? add --lonlat");
+  EXPECT_EQ(run({"profile", "dem.amt", "--along", "degrees.csv", "--lonlat", "-q"}).code, 0);
+  write("one.csv", "x,y\n500105,5199895\n");
+  refused({"profile", "dem.amt", "--along", "one.csv"}, 4, "one.csv: holds no line");
+  write("hole.csv", "x,y\n500105,5199895\n,5199895\n");
+  refused({"profile", "dem.amt", "--along", "hole.csv"}, 4, "hole.csv, row 2: has no place");
+}
+
 TEST_F(Profiles, AsksWhetherAFrequencyIsInMegahertz) {
   makeModel();
   refused({"profile", "dem.amt", "--along", "1105,1895,1:1205,1895,1", "--frequency", "2.4GHz"}, 2,

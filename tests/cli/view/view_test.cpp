@@ -178,7 +178,7 @@ TEST_F(ViewCommand, SaysWhatIsWrongInASentence) {
   const std::vector<Case> cases = {
       {{"--output", "a.png"},
        2,
-       "--output a.png: is no option of view: --screenshot FILE.png writes a picture"},
+       "--output a.png: does not exist here: --screenshot FILE.png writes a picture"},
       {{"--headless"}, 2, "--screenshot FILE.png"},
       {{"--headless", "--screenshot", "a.jpg"}, 2, ".png"},
       {{"--headless", "--screenshot", "a.png", "--size", "12"}, 2, "WIDTHxHEIGHT"},
