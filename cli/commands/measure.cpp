@@ -180,7 +180,8 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
     if (!promise) json["broken"] = coversNothing ? apart : promise.error().message;
   }
   session.answer(json);
-  if (coversNothing) return failure(promise ? ErrorCode::invalidData : promise.error().code, apart, arguments.tin);
+  if (coversNothing)
+    return failure(promise ? ErrorCode::invalidData : promise.error().code, apart, arguments.tin);
   if (!promise) return failure(promise.error().code, promise.error().message, arguments.tin);
   return {};
 }
