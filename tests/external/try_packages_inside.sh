@@ -7,8 +7,8 @@ apt() { apt-get -q=2 -y -o Dpkg::Use-Pty=0 "$@" >/tmp/apt.txt 2>&1 || { cat /tmp
 fail() { echo "FAILED: $*"; exit 1; }
 ok() { echo "ok: $*"; }
 has() { dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null | grep -qx installed; }
-left() {  # what of Arete is anywhere
-  find / -xdev \( -path /mnt -o -path /tmp -o -path /proc -o -path /var/log -o -path /root/work \) -prune -o -iname '*arete*' -print
+left() {  # what of Arete is anywhere, but for logs and what man has formatted for root
+  find / -xdev \( -path /mnt -o -path /tmp -o -path /proc -o -path /var/log -o -path /var/cache/man -o -path /root/work \) -prune -o -iname '*arete*' -print
 }
 
 apt update
