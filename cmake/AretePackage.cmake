@@ -1,4 +1,5 @@
-# `cpack -G DEB` in a build folder (./dev package: that of the preset "package"): two Debian packages, arete (the component "program") and libarete-dev ("library").
+# `cpack -G DEB` in a build folder (./dev package: that of the preset "package"): two Debian packages, arete (the component
+# "program") and libarete-dev ("library").
 #
 # What the binaries need is found by dpkg-shlibdeps; what Python, and what a program that links the static libraries
 # need, is stated, since no binary says it. The first entry of cmake/debian/changelog and CHANGELOG.md have the version of
