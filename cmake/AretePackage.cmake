@@ -1,4 +1,5 @@
-# `cpack -G DEB` in a build folder (./dev package: that of the preset "package"): two Debian packages, arete (the component "program") and libarete-dev ("library").
+# `cpack -G DEB` in a build folder (./dev package: that of the preset "package"): two Debian packages, arete (the component
+# "program") and libarete-dev ("library").
 #
 # What the binaries need is found by dpkg-shlibdeps; what Python, and what a program that links the static libraries
 # need, is stated, since no binary says it. The first entry of cmake/debian/changelog and CHANGELOG.md have the version of
@@ -46,9 +47,11 @@ The package has the programs arete and arete-datasets, a driver by which
 GDAL and QGIS open its files, a plugin of QGIS, the Python module arete,
 and the pages of the documentation.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-# The module is of one minor version of the interpreter; the driver's is that of libgdal, which dpkg-shlibdeps names.
+# The module is of one minor version of the interpreter; the driver's is that of libgdal, which dpkg-shlibdeps names. The
+# viewer opens OpenGL's libraries by their names, which no tool sees, and draws in software where there is no graphics card.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
-    "python3 (>= ${ARETE_PYTHON_VERSION}), python3 (<< ${ARETE_NEXT_PYTHON_VERSION}~), python3-numpy")
+    "libegl1, libgl1, libgl1-mesa-dri, python3 (>= ${ARETE_PYTHON_VERSION}), python3 (<< ${ARETE_NEXT_PYTHON_VERSION}~), python3-numpy")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "ca-certificates")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS
     "gdal-bin, libarete-dev, qgis, python3-geopandas, python3-matplotlib, python3-meshio, python3-xarray")
 
@@ -117,7 +120,7 @@ foreach(component IN ITEMS program library)
 endforeach()
 # The pages name each other by their paths from the root.
 install(FILES README.md DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/arete")
-install(FILES docs/glossary.md docs/bibliography.md docs/performance.md DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/arete/docs")
-install(DIRECTORY docs/topics docs/pictures DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/arete/docs")
+install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/arete" FILES_MATCHING PATTERN "*.md" PATTERN "*.png"
+        PATTERN "docs/decisions" EXCLUDE PATTERN "docs/site" EXCLUDE)
 install(DIRECTORY examples DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/libarete-dev" COMPONENT library)
 include(CPack)

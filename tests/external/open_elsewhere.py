@@ -273,6 +273,7 @@ def step_provider(arguments):
         check(found["heights"][:4] == [3, 4, False, "POIN"] and found["heights"][4] <= close, f"QGIS: heights: {found['heights']}")
         check(found["profile"][:3] == [[2], True, True] and found["profile"][3] <= close, f"QGIS: profile: {found['profile']}")
         check(found["sight"][0] == found["sight"][1] and found["sight"][2], f"QGIS: lines of sight: {found['sight']}")
+        check(found["pairs"][0] == 2 and found["pairs"][1] <= close, f"QGIS: pairs: {found['pairs']}")
         check(found["cuts"][0] == found["cuts"][1] and found["names"] == ["TIN of provider by region"], f"QGIS: {found}")
         # Of degrees beside metres the two measure differently, and the plugin says so.
         check(found["meshes"][0] <= 60 and (t.epsg == 4326 or found["meshes"][1] <= 1.001 * found["meshes"][2]),

@@ -129,6 +129,15 @@ sight = processing.run("arete:sightlines", {"MODEL": model, "OBSERVERS": layer_o
 verdicts = [feature["verdict"] or "" for feature in QgsVectorLayer(sight["OUTPUT"]).getFeatures()]
 found["sight"] = [verdicts, [""] + [command("los", model, f"--from={one[0]!r},{one[1]!r},30", f"--to={p[0]!r},{p[1]!r},10")["verdict"]
                                     for p in (asked[1][0], other)], sight["VISIBLE"] == verdicts.count("visible")]
+# One by one: a pair without an end is left out, and the others stay pairs; a height that is not stated is the one for all.
+ends = layer_of("Point", [point(one), point(one), point(other)])
+ends.startEditing()
+ends.changeGeometry(2, QgsGeometry())
+ends.commitChanges()
+pairs = processing.run("arete:sightlines", {"MODEL": model, "OBSERVERS": ends, "TARGETS": layer_of("Point", [
+    point(asked[1][0]), point(far), point(one)]), "PAIRS": 1, "OUTPUT": f"{folder}/pairs.gpkg"})
+starts = [feature.geometry().asPolyline() for feature in QgsVectorLayer(pairs["OUTPUT"]).getFeatures()]
+found["pairs"] = [len(starts), max(abs(starts[1][0].x() - other[0]), abs(starts[1][1].x() - one[0]))]
 # Cuts: as many triangles as the command has.
 box = [min(one[0], other[0]), min(one[1], other[1]), max(one[0], other[0]), max(one[1], other[1])]
 context = QgsProcessingContext()

@@ -36,7 +36,7 @@ else
   chmod 755 "$work/old/usr/bin/arete"
   printf '%s\n' "Package: arete" "Version: 0.1.0" "Architecture: $(dpkg --print-architecture)" "Maintainer: The Arete developers <>" \
     "Description: the files of the package of 0.1" >"$work/old/DEBIAN/control"
-  dpkg-deb --root-owner-group -b "$work/old" "$work/old.deb" >/dev/null
+  dpkg-deb --root-owner-group -Znone -b "$work/old" "$work/old.deb" >/dev/null
 fi
 
 if command -v lintian >/dev/null; then

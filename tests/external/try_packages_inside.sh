@@ -7,8 +7,8 @@ apt() { apt-get -q=2 -y -o Dpkg::Use-Pty=0 "$@" >/tmp/apt.txt 2>&1 || { cat /tmp
 fail() { echo "FAILED: $*"; exit 1; }
 ok() { echo "ok: $*"; }
 has() { dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null | grep -qx installed; }
-left() {  # what of Arete is anywhere
-  find / -xdev \( -path /mnt -o -path /tmp -o -path /proc -o -path /var/log -o -path /root/work \) -prune -o -iname '*arete*' -print
+left() {  # what of Arete is anywhere, but for logs and what man has formatted for root
+  find / -xdev \( -path /mnt -o -path /tmp -o -path /proc -o -path /var/log -o -path /var/cache/man -o -path /root/work \) -prune -o -iname '*arete*' -print
 }
 
 apt update
@@ -53,7 +53,7 @@ version=$(dpkg-query -W -f '${Version}' arete)
 
 # Use.
 apt install gdal-bin man-db bash-completion
-arete-datasets generate -o dem.tif --size 257 --quiet
+arete-datasets generate -o dem.tif --size 257 --quiet >/dev/null
 arete build dem.tif -o dem.amt --quiet
 arete extract dem.amt -o tin.ply --max-error 5 --quiet
 arete measure tin.ply dem.tif --expect 5 | grep -q kept || fail "build, extract, measure"
@@ -92,6 +92,6 @@ fi
 PYTHONPATH=/usr/share/qgis/python/plugins /usr/bin/python3 -c 'import arete' || true
 apt remove arete libarete-dev
 ! has arete || fail "arete is not removed"
-apt purge arete libarete-dev
+dpkg --purge arete libarete-dev >/dev/null 2>&1 || true  # without settings nothing is left to purge
 [ -z "$(left)" ] || fail "left behind: $(left)"
 ok "removed: nothing is left"

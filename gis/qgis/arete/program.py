@@ -26,7 +26,7 @@ def run(words, feedback):
     feedback.pushCommandInfo(" ".join(words))
     with subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                           errors="replace") as process:
-        answer, said = [], []
+        answer, said, stage = [], [], None
         # Beside stderr: the program waits where one of its pipes is full.
         reader = threading.Thread(target=lambda: answer.append(process.stdout.read()))
         reader.start()
@@ -37,7 +37,9 @@ def run(words, feedback):
         for line, is_whole in _lines(process.stderr):
             bar = progress_of(line)
             if bar:
-                feedback.setProgressText(bar[0])
+                if bar[0] != stage:
+                    stage = bar[0]
+                    feedback.setProgressText(stage)
                 feedback.setProgress(bar[1])
             elif is_whole and line.strip():
                 text = line.strip()

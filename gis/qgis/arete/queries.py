@@ -128,8 +128,9 @@ class Profile(Query):
             raise QgsProcessingException("the layer has no lines")
         answers = QgsProcessingUtils.generateTempFilename("profile.csv")
         own = source.sourceCrs() if source.sourceCrs().isValid() else crs
-        words = ["profile", model, "--along",
-                 write_geometries([line for _, line in lines], own, crs, is_known, context), "-o", answers, "--max-error", repr(self.parameterAsDouble(parameters, "MAX_ERROR", context))]
+        shapes = write_geometries([line for _, line in lines], own, crs, is_known, context)
+        words = ["profile", model, "--along", shapes, "-o", answers, "--max-error",
+                 repr(self.parameterAsDouble(parameters, "MAX_ERROR", context))]
         results = {}
         if self.stated(parameters, "PNG"):
             results["PNG"] = self.parameterAsFileOutput(parameters, "PNG", context)
