@@ -135,6 +135,15 @@ class Viewshed(np.ndarray):  # type: ignore[type-arg]
         plain = np.asarray(array)
         return plain[()] if plain.ndim == 0 else plain
 
+    def copy(self, order: Any = "C") -> "Viewshed":  # type: ignore[override]
+        return Viewshed.of(np.array(self, order=order), self.mode, self.transform, self.crs, self.observers, self.vertical_unit)
+
+    def __copy__(self) -> "Viewshed":
+        return self.copy()
+
+    def __deepcopy__(self, memo: Any) -> "Viewshed":
+        return self.copy()
+
     def __reduce__(self) -> Tuple[Callable[..., Any], Tuple[Any, ...]]:
         return Viewshed.of, (np.array(self), self.mode, self.transform, self.crs, self.observers, self.vertical_unit)
 

@@ -136,6 +136,9 @@ void defineTin(py::module_& module) {
       }))
       .def("save",
            [](const CutTin& self, const std::string& path, const py::object& progress) {
+             // A name without a known ending is a wrong argument.
+             if (const Result<MeshFormat> format = meshFormatOf(path); !format)
+               raise({ErrorCode::usage, format.error().message, path});
              const MeshWriteReport report =
                  call(progress, [&](const RunContext& context) { return write(self.tin, path, context); });
              return lostOf(self, path, report.lost);

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures: what they show is what the arrays say, and what notebooks and help() show."""
 
+import base64
+import copy
 import importlib.util
 import os
 import pickle
@@ -8,7 +10,6 @@ import pydoc
 import re
 import struct
 import unittest
-import base64
 
 import numpy as np
 
@@ -191,9 +192,11 @@ class Viewsheds(unittest.TestCase):
             self.assertIs(type(part), np.ndarray)
         self.assertIsInstance(self.seen[2, 3], np.uint8)
         self.assertEqual(int((self.seen == 255).sum()), np.count_nonzero(np.asarray(self.seen) == 255))
-        for part in (self.seen.copy(), self.seen.T):
-            with self.assertRaisesRegex(ValueError, "part"):
-                part.plot()
+        with self.assertRaisesRegex(ValueError, "part"):
+            self.seen.T.plot()
+        for whole in (self.seen.copy(), copy.copy(self.seen), copy.deepcopy(self.seen)):
+            self.assertEqual((whole.mode, whole.transform), ("seen", self.seen.transform))
+            self.assertFalse(np.shares_memory(whole, self.seen))
         again = pickle.loads(pickle.dumps(self.seen))
         self.assertEqual((again.mode, again.transform, again.crs), ("seen", self.seen.transform, self.seen.crs))
         self.assertTrue(np.array_equal(again, self.seen))
