@@ -295,8 +295,9 @@ class Model(Stored):
             left, step_x, top, step_y = of_cells[0], of_cells[1], of_cells[3], of_cells[5]
         x = left + step_x * (np.arange(columns) + 0.5)
         y = top + step_y * (np.arange(rows) + 0.5)
-        heights = self.height(x[np.newaxis, :], y[:, np.newaxis], max_error, progress)
-        if cell is None:
+        is_source = cell is None and self._tolerance(max_error) == 0
+        heights = self._terrain.samples() if is_source else self.height(x[np.newaxis, :], y[:, np.newaxis], max_error, progress)
+        if cell is None and not is_source:
             samples, alone = self._terrain.isolated()
             heights[np.divmod(samples, self._terrain.columns)] = alone
         array = xarray.DataArray(heights, dims=("y", "x"), coords={"y": y, "x": x}, name="height")

@@ -151,7 +151,8 @@ class Plots(unittest.TestCase):
         self.model.viewshed((500600, 3999500, 10), mode="height").plot()
 
     def test_what_jupyter_shows_has_a_picture(self):
-        for shown in (self.model, self.tin, arete.repair(self.tin), arete.build_surface(self.tin)):
+        for shown in (self.model, self.tin, arete.repair(self.tin), arete.build_surface(self.tin),
+                      self.model.profile([(500050, 3999500), (501700, 3999500)]), self.model.viewshed((500600, 3999500, 10))):
             page = shown._repr_html_()
             picture = base64.b64decode(re.search(r"base64,([^']+)'", page)[1])
             width, height = struct.unpack(">II", picture[16:24])

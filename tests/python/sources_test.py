@@ -51,10 +51,14 @@ class Xarrays(Folder):
     def test_what_to_xarray_gives_builds_the_same_model(self):
         heights = hills()
         heights[3:6, 4:9] = np.nan
+        heights[7, 8] = 1 / 3
         model = arete.build(heights, transform=PLACE, crs=32611)
         again = arete.build(model.to_xarray())
         self.assertEqual((again.transform, again.crs, again.shape), (model.transform, model.crs, model.shape))
         self.assertTrue(np.array_equal(self.heights_of(again), heights, equal_nan=True))
+        # Far from the origin, where a place has fewer digits.
+        far = arete.build(heights, transform=Affine((0.1, 0, 3e6, 0, -0.1, 6e6)), crs=32611)
+        self.assertTrue(np.array_equal(self.heights_of(arete.build(far.to_xarray())), heights, equal_nan=True))
 
     def test_a_part_has_its_own_place(self):
         array = arete.build(hills(), transform=PLACE, crs=32611).to_xarray()
