@@ -229,8 +229,10 @@ class Model(Stored):
             ends.tolist(), float(target_height), float(radius), number("min_distance", min_distance, 0) or 0, ranges[0],
             ranges[1], mode, "" if like is None else os.fspath(like), self._tolerance(max_error), method,
             earth or "", refraction, nodata, progress)
-        return Viewshed.of(cells, mode, None if transform is None else tuple(transform), crs or None,
-                           [(float(x), float(y)) for x, y, _ in ends], self.vertical_unit)
+        # A grid of another CRS does not know these places.
+        places = [(float(x), float(y)) for x, y, _ in ends] if (crs or None) == self.crs else []
+        return Viewshed.of(cells, mode, None if transform is None else tuple(transform), crs or None, places,
+                           self.vertical_unit)
 
     def measure(self, mesh: Any, triangles: Optional[ArrayLike] = None, progress: Progress = None, region: Any = None,
                 region_crs: Any = None, distance: Optional[float] = None) -> Dict[str, float]:

@@ -55,6 +55,13 @@ class Slopes(unittest.TestCase):
                 self.assertTrue(np.allclose(slopes, 45, atol=0.3), slopes)
                 self.assertTrue(np.array_equal(pickle.loads(pickle.dumps(tin)).slopes(), slopes))
 
+    def test_a_slope_is_the_same_wherever_on_the_globe(self):
+        rows = np.arange(30)[:, np.newaxis] * 50000.0 + np.zeros(300)
+        tin = arete.build(rows, transform=Affine((1, 0, -150, 0, -1, 60)), crs=4326, vertical_unit="m").cut(max_error=0)
+        slopes = tin.slopes()
+        self.assertGreater(slopes.min(), 23.9)
+        self.assertLess(slopes.max(), 24.5)
+
     def test_level_ground_and_walls(self):
         flat = arete.build(np.zeros((4, 5))).cut(max_error=0)
         self.assertTrue((flat.slopes() == 0).all())

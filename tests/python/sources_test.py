@@ -97,6 +97,21 @@ class Xarrays(Folder):
         heights = self.heights_of_grid(arete.build(raw), raw.shape)
         wanted = np.where(hills() == hills()[2, 3], np.nan, hills() * 0.5 + 100)
         self.assertTrue(np.array_equal(heights, wanted, equal_nan=True))
+        holed = hills()
+        holed[4:6, 7:9] = -9999
+        for name in ("_FillValue", "missing_value"):
+            grid = xarray.DataArray(holed, dims=("y", "x"), attrs={name: -9999.0})
+            self.assertEqual(np.isnan(self.heights_of_grid(arete.build(grid), grid.shape)).sum(), 4)
+
+    def test_depths_are_negated_and_it_is_said(self):
+        import xarray
+
+        depths = xarray.DataArray(hills(), dims=("y", "x"), attrs={"positive": "down"})
+        with self.assertWarnsRegex(arete.AreteWarning, "negated") as said:
+            model = arete.build(depths)
+        self.assertEqual((said.warning.code, said.filename), ("heights", __file__))
+        self.assertEqual(model.height(0.5, 23.5), -hills()[0, 0])
+        self.assertEqual(arete.build(depths, positive="up").height(0.5, 23.5), hills()[0, 0])
 
     def heights_of_grid(self, model, shape):
         x, y = np.arange(shape[1]) + 0.5, shape[0] - np.arange(shape[0]) - 0.5
