@@ -103,6 +103,18 @@ class Xarrays(Folder):
             grid = xarray.DataArray(holed, dims=("y", "x"), attrs={name: -9999.0})
             self.assertEqual(np.isnan(self.heights_of_grid(arete.build(grid), grid.shape)).sum(), 4)
 
+    def test_a_unit_that_is_not_known_is_said_and_no_error(self):
+        import xarray
+
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            arete.build(xarray.DataArray(hills(), dims=("y", "x"), attrs={"units": "m above sea level"}))
+        self.assertEqual([warning.message.code for warning in said], ["unit"])
+        self.assertNotIn("vsimem", str(said[0].message))
+        self.assertEqual(arete.build(xarray.DataArray(hills(), dims=("y", "x"), attrs={"units": "ft"})).vertical_unit, "ft")
+        with self.assertRaisesRegex(ValueError, "vertical_unit"):
+            arete.build(hills(), vertical_unit="stone")
+
     def test_depths_are_negated_and_it_is_said(self):
         import xarray
 
