@@ -56,8 +56,11 @@ def build(source: Any, *, transform: Any = None, crs: Any = None, nodata: Option
     grid = grid_of(source, transform, crs, nodata, band)
     request.source = grid.name
     request.has_place = grid.transform is not None
-    request.set_reading(None, "", "", "", "", None, vertical_unit or grid.vertical_unit, depth, [])
-    return Model(_arete.build_array(grid.heights, grid.transform, grid.crs, request, progress))
+    if depth is None and grid.is_depth:
+        _checks.warn("the array counts downwards (positive: down): its depths are negated", "heights")
+    request.set_reading(None, "", "", "", "", None, vertical_unit or "", grid.is_depth if depth is None else depth,
+                        [])
+    return Model(_arete.build_array(grid.heights, grid.transform, grid.crs, grid.vertical_unit, request, progress))
 
 
 def build_points(source: Any, *, crs: Any = None, same_place: Optional[str] = None, nodata: Optional[float] = None,

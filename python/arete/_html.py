@@ -24,6 +24,20 @@ def html_of_model(model: Any) -> str:
                     info["kind"] == "surface")
 
 
+def html_of_profile(profile: Any) -> str:
+    facts = {"length": f"{profile.length:,.6g}", "without terrain": f"{profile.gap:,.6g}" if profile.gap else "",
+             "line of sight": profile.sight.verdict if profile.sight else ""}
+    return _html_of("Profile", facts, lambda ax: profile.plot(ax=ax), False)
+
+
+def html_of_viewshed(viewshed: Any) -> str:
+    if not viewshed.mode:
+        return f"<pre>{html.escape(repr(viewshed))}</pre>"
+    counts = {name: int((viewshed == value).sum()) for value, name in viewshed.answers.items()} if viewshed.mode == "seen" else {}
+    facts = {name: f"{count:,}" for name, count in counts.items() if count}
+    return _html_of("Viewshed", facts, lambda ax: viewshed.plot(ax=ax), False)
+
+
 def _html_of(kind: str, facts: Dict[str, str], draw: Callable[[Any], Any], in_space: bool) -> str:
     rows = "".join(f"<tr><th style='text-align:left'>{html.escape(key)}</th><td style='text-align:left'>"
                    f"{html.escape(str(value))}</td></tr>" for key, value in facts.items() if value)

@@ -230,8 +230,10 @@ class Model(Stored):
             ends.tolist(), float(target_height), float(radius), number("min_distance", min_distance, 0) or 0, ranges[0],
             ranges[1], mode, "" if like is None else os.fspath(like), self._tolerance(max_error), method,
             earth or "", refraction, nodata, progress)
-        return Viewshed.of(cells, mode, None if transform is None else tuple(transform), crs or None,
-                           [(float(x), float(y)) for x, y, _ in ends], self.vertical_unit)
+        # A grid of another CRS does not know these places.
+        places = [(float(x), float(y)) for x, y, _ in ends] if (crs or None) == self.crs else []
+        return Viewshed.of(cells, mode, None if transform is None else tuple(transform), crs or None, places,
+                           self.vertical_unit)
 
     def measure(self, mesh: Any, triangles: Optional[ArrayLike] = None, progress: Progress = None, region: Any = None,
                 region_crs: Any = None, distance: Optional[float] = None) -> Dict[str, float]:
@@ -296,8 +298,9 @@ class Model(Stored):
             left, step_x, top, step_y = of_cells[0], of_cells[1], of_cells[3], of_cells[5]
         x = left + step_x * (np.arange(columns) + 0.5)
         y = top + step_y * (np.arange(rows) + 0.5)
-        heights = self.height(x[np.newaxis, :], y[:, np.newaxis], max_error, progress)
-        if cell is None:
+        is_source = cell is None and self._tolerance(max_error) == 0
+        heights = self._terrain.samples() if is_source else self.height(x[np.newaxis, :], y[:, np.newaxis], max_error, progress)
+        if cell is None and not is_source:
             samples, alone = self._terrain.isolated()
             heights[np.divmod(samples, self._terrain.columns)] = alone
         array = xarray.DataArray(heights, dims=("y", "x"), coords={"y": y, "x": x}, name="height")

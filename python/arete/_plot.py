@@ -111,6 +111,7 @@ def label_map(ax: Any, crs: Optional[str], middle: Tuple[float, float]) -> None:
     ax.set(xlabel=names[0], ylabel=names[1])
     ax.set_aspect(aspect_of(crs or "", middle))
     ax.ticklabel_format(useOffset=False, style="plain")
+    ax.locator_params(axis="x", nbins=4)
 
 
 def plot_profile(profile: Any, ax: Any = None, color: Any = "saddlebrown") -> Any:

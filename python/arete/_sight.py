@@ -70,6 +70,11 @@ class Profile(_ProfileVertices):
 
         return plot_profile(self, ax, **options)
 
+    def _repr_html_(self) -> str:
+        from ._html import html_of_profile
+
+        return html_of_profile(self)
+
 
 class Viewshed(np.ndarray):  # type: ignore[type-arg]
     """What is seen, as an array on a grid that knows where it lies. A part of it, and what is computed of it, is a plain
@@ -124,6 +129,11 @@ class Viewshed(np.ndarray):  # type: ignore[type-arg]
                                flag_meanings=" ".join(self.answers.values()))
         return array
 
+    def _repr_html_(self) -> str:
+        from ._html import html_of_viewshed
+
+        return html_of_viewshed(self)
+
     def _refuse_part(self) -> None:
         if not self.mode or self.ndim != 2:
             raise ValueError("this is a part of a viewshed, or made of one: where it lies is not known")
@@ -134,6 +144,15 @@ class Viewshed(np.ndarray):  # type: ignore[type-arg]
     def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
         plain = np.asarray(array)
         return plain[()] if plain.ndim == 0 else plain
+
+    def copy(self, order: Any = "C") -> "Viewshed":
+        return Viewshed.of(np.array(self, order=order), self.mode, self.transform, self.crs, self.observers, self.vertical_unit)
+
+    def __copy__(self) -> "Viewshed":
+        return self.copy()
+
+    def __deepcopy__(self, memo: Any) -> "Viewshed":
+        return self.copy()
 
     def __reduce__(self) -> Tuple[Callable[..., Any], Tuple[Any, ...]]:
         return Viewshed.of, (np.array(self), self.mode, self.transform, self.crs, self.observers, self.vertical_unit)

@@ -11,31 +11,29 @@ from . import _arete
 
 def slopes_of(mesh: Any) -> NDArray[np.float64]:
     """Degrees from the horizontal, by triangle; NaN of one without area."""
-    corners = ground_of(mesh)[mesh.triangles]
+    corners = _on_the_ground(mesh)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     flat = np.hypot(normals[:, 0], normals[:, 1])
-    with np.errstate(invalid="ignore"):
-        slopes = np.degrees(np.arctan2(flat, np.abs(normals[:, 2])))
+    slopes = np.degrees(np.arctan2(flat, np.abs(normals[:, 2])))
     slopes[~normals.any(axis=1)] = np.nan
     return np.asarray(slopes, dtype=np.float64)
 
 
-def ground_of(mesh: Any) -> NDArray[np.float64]:
-    """The vertices in metres from the middle, each where the map has the scale of its latitude. Without a CRS in the
-    units of the source."""
-    places = np.array(mesh.vertices, dtype=np.float64)
-    if len(places) == 0:
-        return places
-    low, high = places.min(axis=0), places.max(axis=0)
-    middle = (low + high) / 2
-    unit = mesh._tin.file_parts[1]
-    if _is_surface(mesh) or not mesh.crs:
-        return np.asarray(places - middle, dtype=np.float64)
-    units = _arete.ground_units(mesh.crs, (float(middle[0]), float(middle[1])), np.ascontiguousarray(places[:, 1]))
-    metres = places - middle
-    metres[:, :2] *= units
-    metres[:, 2] *= unit if unit > 0 else 1
-    return np.asarray(metres, dtype=np.float64)
+def _on_the_ground(mesh: Any) -> NDArray[np.float64]:
+    """The corners of each triangle (m, 3, 3) in metres around its middle, by the scale of the map there: one meridian for
+    all would shear what lies far from it. Without a CRS, and of a surface, in the units of the source."""
+    corners = np.array(mesh.vertices, dtype=np.float64)[mesh.triangles]
+    middles = corners.mean(axis=1, keepdims=True)
+    local = corners - middles
+    if len(mesh.source_vertices) > 0 or not mesh.crs or len(corners) == 0:
+        return np.asarray(local, dtype=np.float64)
+    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    middle = (float(low[0] + high[0]) / 2, float(low[1] + high[1]) / 2)
+    units = _arete.ground_units(mesh.crs, middle, np.ascontiguousarray(middles[:, 0, 1]))
+    local[:, :, :2] *= units[:, np.newaxis, :]
+    metres = mesh._tin.file_parts[1]
+    local[:, :, 2] *= metres if metres > 0 else 1
+    return np.asarray(local, dtype=np.float64)
 
 
 def aspect_of(mesh_crs: str, middle: Tuple[float, float]) -> float:
@@ -45,7 +43,3 @@ def aspect_of(mesh_crs: str, middle: Tuple[float, float]) -> float:
     units = _arete.ground_units(mesh_crs, middle, np.array([middle[1]], dtype=np.float64))
     x, y = (float(one) for one in units[0])
     return y / x if x > 0 and y > 0 else 1.0
-
-
-def _is_surface(mesh: Any) -> bool:
-    return len(mesh.source_vertices) > 0

@@ -21,6 +21,8 @@ class Grid:
     crs: str = ""
     vertical_unit: str = ""
     name: str = "array"
+    is_depth: Optional[bool] = None
+    """Whether the values count downwards; None: it is not said."""
 
 
 def grid_of(source: Any, transform: Any, crs: Any, nodata: Optional[float], band: Optional[int]) -> Grid:
@@ -74,13 +76,15 @@ def _of_xarray(array: Any, nodata: Optional[float]) -> Grid:
         raise ValueError(f"the array has the dimensions {', '.join(map(str, array.dims))}, not two: choose one of the others")
     array = _north_east(array)
     raw = np.asarray(array.values)
-    fill = array.attrs.get("_FillValue") if nodata is None and raw.dtype.kind in "iu" else nodata
+    # An attribute says of raw values what is none; xarray takes it away where it has decoded them.
+    fill = array.attrs.get("_FillValue", array.attrs.get("missing_value")) if nodata is None else nodata
     heights = heights_of(raw, None if fill is None else float(fill))
     scale, offset = float(array.attrs.get("scale_factor", 1)), float(array.attrs.get("add_offset", 0))
     if (scale, offset) != (1.0, 0.0):
         heights = heights * scale + offset
     unit = str(array.attrs.get("units", "") or "")
-    return Grid(heights, _transform_of(array), _crs_of(array), unit, str(array.name or "array"))
+    is_depth = True if str(array.attrs.get("positive", "")).lower() == "down" else None
+    return Grid(heights, _transform_of(array), _crs_of(array), unit, str(array.name or "array"), is_depth)
 
 
 _X = ("x", "lon", "longitude", "easting")

@@ -38,6 +38,7 @@ Result<ArrayFile> ArrayFile::write(const HeightArray& array) {
   }
   GDALRasterBand* const band = dataset->GetRasterBand(1);
   band->SetNoDataValue(std::numeric_limits<double>::quiet_NaN());
+  if (!array.unit.empty()) band->SetUnitType(array.unit.c_str());
   if (band->RasterIO(GF_Write, 0, 0, static_cast<int>(array.columns), static_cast<int>(array.rows),
                      const_cast<double*>(array.heights), static_cast<int>(array.columns),
                      static_cast<int>(array.rows), GDT_Float64, 0, 0) != CE_None)

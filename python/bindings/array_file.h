@@ -17,6 +17,7 @@ struct HeightArray {
   std::size_t rows = 0, columns = 0;
   std::optional<std::array<double, 6>> geoTransform;  ///< GDAL's
   std::string crs;                                    ///< as a user states it; empty: none
+  std::string unit;                                   ///< of the heights, as the source has it; empty: none
 };
 
 /// An array as a raster file in memory, so that it is read as every file is. Removed with this.

@@ -163,9 +163,14 @@ TerrainPtr buildFile(const std::string& path, const BuildRequest& request, const
 }
 
 TerrainPtr buildArray(const Doubles& heights, const std::optional<std::array<double, 6>>& transform,
-                      const std::string& crs, const BuildRequest& request, const py::object& progress) {
-  const HeightArray array{heights.data(), static_cast<std::size_t>(heights.shape(0)),
-                          static_cast<std::size_t>(heights.shape(1)), transform, crs};
+                      const std::string& crs, const std::string& unit, const BuildRequest& request,
+                      const py::object& progress) {
+  const HeightArray array{heights.data(),
+                          static_cast<std::size_t>(heights.shape(0)),
+                          static_cast<std::size_t>(heights.shape(1)),
+                          transform,
+                          crs,
+                          unit};
   const Result<ArrayFile> file = ArrayFile::write(array);
   if (!file) raise(file.error());
   return buildOf(

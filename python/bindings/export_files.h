@@ -19,8 +19,9 @@ struct ExportFiles {
   std::vector<std::string> dropAttributes = {};  ///< of a surface
   bool measuresBothWays = false;                 ///< of a surface
 
+  /// Empty where there is no call.
   std::string check(double promised) const {
-    return fmt::format("{}{}{}", checkBefore, promised, checkBehind);
+    return checkBefore.empty() ? "" : fmt::format("{}{}{}", checkBefore, promised, checkBehind);
   }
 };
 

@@ -39,8 +39,11 @@ class TextFile {
 
 /// An error or warning about a file that the caller never saw is about the region.
 void nameRegion(std::string& text, const std::string& path) {
-  for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path))
-    text.replace(at, path.size(), "the region");
+  const std::size_t begin = path.rfind('/') + 1;
+  const std::string layer = fmt::format("the layer '{}'", path.substr(begin, path.rfind('.') - begin));
+  for (const std::string& name : {layer, path})
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name))
+      text.replace(at, name.size(), "the region");
 }
 
 Result<RegionArgument> readText(const RegionOfText& asked, const Georeference& dem,

@@ -17,8 +17,8 @@
 
 namespace arete::python {
 
-/// A box; polygons of an outer ring and holes; or a text: the name of a file or numbers of a box, what the
-/// file holds where it is none, the CRS of both (empty: the source's, a file's own), and a distance around
+/// A box; polygons of an outer ring and holes; or a text: the name of a file or numbers of a box, or else
+/// a table of WKT, the CRS of these (empty: the source's, a file's own), and a distance around
 /// them.
 using RegionBox = std::array<double, 4>;
 using RegionPolygons = std::vector<std::vector<std::vector<std::array<double, 2>>>>;

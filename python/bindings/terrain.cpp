@@ -195,6 +195,21 @@ py::tuple gridOf(const Terrain& terrain, double cell) {
   return py::make_tuple(grid->columns, grid->rows, grid->geoTransform);
 }
 
+/// The heights of a raster as it was read, row by row; NaN: NODATA. A first column that is repeated is left
+/// out.
+py::array_t<double> samplesOf(const Terrain& terrain) {
+  const TerrainModel& model = terrain.model();
+  const RasterHeightfield field = model.rasterSamples();
+  const std::size_t columns = sourceColumns(model);
+  py::array_t<double> heights(
+      std::vector<py::ssize_t>{static_cast<py::ssize_t>(model.rows), static_cast<py::ssize_t>(columns)});
+  double* to = heights.mutable_data();
+  for (std::size_t row = 0; row < model.rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column)
+      *to++ = field.heights[row * model.columns + column];
+  return heights;
+}
+
 /// Samples in no triangle, by number in the raster, and their heights.
 py::tuple isolatedOf(const Terrain& terrain) {
   const auto& isolated = terrain.model().isolated;
@@ -225,6 +240,7 @@ void defineTerrain(py::module_& module) {
       .def("heights", &heightsAt)
       .def("grid_of", &gridOf)
       .def("isolated", &isolatedOf)
+      .def("samples", &samplesOf)
       .def_property_readonly("relief", &Terrain::relief)
       .def_property_readonly("columns", [](const Terrain& t) { return t.model().columns; })
       .def("save",

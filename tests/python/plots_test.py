@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures: what they show is what the arrays say, and what notebooks and help() show."""
 
+import base64
+import copy
 import importlib.util
 import os
 import pickle
@@ -8,7 +10,6 @@ import pydoc
 import re
 import struct
 import unittest
-import base64
 
 import numpy as np
 
@@ -53,6 +54,13 @@ class Slopes(unittest.TestCase):
                 self.assertEqual(slopes.shape, (len(tin.triangles),))
                 self.assertTrue(np.allclose(slopes, 45, atol=0.3), slopes)
                 self.assertTrue(np.array_equal(pickle.loads(pickle.dumps(tin)).slopes(), slopes))
+
+    def test_a_slope_is_the_same_wherever_on_the_globe(self):
+        rows = np.arange(30)[:, np.newaxis] * 50000.0 + np.zeros(300)
+        tin = arete.build(rows, transform=Affine((1, 0, -150, 0, -1, 60)), crs=4326, vertical_unit="m").cut(max_error=0)
+        slopes = tin.slopes()
+        self.assertGreater(slopes.min(), 23.9)
+        self.assertLess(slopes.max(), 24.5)
 
     def test_level_ground_and_walls(self):
         flat = arete.build(np.zeros((4, 5))).cut(max_error=0)
@@ -150,7 +158,8 @@ class Plots(unittest.TestCase):
         self.model.viewshed((500600, 3999500, 10), mode="height").plot()
 
     def test_what_jupyter_shows_has_a_picture(self):
-        for shown in (self.model, self.tin, arete.repair(self.tin), arete.build_surface(self.tin)):
+        for shown in (self.model, self.tin, arete.repair(self.tin), arete.build_surface(self.tin),
+                      self.model.profile([(500050, 3999500), (501700, 3999500)]), self.model.viewshed((500600, 3999500, 10))):
             page = shown._repr_html_()
             picture = base64.b64decode(re.search(r"base64,([^']+)'", page)[1])
             width, height = struct.unpack(">II", picture[16:24])
@@ -191,9 +200,11 @@ class Viewsheds(unittest.TestCase):
             self.assertIs(type(part), np.ndarray)
         self.assertIsInstance(self.seen[2, 3], np.uint8)
         self.assertEqual(int((self.seen == 255).sum()), np.count_nonzero(np.asarray(self.seen) == 255))
-        for part in (self.seen.copy(), self.seen.T):
-            with self.assertRaisesRegex(ValueError, "part"):
-                part.plot()
+        with self.assertRaisesRegex(ValueError, "part"):
+            self.seen.T.plot()
+        for whole in (self.seen.copy(), copy.copy(self.seen), copy.deepcopy(self.seen)):
+            self.assertEqual((whole.mode, whole.transform), ("seen", self.seen.transform))
+            self.assertFalse(np.shares_memory(whole, self.seen))
         again = pickle.loads(pickle.dumps(self.seen))
         self.assertEqual((again.mode, again.transform, again.crs), ("seen", self.seen.transform, self.seen.crs))
         self.assertTrue(np.array_equal(again, self.seen))

@@ -51,10 +51,14 @@ class Xarrays(Folder):
     def test_what_to_xarray_gives_builds_the_same_model(self):
         heights = hills()
         heights[3:6, 4:9] = np.nan
+        heights[7, 8] = 1 / 3
         model = arete.build(heights, transform=PLACE, crs=32611)
         again = arete.build(model.to_xarray())
         self.assertEqual((again.transform, again.crs, again.shape), (model.transform, model.crs, model.shape))
         self.assertTrue(np.array_equal(self.heights_of(again), heights, equal_nan=True))
+        # Far from the origin, where a place has fewer digits.
+        far = arete.build(heights, transform=Affine((0.1, 0, 3e6, 0, -0.1, 6e6)), crs=32611)
+        self.assertTrue(np.array_equal(self.heights_of(arete.build(far.to_xarray())), heights, equal_nan=True))
 
     def test_a_part_has_its_own_place(self):
         array = arete.build(hills(), transform=PLACE, crs=32611).to_xarray()
@@ -93,6 +97,33 @@ class Xarrays(Folder):
         heights = self.heights_of_grid(arete.build(raw), raw.shape)
         wanted = np.where(hills() == hills()[2, 3], np.nan, hills() * 0.5 + 100)
         self.assertTrue(np.array_equal(heights, wanted, equal_nan=True))
+        holed = hills()
+        holed[4:6, 7:9] = -9999
+        for name in ("_FillValue", "missing_value"):
+            grid = xarray.DataArray(holed, dims=("y", "x"), attrs={name: -9999.0})
+            self.assertEqual(np.isnan(self.heights_of_grid(arete.build(grid), grid.shape)).sum(), 4)
+
+    def test_a_unit_that_is_not_known_is_said_and_no_error(self):
+        import xarray
+
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            arete.build(xarray.DataArray(hills(), dims=("y", "x"), attrs={"units": "m above sea level"}))
+        self.assertEqual([warning.message.code for warning in said], ["unit"])
+        self.assertNotIn("vsimem", str(said[0].message))
+        self.assertEqual(arete.build(xarray.DataArray(hills(), dims=("y", "x"), attrs={"units": "ft"})).vertical_unit, "ft")
+        with self.assertRaisesRegex(ValueError, "vertical_unit"):
+            arete.build(hills(), vertical_unit="stone")
+
+    def test_depths_are_negated_and_it_is_said(self):
+        import xarray
+
+        depths = xarray.DataArray(hills(), dims=("y", "x"), attrs={"positive": "down"})
+        with self.assertWarnsRegex(arete.AreteWarning, "negated") as said:
+            model = arete.build(depths)
+        self.assertEqual((said.warning.code, said.filename), ("heights", __file__))
+        self.assertEqual(model.height(0.5, 23.5), -hills()[0, 0])
+        self.assertEqual(arete.build(depths, positive="up").height(0.5, 23.5), hills()[0, 0])
 
     def heights_of_grid(self, model, shape):
         x, y = np.arange(shape[1]) + 0.5, shape[0] - np.arange(shape[0]) - 0.5
