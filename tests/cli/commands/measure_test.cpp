@@ -27,12 +27,12 @@ TEST_F(MeasureCommand, TellsABrokenPromise) {
   EXPECT_EQ(run({"measure", "tin.ply", "dem.tif"}).code, 0);
 }
 
-TEST_F(MeasureCommand, WarnsOfAnotherCrsAndOfATinElsewhere) {
+TEST_F(MeasureCommand, LooksInAnotherCrsWhereItIsAndWarnsOfATinElsewhere) {
   makeRaster("other.tif", "geographic", 30, 30);
   ASSERT_EQ(run({"build", "other.tif", "-o", "other.amt"}).code, 0);
   ASSERT_EQ(run({"extract", "other.amt", "-o", "other.ply", "--max-error", "5"}).code, 0);
   const Outcome outcome = run({"measure", "other.ply", "dem.tif", "--crs", "EPSG:32611"});
-  EXPECT_NE(outcome.err.find("as if they were in one"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find(", where each sample is"), std::string::npos) << outcome.out;
   EXPECT_EQ(outcome.code, 4);
   EXPECT_NE(outcome.err.find("covers no sample"), std::string::npos) << outcome.err;
 }
