@@ -143,6 +143,9 @@ void defineTin(py::module_& module) {
       .def("save",
            [](const CutTin& self, const std::string& path, const std::string& toCrs, bool isMetric,
               const py::object& progress) {
+             // A name without a known ending is a wrong argument.
+             if (const Result<MeshFormat> format = meshFormatOf(path); !format)
+               raise({ErrorCode::usage, format.error().message, path});
              const PlaceTarget place{.crs = toCrs, .isMetric = isMetric};
              const MeshWriteReport report = call(
                  progress, [&](const RunContext& context) { return write(self.tin, path, place, context); });
