@@ -35,7 +35,8 @@ class Percent : public Meshes {
     const Outcome stated = run(words);
     EXPECT_EQ(stated.code, 0) << words[0] << stated.err;
     words.back() = fmt::format("{}", length);
-    const Json inPercent = stated.json(), inUnit = run(words).json();
+    const Json inPercent = stated.json();
+    Json inUnit = run(words).json();
     EXPECT_TRUE(inPercent.is_object() && inUnit.is_object()) << words[0];
     EXPECT_EQ(inPercent["maxError"].get<double>(), length) << words[0];
     EXPECT_NEAR(inPercent["maxErrorPercent"].get<double>(), std::stod(share), 1e-9) << words[0];
@@ -43,6 +44,8 @@ class Percent : public Meshes {
     Json same = inPercent;
     same.erase("maxErrorPercent");
     same.erase("relief");
+    // The second run writes over the files of the first.
+    for (Json* answer : {&same, &inUnit}) answer->erase("replaced");
     EXPECT_EQ(same, inUnit) << words[0];
     return inPercent;
   }
