@@ -11,8 +11,8 @@ namespace arete {
 /// 40, and at most 120, beyond which lines are hard to read.
 std::size_t terminalColumns();
 
-/// Text in lines of at most `columns` columns, each with its end. Words are parted at blanks and line ends; one
-/// that is longer than a line is broken, behind punctuation where it has any.
+/// Text in lines of at most `columns` columns, each with its end. Words are parted at blanks and line ends;
+/// one that is longer than a line is broken, behind punctuation where it has any.
 ///
 /// @param first columns that are filled already in the first line, which has no indentation.
 /// @param indent of the lines behind the first.
