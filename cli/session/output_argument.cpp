@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The argument and --output are two options of the parser that write to one text: which of them was stated
-// decides what is checked.
+// decides what is checked. What a shell makes of `*.ply` must not cost a file: an argument that exists and
+// looks like the input is not replaced.
 #include "cli/session/output_argument.h"
 
 #include <fmt/format.h>
@@ -9,10 +10,14 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace arete {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* kOutputArgument = "OUTPUT";
 /// Options that write the answer as well, so that a command may do without its output.
@@ -23,6 +28,19 @@ std::string lowered(std::string text) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : static_cast<char>(c);
   });
   return text;
+}
+
+/// Whether an output by position may be a second input, as of `arete convert *.ply`: a file of another name
+/// that exists and has the ending of the input.
+bool mayBeAnInput(const CLI::App& command, const std::string& output) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (!option->get_positional() || option->count() == 0 || option->get_name() == kOutputArgument) continue;
+    const fs::path input = option->results().front();
+    std::error_code ignored;
+    return lowered(input.extension().string()) == lowered(fs::path(output).extension().string()) &&
+           fs::exists(output, ignored) && !fs::equivalent(input, output, ignored);
+  }
+  return false;
 }
 
 }  // namespace
@@ -64,6 +82,10 @@ void requireOneOutput(const CLI::App& command) {
   if (argument.count() > 0 && option.count() > 0)
     throw CLI::ValidationError(fmt::format("there are two outputs, {} and --output {}",
                                            argument.results().front(), option.results().front()));
+  if (argument.count() > 0 && mayBeAnInput(command, argument.results().front()))
+    throw CLI::ValidationError(
+        fmt::format("{} exists and may be a second input, and there is one; --output {} replaces it",
+                    argument.results().front(), argument.results().front()));
 }
 
 }  // namespace arete

@@ -69,6 +69,20 @@ TEST_F(OutputArgument, IsRefusedWhereItIsNoOutput) {
   EXPECT_EQ(read("tin.ply"), tin);
 }
 
+// What a shell makes of `arete convert *.ply`.
+TEST_F(OutputArgument, ReplacesNoFileThatMayBeASecondInput) {
+  write("second.ply", "a scan that is not to be lost");
+  write("SECOND.PLY", "nor this one");
+  for (const char* name : {"second.ply", "SECOND.PLY"}) {
+    const std::string before = read(name);
+    expectRefusal({"convert", "tin.ply", name}, 2, "may be a second input");
+    EXPECT_EQ(read(name), before);
+  }
+  EXPECT_EQ(run({"convert", "tin.ply", "-o", "second.ply"}).code, 0);
+  EXPECT_EQ(read("second.ply"), read("tin.ply"));
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(run({"convert", "tin.ply", "other.glb"}).code, 0) << i;
+}
+
 TEST_F(OutputArgument, IsNeverAnInputUnderAnyName) {
   std::filesystem::create_symlink("tin.ply", path("link.ply"));
   std::filesystem::create_hard_link(path("tin.ply"), path("hard.ply"));
