@@ -45,12 +45,14 @@ namespace {
 namespace fs = std::filesystem;
 
 /// --certificate has an optional value, and CLI11 takes the next word for it: FILE.amt, or the output, if
-/// that comes last.
-CLI::Validator notTheModel() {
+/// that comes last. With --output a mesh is no output; checkOutputsOf() refuses it where it must.
+CLI::Validator notTheModel(const CLI::App& command) {
   return CLI::Validator(
-      [](std::string& text) -> std::string {
+      [&command](std::string& text) -> std::string {
         const bool isModel = fs::path(text).extension() == ".amt";
-        if (!isModel && !meshFormatOf(text, "") && !isGeoTiffName(text)) return {};
+        const bool isOutput =
+            command.get_option("--output")->count() == 0 && (meshFormatOf(text, "") || isGeoTiffName(text));
+        if (!isModel && !isOutput) return {};
         return fmt::format("'{}' cannot be the certificate; put {} before --certificate", text,
                            isModel ? "FILE.amt" : "the output");
       },
@@ -294,7 +296,7 @@ void addExtractCommand(CLI::App& app, Session& session) {
                        "Measure the mesh and write a certificate as JSON: promised error, measured error, "
                        "and how to check them (default: the output's name with .certificate.json)")
           ->expected(0, 1)
-          ->check(notTheModel())
+          ->check(notTheModel(*command))
           ->type_name("[FILE]");
   kinds.ofTerrain(command
                       ->add_option("--error-raster", arguments->errorRaster,

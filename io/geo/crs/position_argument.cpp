@@ -98,14 +98,12 @@ Result<StatedHeight> readHeightText(std::string_view text, const DataUnit* unit)
     if (length && length->hasUnit()) {
       ARETE_TRY(const double inUnit, inDataUnit(*length, *unit, std::string(text)));
       value = inUnit;
-    } else if (!length && text::parseNumber(height.substr(0, 1))) {  // a number and an unknown unit
-      return failure(ErrorCode::usage, length.error().message);
     }
   }
   if (!value)
-    return failure(
-        ErrorCode::usage,
-        fmt::format("'{}' is not a height: a number, optionally followed by agl, msl or ell", text));
+    return failure(ErrorCode::usage,
+                   fmt::format("'{}' is not a height: a number, optionally followed by {}agl, msl or ell",
+                               text, unit ? fmt::format("a unit ({}) and ", lengthUnitNames()) : ""));
   return StatedHeight{*value, kind};
 } catch (...) {
   return caughtFailure();
