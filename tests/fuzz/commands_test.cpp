@@ -65,7 +65,6 @@ const std::vector<Row>& rows() {
         "extract FILE -o OUT.ply --max-error 1",
         "extract FILE -o OUT.ply --max-error 2 --fit triangles",
         "extract FILE -o OUT.obj --max-error 3 --fit error",
-        "extract FILE -o OUT.ply --max-error 1 --region BOX --fit unbiased",
         "extract FILE -o OUT.stl --max-triangles 20 --certificate OUT.json",
         "extract FILE -o OUT.glb --max-error 2 --method saturated",
         "extract FILE -o OUT.2dm --max-error 0",
