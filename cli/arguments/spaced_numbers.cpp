@@ -62,7 +62,7 @@ std::string spacedNumbers(const CLI::App& app, const std::vector<std::string>& w
     if (end < at + 3) continue;
     // An option that is repeated may have several values behind one name, each with commas.
     const auto hasComma = [](const std::string& word) { return word.find(',') != word.npos; };
-    if (option->get_items_expected_max() != 1 &&
+    if (option->get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll &&
         std::any_of(words.begin() + std::ptrdiff_t(at) + 1, words.begin() + std::ptrdiff_t(end), hasComma))
       continue;
     std::string apart = name, joined = name + " ";
