@@ -26,6 +26,7 @@
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "io/geo/bent/divided_triangles.h"
 
 namespace arete {
 namespace {
@@ -380,7 +381,7 @@ class Bender {
 
   Status split() {
     const std::size_t first = result_.source.positions.size();
-    std::vector<std::uint32_t> middleOf(edges_.size(), kNoTriangle);
+    std::vector<std::uint32_t> middleOf(edges_.size(), kUnsplit);
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       const BendEdge& e = edges_[i];
       if (!e.isMarked) continue;
@@ -400,60 +401,23 @@ class Bender {
     if (result_.source.positions.size() > kMostVertices)
       return failure(ErrorCode::unsupported, "needs more vertices than an index can name", map_.culprit());
     ARETE_CHECK(lead(first));
-    divideTriangles(middleOf);
+    divide(middleOf);
     return {};
   }
 
-  void divideTriangles(const std::vector<std::uint32_t>& middleOf) {
-    std::vector<std::array<std::uint32_t, 3>> divided;
+  void divide(const std::vector<std::uint32_t>& middleOf) {
+    std::vector<ThreeIds> middles(edgeOf_.size());
+    for (std::size_t t = 0; t < middles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) middles[t][k] = middleOf[edgeOf_[t][k]];
+    DividedTriangles divided = divideTriangles(result_.source.triangles, middles, result_.mesh.positions);
     std::vector<double> own;
     std::vector<std::uint8_t> turned;
-    const auto& all = result_.source.triangles;
-    divided.reserve(all.size());
-    own.reserve(all.size());
-    for (std::size_t t = 0; t < all.size(); ++t) {
-      const auto put = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        divided.push_back({a, b, c});
-        own.push_back(own_[t]);
-        turned.push_back(isTurned_[t]);
-      };
-      std::array<std::uint32_t, 3> v = all[t], m{};
-      int count = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        m[k] = middleOf[edgeOf_[t][k]];
-        count += m[k] != kNoTriangle;
-      }
-      // Turned so that one split edge is the first, and of two the third is whole.
-      const auto turn = [&] {
-        std::ranges::rotate(v, v.begin() + 1);
-        std::ranges::rotate(m, m.begin() + 1);
-      };
-      if (count == 0) {
-        put(v[0], v[1], v[2]);
-      } else if (count == 1) {
-        while (m[0] == kNoTriangle) turn();
-        put(v[0], m[0], v[2]);
-        put(m[0], v[1], v[2]);
-      } else if (count == 2) {
-        while (m[2] != kNoTriangle) turn();
-        put(m[0], v[1], m[1]);
-        const double across = norm(at(m[0]) - at(v[2])), along = norm(at(v[0]) - at(m[1]));
-        if (across < along || (across == along && v[0] < v[2])) {
-          put(v[0], m[0], v[2]);
-          put(m[0], m[1], v[2]);
-        } else {
-          put(v[0], m[0], m[1]);
-          put(v[0], m[1], v[2]);
-        }
-      } else {
-        put(v[0], m[0], m[2]);
-        put(m[0], v[1], m[1]);
-        put(m[2], m[1], v[2]);
-        put(m[0], m[1], m[2]);
-      }
+    for (const std::uint32_t parent : divided.parents) {
+      own.push_back(own_[parent]);
+      turned.push_back(isTurned_[parent]);
     }
-    result_.source.triangles = divided;
-    result_.mesh.triangles = std::move(divided);
+    result_.source.triangles = divided.triangles;
+    result_.mesh.triangles = std::move(divided.triangles);
     own_ = std::move(own);
     isTurned_ = std::move(turned);
   }
