@@ -22,6 +22,7 @@
 #include "io/formats/common/file.h"
 #include "io/formats/exchange/convert.h"
 #include "io/formats/exchange/mesh_formats.h"
+#include "io/geo/crs/names.h"
 #include "io/query/mesh/decimation.h"
 #include "io/query/surface/map_file.h"
 #include "io/query/surface/mesh_input.h"
@@ -108,6 +109,11 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
   MeshFile& file = input.file;
   if (file.mesh.triangles.empty())
     return failure(ErrorCode::invalidData, "has no faces to be decimated", arguments.input);
+  if (isGeographicCrs(file.crsWkt))
+    session.warn({{WarningCode::position,
+                   "x and y are degrees and heights are not, so that distances and errors mix them; "
+                   "`arete convert --metric` makes metres of all"}},
+                 arguments.input);
   const std::size_t facesBefore = file.mesh.triangles.size();
   const bool isOfFloats = movedByFloats(file.mesh) == 0;
   ARETE_CHECK(dropNamed(file.mesh, arguments.dropAttributes));

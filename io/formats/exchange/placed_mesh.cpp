@@ -137,8 +137,9 @@ std::optional<Warning> warningOfDegrees(const MeshFormat& format, const std::str
   if (!isForViewers || !isGeographicCrs(crsWkt)) return std::nullopt;
   return Warning{
       WarningCode::position,
-      fmt::format("x and y are degrees and heights {}: viewers of {} show a needle. `metric` writes metres "
-                  "to the east, north and up, `toCrs` coordinates of a map (utm, or EPSG:...)",
+      fmt::format("x and y are degrees and heights {}: viewers of {} show a needle. extract and convert "
+                  "write metres to the east, north and up with `metric`, coordinates of a map with `toCrs` "
+                  "(utm, or EPSG:...)",
                   verticalUnit.empty() ? "metres" : verticalUnit, format.name)};
 }
 
