@@ -65,7 +65,8 @@ Result<double> inDataUnit(const StatedLength& length, const DataUnit& data, cons
   if (!length.hasUnit()) return length.number;
   if (!(data.metres > 0))
     return failure(ErrorCode::usage,
-                   "has a unit, and the unit of the data is not known; a number without one is in it",
+                   "has a unit, and the unit of the data is not known; a number without one is in it, and "
+                   "--vertical-unit of build states that of a DEM",
                    culprit);
   // Equal units leave the number as it is, to the bit.
   const double number =
