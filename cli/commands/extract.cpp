@@ -45,7 +45,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// --certificate has an optional value, and CLI11 takes the next word for it: FILE.amt, or the output, if
-/// that comes last. With --output a mesh is no output; checkOutputsOf() refuses it where it must.
+/// that comes last. With --output stated, a mesh that clashes with it is refused by checkOutputsOf().
 CLI::Validator notTheModel(const CLI::App& command) {
   return CLI::Validator(
       [&command](std::string& text) -> std::string {

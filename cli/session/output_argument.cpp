@@ -30,8 +30,8 @@ std::string lowered(std::string text) {
   return text;
 }
 
-/// Whether an output by position may be a second input, as of `arete convert *.ply`: a file of another name
-/// that exists and has the ending of the input.
+/// Whether an output by position may be a second input, which `arete convert *.ply` has: a file of another
+/// name that exists and has the ending of the input.
 bool mayBeAnInput(const CLI::App& command, const std::string& output) {
   for (const CLI::Option* option : command.get_options()) {
     if (!option->get_positional() || option->count() == 0 || option->get_name() == kOutputArgument) continue;

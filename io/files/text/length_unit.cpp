@@ -66,7 +66,7 @@ Result<double> inDataUnit(const StatedLength& length, const DataUnit& data, cons
   if (!(data.metres > 0))
     return failure(ErrorCode::usage,
                    "has a unit, and the unit of the data is not known; a number without one is in it, and "
-                   "--vertical-unit of build states that of a DEM",
+                   "`verticalUnit` of build states that of a DEM",
                    culprit);
   // Equal units leave the number as it is, to the bit.
   const double number =
