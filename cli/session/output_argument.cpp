@@ -74,11 +74,13 @@ void requireOneOutput(const CLI::App& command) {
   if (!hasOutputArgument(command)) return;
   const CLI::Option& argument = *command.get_option(kOutputArgument);
   const CLI::Option& option = *command.get_option("--output");
-  const bool hasOther = std::ranges::any_of(kOtherOutputs, [&](const char* name) {
-    const CLI::Option* other = command.get_option_no_throw(name);
-    return other != nullptr && other->count() > 0;
-  });
-  if (argument.count() == 0 && option.count() == 0 && !hasOther) throw CLI::RequiredError("--output");
+  if (argument.count() == 0 && option.count() == 0) {
+    const auto other = std::ranges::find_if(
+        kOtherOutputs, [&](const char* name) { return command.get_option_no_throw(name) != nullptr; });
+    if (other == kOtherOutputs.end()) throw CLI::RequiredError("--output");
+    if (command.get_option(*other)->count() == 0)
+      throw CLI::ValidationError(fmt::format("--output is required, or {}", *other));
+  }
   if (argument.count() > 0 && option.count() > 0)
     throw CLI::ValidationError(fmt::format("there are two outputs, {} and --output {}",
                                            argument.results().front(), option.results().front()));

@@ -72,7 +72,7 @@ TEST_F(OneName, OfAnArgumentInPythonIsThatOfTheCommand) {
       {"viewshed", {"progress"}},
       {"build", {"source", "transform", "progress", "rim_tolerance"}}};
   const std::map<std::string, std::string> commandOf = {{"cut", "extract"}};
-  const std::string source = textOf("python/arete/_model.py");
+  const std::string source = textOf("python/arete/_model.py") + textOf("python/arete/_build.py");
   const std::regex function("\\n *def ([a-z_]+)\\(([^)]*)\\)"), argument("([a-z_]+):");
   std::set<std::string> seen;
   for (std::sregex_iterator match(source.begin(), source.end(), function), end; match != end; ++match) {

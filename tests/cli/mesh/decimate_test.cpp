@@ -61,7 +61,7 @@ TEST_F(MeshDecimate, KeepsADistanceAndNamesTheLeastCount) {
 
 TEST_F(MeshDecimate, ChecksItsNumbersBeforeItReads) {
   for (const std::vector<std::string>& numbers :
-       std::vector<std::vector<std::string>>{{"--max-error", "1mm"},
+       std::vector<std::vector<std::string>>{{"--max-error", "1yd"},
                                              {"--max-triangles", "many"},
                                              {"--max-triangles", "1.5"},
                                              {"--max-error", "1", "--drop-parts", "big"}}) {

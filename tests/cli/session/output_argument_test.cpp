@@ -75,11 +75,13 @@ TEST_F(OutputArgument, ReplacesNoFileThatMayBeASecondInput) {
   write("SECOND.PLY", "nor this one");
   for (const char* name : {"second.ply", "SECOND.PLY"}) {
     const std::string before = read(name);
-    expectRefusal({"convert", "tin.ply", name}, 2, "may be a second input");
+    const Outcome outcome = run({"convert", "tin.ply", name});
+    EXPECT_EQ(outcome.code, 2) << name;
+    EXPECT_NE(outcome.err.find("may be a second input"), std::string::npos) << outcome.err;
     EXPECT_EQ(read(name), before);
+    EXPECT_EQ(run({"convert", "tin.ply", "-o", name}).code, 0);
+    EXPECT_NE(read(name), before);
   }
-  EXPECT_EQ(run({"convert", "tin.ply", "-o", "second.ply"}).code, 0);
-  EXPECT_EQ(read("second.ply"), read("tin.ply"));
   for (int i = 0; i < 2; ++i) EXPECT_EQ(run({"convert", "tin.ply", "other.glb"}).code, 0) << i;
 }
 

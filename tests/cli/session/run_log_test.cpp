@@ -115,6 +115,7 @@ TEST_F(RunLogs, AreTheSameAnswerAndTheSameTextWithAndWithoutJson) {
   for (std::vector<std::string> command : commands) {
     SCOPED_TRACE(command[0] + " " + command[1]);
     const Outcome text = run(command);
+    for (const char* output : {"x.ply", "x.obj", "r.ply"}) std::filesystem::remove(path(output));
     command.insert(command.end(), {"--log", "text.jsonl"});
     const Outcome logged = run(command);
     EXPECT_EQ(logged.code, text.code) << logged.err;

@@ -243,9 +243,9 @@ TEST_F(Viewsheds, WarnsOfAFieldOfViewWithoutASample) {
   warned({"--min-distance", "5000"}, "no sample is within the field of view: --min-distance");
   warned({"--elevation", "80,90"}, "no sample is within the field of view: --elevation");
   const Outcome seen =
-      run({"viewshed", "dem.amt", "--observer", "1108,1898,20", "--radius", "5", "-o", "v.tif"});
+      run({"viewshed", "dem.amt", "--observer", "1108,1898,20", "--radius", "5", "-o", "w.tif"});
   EXPECT_EQ(seen.err, "");
-  EXPECT_NE(seen.out.find("v.tif: 1 sample seen"), std::string::npos) << seen.out;
+  EXPECT_NE(seen.out.find("w.tif: 1 sample seen"), std::string::npos) << seen.out;
 }
 
 }  // namespace
