@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/arguments/extract_outputs.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "cli/arguments/arguments.h"
@@ -11,6 +14,14 @@ namespace {
 
 std::string certificateBeside(const std::string& output) {
   return std::filesystem::path(output).replace_extension(".certificate.json").string();
+}
+
+/// A file that exists is replaced where it holds JSON: any other was meant as something else.
+bool mayBeCertificate(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  char first = '{';
+  file >> first;
+  return first == '{';
 }
 
 }  // namespace
@@ -46,6 +57,9 @@ Status checkOutputsOf(const std::vector<ExtractRequest>& requests, const std::ve
           std::pair{"--error-raster", &request.errorRaster}, std::pair{"--map", &request.map}}) {
       if (path->empty()) continue;
       ARETE_CHECK(checkOutput(option, *path, inputs, outputs));
+      if (path == &request.certificate && !mayBeCertificate(*path))
+        return failure(ErrorCode::usage, "exists and is no certificate",
+                       fmt::format("--certificate {}", *path));
       outputs.push_back(*path);
     }
   return {};

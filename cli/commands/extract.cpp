@@ -88,6 +88,12 @@ struct ExtractArguments {
 Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments, const TerrainModel& model,
                                                Session& session) {
   ARETE_TRY(const auto criteria, arguments.criterion.criteria(model));
+  if (!model.isRaster && criteria.front().criterion.fit == CutFit::unbiased)
+    session.warn(
+        {{WarningCode::bound,
+          "the points are scattered: the mean error is over the points and not over the area, so that "
+          "a volume gains or loses where they are uneven"}},
+        arguments.model);
   const ExtractOutputs outputs = arguments.outputs(session);
   const bool several = criteria.size() > 1;
   ARETE_CHECK(outputs.check(several));

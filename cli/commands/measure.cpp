@@ -23,6 +23,7 @@
 #include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/names.h"
+#include "io/geo/crs/reader.h"
 #include "io/geo/dem/dem_reader.h"
 #include "io/geo/dem/raster_writer.h"
 #include "io/query/certificate/report_json.h"
@@ -69,10 +70,19 @@ void compareFrames(const MeshFile& tin, const Georeference& georeference, const 
         "the TIN is in metres about a place of a CRS, and the DEM has none: they are compared as if they "
         "were in one");
   if (!tin.metresAbout && !tin.verticalUnit.empty() && !georeference.verticalUnit.empty() &&
-      tin.verticalUnit != georeference.verticalUnit)
-    session.warn(
-        fmt::format("the TIN's heights are in '{}', the DEM's in '{}': they are compared as they are",
-                    tin.verticalUnit, georeference.verticalUnit));
+      metresPerUnit(tin.verticalUnit) != metresPerUnit(georeference.verticalUnit))
+    session.warn(fmt::format("the TIN's heights are in '{}', the DEM's in '{}': they are {}",
+                             tin.verticalUnit, georeference.verticalUnit,
+                             metresPerUnit(tin.verticalUnit) && metresPerUnit(georeference.verticalUnit)
+                                 ? "turned into that of the DEM"
+                                 : "compared as they are, since one is not known"));
+}
+
+/// Turns heights in another unit than the DEM's into it, where both are known; compareFrames() says so.
+void turnHeights(MeshFile& tin, const Georeference& georeference) {
+  const auto ofTin = metresPerUnit(tin.verticalUnit), ofDem = metresPerUnit(georeference.verticalUnit);
+  if (tin.metresAbout || !ofTin || !ofDem || *ofTin == *ofDem) return;
+  for (Vec3& p : tin.mesh.positions) p.z *= *ofTin / *ofDem;
 }
 
 template <class Heightfield>
@@ -225,14 +235,18 @@ Status runMeasure(MeasureArguments arguments, Session& session) {
     inputs.push_back(arguments.tin);
     ARETE_CHECK(checkOutput("--error-raster", arguments.errorRaster, inputs));
   }
-  ARETE_TRY(const MeshFile tin, readMesh(arguments.tin, session.context()));
+  ARETE_TRY(MeshFile tin, readMesh(arguments.tin, session.context()));
   session.warn(tin.warnings, arguments.tin);
   Result<DemRead> read = arguments.dem.read(session);
   if (!read && read.error().code == ErrorCode::unsupported && model)
     return tl::unexpected(isModel(arguments.dem.path, std::move(*model)));
   ARETE_TRY(const DemRead dem, std::move(read));
-  return std::visit([&](const auto& field) { return compare(arguments, tin, field, session); },
-                    dem.heightfield);
+  return std::visit(
+      [&](const auto& field) {
+        turnHeights(tin, field.georeference);
+        return compare(arguments, tin, field, session);
+      },
+      dem.heightfield);
 }
 
 }  // namespace

@@ -97,11 +97,14 @@ class HelpPage {
         if (std::ranges::find(option.names, name) != option.names.end()) addOption(option);
     };
     for (const std::string_view name : common) add(name);
+    const auto isListed = [&](const DeclaredOption& option) {
+      return std::ranges::any_of(option.names, [&](const std::string& name) {
+        return std::ranges::find(common, name) != common.end();
+      });
+    };
     // What is required is shown, whatever the table says.
     for (const DeclaredOption& option : options_)
-      if (option.isRequired && !option.isArgument &&
-          std::ranges::find(common, option.names.back()) == common.end())
-        addOption(option);
+      if (option.isRequired && !option.isArgument && !isListed(option)) addOption(option);
     for (const std::string_view name : {"--json", "--quiet", "--progress", "--help", "--help-all"}) add(name);
   }
 

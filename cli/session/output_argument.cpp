@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -30,15 +31,23 @@ std::string lowered(std::string text) {
   return text;
 }
 
+/// Whether a file is this program's: its formats name the program near their beginning.
+bool isOwnOutput(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string begin(4096, '\0');
+  file.read(begin.data(), std::streamsize(begin.size()));
+  return lowered(begin).find("arete") != std::string::npos;
+}
+
 /// Whether an output by position may be a second input, which `arete convert *.ply` has: a file of another
-/// name that exists and has the ending of the input.
+/// name that exists, has the ending of the input, and was not written by this program.
 bool mayBeAnInput(const CLI::App& command, const std::string& output) {
   for (const CLI::Option* option : command.get_options()) {
     if (!option->get_positional() || option->count() == 0 || option->get_name() == kOutputArgument) continue;
     const fs::path input = option->results().front();
     std::error_code ignored;
     return lowered(input.extension().string()) == lowered(fs::path(output).extension().string()) &&
-           fs::exists(output, ignored) && !fs::equivalent(input, output, ignored);
+           fs::exists(output, ignored) && !fs::equivalent(input, output, ignored) && !isOwnOutput(output);
   }
   return false;
 }

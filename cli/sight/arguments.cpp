@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+#include <string>
 #include <utility>
 
 #include "cli/arguments/arguments.h"
@@ -44,6 +46,13 @@ void SightArguments::addEarthTo(CLI::App& command) {
           "Refraction coefficient: the effective radius of the Earth is R / (1 - K) (default 1/7; GDAL's "
           "curvature coefficient is 1 - K)")
       ->check(finiteBetween(-10, 10))
+      ->check(CLI::Validator(
+          [](std::string& text) -> std::string {
+            if (std::strtod(text.c_str(), nullptr) < 1) return {};
+            return fmt::format(
+                "{} would bend rays as much as the Earth, or more; an effective Earth of 4/3 is 0.25", text);
+          },
+          ""))
       ->type_name("K")
       ->group(group);
 }

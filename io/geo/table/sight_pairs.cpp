@@ -22,6 +22,7 @@
 
 #include "engine/base/caught_failure.h"
 #include "io/files/number_text.h"
+#include "io/files/text_scan.h"
 #include "io/geo/crs/lonlat.h"
 #include "io/geo/crs/transform.h"
 #include "io/geo/gdal/support.h"
@@ -285,6 +286,11 @@ Result<SightPairs> readSightSites(const std::string& path, const Georeference& d
   int column = -1;
   for (int end = 0; end < 2 && column < 0; ++end)
     column = columnNamed(int(sites.attributes.columns.size()), nameOf, ColumnNames::endHeight(end));
+  // `arete height` and many surveys name a height above the sea so.
+  if (column >= 0 && text::lowered(std::string(nameOf(std::size_t(column)))) == "height")
+    sites.warnings.push_back({WarningCode::heights,
+                              "the column height is taken for heights above the ground; rename it to h where "
+                              "it is that, and to anything else where it is the height of the terrain"});
   const auto numberIn = [&](std::size_t row, std::span<const std::string_view> names) -> Result<double> {
     const int at = columnNamed(int(sites.attributes.columns.size()), nameOf, names);
     const std::string_view text = at < 0 ? std::string_view() : sites.attributes.at(row, std::size_t(at));

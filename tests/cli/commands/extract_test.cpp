@@ -208,6 +208,24 @@ TEST_F(ExtractCommand, SaysInWordsThatThePixelsOfACoarseCutAreNotKnown) {
   EXPECT_EQ(o.out.find("inf"), std::string::npos) << o.out;
 }
 
+TEST_F(ExtractCommand, ReplacesNoFileByACertificateThatIsNone) {
+  makeRaster("dem.tif", "fractal", 20, 20);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt", "-q"}).code, 0);
+  write("notes.txt", "x,y,z\n1,2,3\n");
+  const std::vector<std::string> words = {"extract",     "dem.amt", "-o",           "t.ply",
+                                          "--max-error", "5",       "--certificate"};
+  const auto with = [&](const std::string& name) {
+    std::vector<std::string> all = words;
+    all.push_back(name);
+    return run(all);
+  };
+  const Outcome refused = with("notes.txt");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("notes.txt: exists and is no certificate"), std::string::npos) << refused.err;
+  EXPECT_EQ(read("notes.txt"), "x,y,z\n1,2,3\n");
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(with("kept.txt").code, 0) << i;
+}
+
 TEST_F(ExtractCommand, SaysInTheCertificateHowTheDemWasRead) {
   makeRaster("dem.tif", "fractal", 20, 20);
   ASSERT_EQ(run({"build", "dem.tif", "-o", "DEM.AMT", "--band", "1", "--nodata", "-9999"}).code, 0);

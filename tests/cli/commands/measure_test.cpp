@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 #include <string>
@@ -11,11 +12,25 @@
 #include <vector>
 
 #include "cli/arguments_fixture.h"
+#include "io/geo/dem/raster_reader.h"
 
 namespace arete::cli_test {
 namespace {
 
 using MeasureCommand = Arguments;
+
+TEST_F(MeasureCommand, TurnsHeightsIntoTheUnitOfTheDem) {
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "feet.amt", "--vertical-unit", "ft", "-q"}).code, 0);
+  ASSERT_EQ(run({"extract", "feet.amt", "-o", "feet.ply", "--max-error", "0", "-q"}).code, 0);
+  const Outcome same = run({"measure", "feet.ply", "dem.tif", "--vertical-unit", "ft", "--json"});
+  EXPECT_EQ(same.json()["error"]["maximum"].get<double>(), 0);
+  const Outcome outcome = run({"measure", "feet.ply", "dem.tif", "--vertical-unit", "m", "--json"});
+  EXPECT_NE(outcome.err.find("turned into that of the DEM"), std::string::npos) << outcome.err;
+  double highest = 0;
+  for (const double height : readRaster(path("dem.tif"))->heightfield.heights)
+    if (!std::isnan(height)) highest = std::max(highest, std::abs(height));
+  EXPECT_NEAR(outcome.json()["error"]["maximum"].get<double>(), (1 - 0.3048) * highest, 1e-9 * highest);
+}
 
 TEST_F(MeasureCommand, TellsABrokenPromise) {
   const Outcome outcome = run({"measure", "tin.ply", "dem.tif", "--expect", "0.001"});

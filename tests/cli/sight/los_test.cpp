@@ -121,6 +121,32 @@ TEST_F(Los, TellsRadioPlannersOfFresnelZonesAndClutter) {
           "far.tif: lies nowhere over the DEM");
 }
 
+// `arete height` writes such a column, and there it is the height of the terrain.
+TEST_F(Los, SaysThatAColumnNamedHeightIsAboveTheGround) {
+  makeModel();
+  write("huts.csv", "x,y\n1505,1895\n");
+  ASSERT_EQ(run({"height", "dem.amt", "--points", "huts.csv", "-o", "huts_h.csv", "-q"}).code, 0);
+  const auto said = [&](const std::string& points) {
+    return run({"los", "dem.amt", "--from", "1105,1895,20", "--points", points, "--target-height", "2"}).err;
+  };
+  EXPECT_EQ(said("huts.csv").find("column height"), std::string::npos);
+  EXPECT_NE(said("huts_h.csv").find("the column height is taken for heights above the ground"),
+            std::string::npos);
+  write("masts.csv", "x,y,h\n1505,1895,30\n");
+  EXPECT_EQ(said("masts.csv"), "");
+}
+
+TEST_F(Los, RefusesAnEffectiveRadiusForTheCoefficientOfRefraction) {
+  makeModel("EPSG:32632");
+  const std::vector<std::string> line = {"los",  "dem.amt",           "--from",      "500105,5199895,20",
+                                         "--to", "500505,5199895,20", "--refraction"};
+  for (const char* k : {"1.333", "1", "4"}) {
+    std::vector<std::string> words = line;
+    words.push_back(k);
+    refused(words, 2, "an effective Earth of 4/3 is 0.25");
+  }
+}
+
 TEST_F(Los, ATargetWithoutAHeightIsOnTheGround) {
   makeModel();
   const auto ask = [&](const std::vector<std::string>& ends) {
