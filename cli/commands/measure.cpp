@@ -23,7 +23,6 @@
 #include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/names.h"
-#include "io/geo/crs/reader.h"
 #include "io/geo/dem/dem_reader.h"
 #include "io/geo/dem/raster_writer.h"
 #include "io/query/certificate/report_json.h"
@@ -64,25 +63,30 @@ Status checkKind(const MeasureArguments& arguments, bool isMesh) {
   return {};
 }
 
+/// The metres of the unit of a TIN's heights; 0 where it is not known.
+double metresOf(const MeshFile& tin) {
+  return spaceUnitOf(std::string(), tin.verticalUnit).metres;
+}
+
 void compareFrames(const MeshFile& tin, const Georeference& georeference, const Session& session) {
   if (tin.metresAbout && georeference.crsWkt.empty())
     session.warn(
         "the TIN is in metres about a place of a CRS, and the DEM has none: they are compared as if they "
         "were in one");
   if (!tin.metresAbout && !tin.verticalUnit.empty() && !georeference.verticalUnit.empty() &&
-      metresPerUnit(tin.verticalUnit) != metresPerUnit(georeference.verticalUnit))
+      metresOf(tin) != heightUnitOf(georeference).metres)
     session.warn(fmt::format("the TIN's heights are in '{}', the DEM's in '{}': they are {}",
                              tin.verticalUnit, georeference.verticalUnit,
-                             metresPerUnit(tin.verticalUnit) && metresPerUnit(georeference.verticalUnit)
+                             metresOf(tin) > 0 && heightUnitOf(georeference).metres > 0
                                  ? "turned into that of the DEM"
                                  : "compared as they are, since one is not known"));
 }
 
 /// Turns heights in another unit than the DEM's into it, where both are known; compareFrames() says so.
 void turnHeights(MeshFile& tin, const Georeference& georeference) {
-  const auto ofTin = metresPerUnit(tin.verticalUnit), ofDem = metresPerUnit(georeference.verticalUnit);
-  if (tin.metresAbout || !ofTin || !ofDem || *ofTin == *ofDem) return;
-  for (Vec3& p : tin.mesh.positions) p.z *= *ofTin / *ofDem;
+  const double ofTin = metresOf(tin), ofDem = heightUnitOf(georeference).metres;
+  if (tin.metresAbout || ofTin == 0 || ofDem == 0 || ofTin == ofDem) return;
+  for (Vec3& p : tin.mesh.positions) p.z *= ofTin / ofDem;
 }
 
 template <class Heightfield>
