@@ -55,7 +55,8 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "ca-certificates")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS
     "gdal-bin, libarete-dev, qgis, python3-geopandas, python3-matplotlib, python3-meshio, python3-xarray")
 
-# What AreteConfig.cmake looks for, and the libraries that the static ones link. Those are compiled with GDAL's headers:
+# What AreteConfig.cmake looks for, the libraries that the static ones link, and what builds a program at once, also where
+# apt installs no recommended packages. The libraries are compiled with GDAL's headers:
 # a libgdal-dev of another minor version has another ABI.
 string(REGEX MATCH "^[0-9]+[.][0-9]+" gdal "${GDAL_VERSION}")
 string(REGEX MATCH "[0-9]+$" minor "${gdal}")
@@ -75,10 +76,8 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
     "libdraco-dev, libembree-dev (>= 3), libembree-dev (<< 4~), libexpected-dev, libfmt-dev"
     "libgdal-dev (>= ${gdal}), libgdal-dev (<< ${next}~), libgeographiclib-dev, libgmp-dev, libmeshoptimizer-dev"
-    "libmpfr-dev, libproj-dev, libsqlite3-dev, libtbb-dev, pkg-config")
+    "libmpfr-dev, libproj-dev, libsqlite3-dev, libtbb-dev, pkg-config, cmake, g++, make | ninja-build")
 list(JOIN CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS ", " CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS)
-# With these, which apt installs unless it is told otherwise, a program can be built at once.
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "cmake, g++, make | ninja-build")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS "arete")
 # Up to 0.1 the package arete had the library too.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_BREAKS "arete (<< 0.2.0~)")
