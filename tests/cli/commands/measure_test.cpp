@@ -27,7 +27,8 @@ TEST_F(MeasureCommand, TurnsHeightsIntoTheUnitOfTheDem) {
   const Outcome outcome = run({"measure", "feet.ply", "dem.tif", "--vertical-unit", "m", "--json"});
   EXPECT_NE(outcome.err.find("turned into that of the DEM"), std::string::npos) << outcome.err;
   double highest = 0;
-  for (const double height : readRaster(path("dem.tif"))->heightfield.heights)
+  const RasterHeightfield field = readRaster(path("dem.tif"))->heightfield;
+  for (const double height : field.heights)
     if (!std::isnan(height)) highest = std::max(highest, std::abs(height));
   EXPECT_NEAR(outcome.json()["error"]["maximum"].get<double>(), (1 - 0.3048) * highest, 1e-9 * highest);
 }
