@@ -58,7 +58,7 @@ Status checkOutputsOf(const std::vector<ExtractRequest>& requests, const std::ve
       if (path->empty()) continue;
       ARETE_CHECK(checkOutput(option, *path, inputs, outputs));
       if (path == &request.certificate && !mayBeCertificate(*path))
-        return failure(ErrorCode::usage, "exists and is no certificate",
+        return failure(ErrorCode::usage, "exists and holds something other than a certificate",
                        fmt::format("--certificate {}", *path));
       outputs.push_back(*path);
     }

@@ -221,7 +221,8 @@ TEST_F(ExtractCommand, ReplacesNoFileByACertificateThatIsNone) {
   };
   const Outcome refused = with("notes.txt");
   EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.err.find("notes.txt: exists and is no certificate"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("notes.txt: exists and holds something other than"), std::string::npos)
+      << refused.err;
   EXPECT_EQ(read("notes.txt"), "x,y,z\n1,2,3\n");
   for (int i = 0; i < 2; ++i) EXPECT_EQ(with("kept.txt").code, 0) << i;
 }
