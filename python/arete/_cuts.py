@@ -60,7 +60,7 @@ class Tin(Mesh):
     """The triangles of a cut. Arrays are read-only views of its memory, and keep it alive."""
 
     def __init__(self, tin: _arete.Tin, export: Optional["Export"] = None):
-        super().__init__(tin)
+        super().__init__(tin, None, () if export is None else export.files)
         self._export = export
 
     @property
@@ -101,9 +101,13 @@ class Tin(Mesh):
         Terrain is led into another CRS by to_crs ("EPSG:32632", WKT, or "utm", the zone of its middle), or by metric into
         metres to the east, north and up. Edges are split where bending adds more than a tenth of the error.
 
-        Returns what the format cannot hold: ["the CRS"].
+        Returns what the format cannot hold: ["the CRS"]. A file that is the source is refused.
         """
         name = os.fspath(path)
+        written = [one for one in (path, error_raster, map, None if isinstance(certificate, bool) else certificate)
+                   if one is not None]
+        for one in written:
+            _checks.refuse_source(os.fspath(one), self._files)
         names = _checks.names_of(drop_attributes)
         is_raster = name.lower().endswith((".tif", ".tiff"))
         if not (certificate or error_raster or map or names or both_ways or is_raster):
@@ -129,8 +133,8 @@ class Tin(Mesh):
         files.metric = metric
         return self._export.write(files, progress)
 
-    def __reduce__(self) -> Tuple[Callable[..., Any], Tuple[Any, ...]]:
-        return _tin_of, self._parts()
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return _tin_of, self._parts(), {"_files": self._files}
 
     def __repr__(self) -> str:
         return f"<arete.Tin of {counted(len(self.triangles), 'triangle', 'triangles')}, error {self.error:g}>"
@@ -147,6 +151,8 @@ class Export:
     has_deadline: bool
     check_options: Callable[[], str] = str
     """Further arguments of measure(), by which the export is checked."""
+    files: Sequence[str] = ()
+    """What must not be written over: the files of the source, and that of the model."""
 
     def write(self, files: _arete.ExportFiles, progress: Progress) -> List[str]:
         if self.has_deadline:
@@ -154,8 +160,14 @@ class Export:
         files.model = self.model
         if files.certificate and all(os.path.exists(source) or "://" in source for source in self.sources):
             against = repr(self.sources[0]) if len(self.sources) == 1 else repr(list(self.sources))
+            place = ""
             files.check_before = f"arete.measure({files.output!r}, {against}, expect="
-            files.check_behind = self.check_options() + ")"
+            # An STL has no place for a CRS, and which zone "utm" was is not known to measure().
+            if files.to_crs and not _arete.holds_crs(files.output):
+                place = f", tin_crs={files.to_crs!r}"
+                if files.to_crs.lower() == "utm":
+                    files.check_before = ""
+            files.check_behind = self.check_options() + place + ")"
         report = report_of(self.extract(files, progress))
         if report.get("kept") is False:
             raise RuntimeError(f"{files.output}: the measurement contradicts the promised error; the files are written")
@@ -248,9 +260,20 @@ class Stored:
 
     _path: Optional[str]
 
-    def __init__(self, model: Union[_arete.Terrain, _arete.Surface], path: Optional[str] = None):
+    def __init__(self, model: Union[_arete.Terrain, _arete.Surface], path: Optional[str] = None,
+                 files: Sequence[str] = ()):
         self._stored = model
         self._path = path
+        # A surface knows the name of its source without the folder.
+        known = [model.source, *model.other_files()] if isinstance(model, _arete.Terrain) else []
+        self._sources = _checks.files_of([*files, *known])
+
+    def _name_to_save(self, path: PathLike) -> str:
+        """Of an .amt file that is not what the model was built from."""
+        name = os.fspath(path)
+        _checks.refuse_other_than_amt(name)
+        _checks.refuse_source(name, self._sources)
+        return name
 
     @property
     def crs(self) -> Optional[str]:

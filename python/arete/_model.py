@@ -24,8 +24,8 @@ from ._sizes import Size, count_of, counted, size_of
 class Model(Stored):
     """The multitriangulation of a terrain."""
 
-    def __init__(self, terrain: _arete.Terrain, path: Optional[str] = None):
-        super().__init__(terrain, path)
+    def __init__(self, terrain: _arete.Terrain, path: Optional[str] = None, files: Sequence[str] = ()):
+        super().__init__(terrain, path, files)
         self._terrain = terrain
 
     def cut(self, max_error: Optional[Size] = None, max_triangles: Union[int, str, None] = None, region: Any = None,
@@ -94,7 +94,8 @@ class Model(Stored):
             return "".join(f", {name}={value!r}" for name, value in stated.items() if value is not None)
 
         sources = [self._terrain.source, *self._terrain.other_files()]
-        return Tin(tin, Export(extract, sources, self._path or "", deadline is not None, check_options))
+        kept = [*self._sources, *([] if self._path is None else [self._path])]
+        return Tin(tin, Export(extract, sources, self._path or "", deadline is not None, check_options, kept))
 
     def _region(self, region: Any, distance: Any, region_crs: Any, where: Optional[Where]) -> AskedRegion:
         if where is None:
@@ -221,7 +222,8 @@ class Model(Stored):
         radius, min_distance: metres on the ground. azimuth: from, to, clockwise. elevation: from, to. like: the path of a
         raster whose grid the answer has.
         mode: "height": the least height that is seen; "horizon": its elevation in degrees; of several "count": how many see
-        it; "server": the nearest of them, from 1 (65533 unknown, 65534 undecided, 65535 outside).
+        it; "server": the nearest of them, from 1; of both 0 is hidden, 65533 unknown, 65534 undecided, 65535 outside. The
+        `answers` of a viewshed name them.
         """
         ends = np.atleast_2d(self._ends("observer", observer, lonlat))
         ranges = [None if one is None else numbers_of(name, one, 2)
@@ -311,8 +313,8 @@ class Model(Stored):
         return array
 
     def save(self, path: PathLike, packed: bool = False, progress: Progress = None) -> None:
-        """Writes the .amt file, whole or not at all."""
-        name = os.fspath(path)
+        """Writes the .amt file, whole or not at all. Another ending, or the file of the source, is refused."""
+        name = self._name_to_save(path)
         self._terrain.save(name, packed, progress)
         self._path = os.path.abspath(name)
 

@@ -2,7 +2,7 @@
 """Meshes examined, mended and made smaller, of files and of arrays."""
 
 import os
-from typing import Any, Dict, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 from numpy.typing import ArrayLike
 
@@ -26,6 +26,13 @@ def source_of(mesh: Any, triangles: Optional[ArrayLike]) -> Any:
     return mesh_of(mesh, triangles)
 
 
+def _files_of(mesh: Any) -> List[str]:
+    """The files that a mesh is made from."""
+    if _checks.is_path(mesh):
+        return _checks.files_of([os.fspath(mesh)])
+    return mesh._files if isinstance(mesh, Mesh) else []
+
+
 def mesh_info(mesh: Any, triangles: Optional[ArrayLike] = None, *, self_intersections: bool = True,
               progress: Progress = None) -> Dict[str, Any]:
     """What is in a mesh, and what is the matter with it, as `arete mesh info` says it: "verdict", "is_manifold",
@@ -47,7 +54,7 @@ def repair(mesh: Any, triangles: Optional[ArrayLike] = None, *, weld: Optional[S
     """
     mended, report = _arete.repair(source_of(mesh, triangles), _checks.size_text("weld", weld),
                                    _checks.whole("fill_holes", fill_holes, 0, 1_000_000_000) or 0, bool(split_sheets), progress)
-    return Mesh(mended, report_of(report))
+    return Mesh(mended, report_of(report), _files_of(mesh))
 
 
 def decimate(mesh: Any, triangles: Optional[ArrayLike] = None, *, max_triangles: Union[int, str, None] = None,
@@ -78,7 +85,7 @@ def decimate(mesh: Any, triangles: Optional[ArrayLike] = None, *, max_triangles:
     smaller, report = _arete.decimate(source_of(mesh, triangles), request, _checks.size_text("max_error", max_error),
                                       _checks.size_text("drop_parts", drop_parts), _checks.names_of(drop_attributes), share,
                                       progress)
-    return Mesh(smaller, report_of(report))
+    return Mesh(smaller, report_of(report), _files_of(mesh))
 
 
 def _share_of(name: str, text: str) -> float:

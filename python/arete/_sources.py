@@ -54,6 +54,16 @@ def _of_rasterio(dataset: Any, nodata: Optional[float], band: Optional[int]) -> 
     number = 1 if band is None else band
     if not 1 <= number <= dataset.count:
         raise ValueError(f"band={band!r} is not one of 1 to {dataset.count}")
+    colours = [colour.name for colour in dataset.colorinterp]
+    if len(colours) - colours.count("alpha") > 1 and band is None:
+        # As a file is refused or warned of.
+        if dataset.dtypes[0] == "uint8" or colours[0] == "red":
+            raise RuntimeError(f"{dataset.name}: looks like a colour image of {dataset.count} bands, not like heights; band= reads "
+                             "one of its bands as heights")
+        _checks.warn(f"{dataset.name}: has {dataset.count} bands; band 1 is read", "choice", stacklevel=5)
+    if colours[number - 1] == "palette":
+        _checks.warn(f"{dataset.name}: the band has a colour table: its values may be classes or colours, not heights", "heights",
+                     stacklevel=5)
     array = dataset.read(number, masked=True)
     heights = heights_of(array, nodata)
     scale, offset = float(dataset.scales[number - 1]), float(dataset.offsets[number - 1])

@@ -18,6 +18,7 @@
 #include "io/files/text/stated_size.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/geo/crs/map_scale.h"
+#include "io/geo/crs/names.h"
 #include "io/geo/crs/reader.h"
 #include "io/geo/dem/dem_reader.h"
 #include "io/query/certificate/report_json.h"
@@ -25,6 +26,7 @@
 #include "io/query/mesh/diagnosis_json.h"
 #include "io/query/mesh/facts.h"
 #include "io/query/mesh/mend.h"
+#include "io/query/placed/measure_placed.h"
 #include "io/query/surface/mesh_input.h"
 #include "measure/mesh_distance.h"
 #include "python/bindings/arrays.h"
@@ -217,8 +219,24 @@ std::string measureMeshes(const MeshSource& first, const MeshSource& second, std
   });
 }
 
+/// Where a TIN is. What its file or its object says goes before what the caller states.
+Result<TinPlace> placeOfTin(const MeshFile& file, const std::string& name, const std::string& stated) {
+  if (!stated.empty()) {
+    if (const Result<OGRSpatialReference> crs = crsFromUser(stated); !crs)
+      return failure(ErrorCode::usage, crs.error().message, "tin_crs=" + stated);
+    if (compareCrs(stated, file.crsWkt) == CrsAgreement::different)
+      return failure(ErrorCode::usage,
+                     fmt::format("contradicts {}, which is in {}", name, crsName(file.crsWkt)),
+                     "tin_crs=" + stated);
+  }
+  return TinPlace{.crsWkt = file.crsWkt.empty() ? stated : file.crsWkt, .metresAbout = file.metresAbout};
+}
+
 /// A TIN against a DEM, as `arete measure --json` has it.
-std::string measureDem(const MeshSource& tin, const std::string& dem, const BuildRequest& request,
+/// @param ownCrs  of arrays: what their object says; may be empty
+/// @param tinCrs  what the caller says; may be empty
+std::string measureDem(const MeshSource& tin, const std::string& ownCrs, const std::string& tinCrs,
+                       const std::string& dem, const BuildRequest& request,
                        const std::optional<AskedRegion>& region, const std::string& expect, bool allowsNodata,
                        const py::object& progress) {
   const std::string name = nameOfSource(tin);
@@ -228,11 +246,14 @@ std::string measureDem(const MeshSource& tin, const std::string& dem, const Buil
     MeshFile file;
     if (arrays) {
       file.mesh = SurfaceMesh(std::move(*arrays));
+      file.crsWkt = ownCrs;
     } else {
       ARETE_TRY(file, readMesh(name, context));
     }
+    ARETE_TRY(const TinPlace place, placeOfTin(file, name, tinCrs));
+    warnings = file.warnings;
     ARETE_TRY(const DemRead read, readDem(dem, request.reading, context));
-    warnings = read.warnings;
+    for (const Warning& warning : read.warnings) warnings.push_back(warning);
     return std::visit(
         [&](const auto& field) -> Result<std::string> {
           std::vector<std::uint8_t> mask;
@@ -242,7 +263,14 @@ std::string measureDem(const MeshSource& tin, const std::string& dem, const Buil
           MeasureOptions options;
           options.mask = mask;
           options.planRounding = {file.frame.rounding.x, file.frame.rounding.y};
-          ARETE_TRY(const MeasureReport report, measure(file.mesh, field, options, context));
+          if (place.metresAbout && field.georeference.crsWkt.empty())
+            warnings.push_back({WarningCode::position,
+                                "the TIN is in metres about a place of a CRS, and the DEM has none: they are "
+                                "compared as if they were in one"});
+          ARETE_TRY(const MeasureReport report,
+                    isElsewhere(place, field.georeference)
+                        ? measureElsewhere(file.mesh, place, field, options, context)
+                        : measure(file.mesh, field, options, context));
           Json json = toJson(report, std::holds_alternative<RasterHeightfield>(read.heightfield));
           if (!expect.empty()) {
             ARETE_TRY(const StatedSize stated, parseStatedSize(expect, "expect"));
@@ -299,6 +327,10 @@ void defineMeshes(py::module_& module) {
       .def_readwrite("keep_borders", &DecimationRequest::keepsBorders)
       .def_readwrite("no_crossings", &DecimationRequest::forbidsCrossings);
   module.def("is_mesh_file", [](const std::string& path) { return isMeshFile(path); });
+  module.def("holds_crs", [](const std::string& path) {
+    const Result<MeshFormat> format = meshFormatOf(path);
+    return format && format->holds.holdsCrs;
+  });
   module.def("mesh_info", &meshInfo);
   module.def("repair", &repairMesh);
   module.def("decimate", &decimate);

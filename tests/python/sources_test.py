@@ -159,6 +159,27 @@ class Rasterio(Folder):
         with rasterio.open(path) as dataset, self.assertRaisesRegex(ValueError, "band=3"):
             arete.build(dataset, band=3)
 
+    def test_a_colour_image_is_refused_and_a_choice_said_as_of_its_path(self):
+        import rasterio
+
+        def answer(source):
+            with warnings.catch_warnings(record=True) as said:
+                warnings.simplefilter("always")
+                try:
+                    arete.build(source)
+                except RuntimeError as error:
+                    return "looks like a colour image" in str(error)
+            return sorted(one.message.code for one in said if isinstance(one.message, arete.AreteWarning))
+
+        for dtype, count, options in ((np.uint8, 3, {}), (np.uint8, 4, {"photometric": "rgb"}), (np.uint16, 3, {"photometric": "rgb"}),
+                                      (np.uint8, 1, {}), (np.int16, 2, {}), (np.float32, 3, {}), (np.uint8, 2, {"alpha": "yes"})):
+            with self.subTest(dtype=dtype, count=count):
+                path = self.write("any.tif", (hills() % 200).astype(dtype), count=count, **options)
+                with rasterio.open(path) as dataset:
+                    self.assertEqual(answer(dataset), answer(path))
+                    if count > 1:
+                        self.assertEqual(arete.build(dataset, band=1).shape, (24, 31))
+
     def test_scales_offsets_and_units_are_those_that_gdal_reads(self):
         import rasterio
 
