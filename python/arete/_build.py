@@ -60,7 +60,10 @@ def build(source: Any, *, transform: Any = None, crs: Any = None, nodata: Option
         _checks.warn("the array counts downwards (positive: down): its depths are negated", "heights")
     request.set_reading(None, "", "", "", "", None, vertical_unit or "", grid.is_depth if depth is None else depth,
                         [])
-    return Model(_arete.build_array(grid.heights, grid.transform, grid.crs, grid.vertical_unit, request, progress))
+    model = Model(_arete.build_array(grid.heights, grid.transform, grid.crs, grid.vertical_unit, request, progress),
+                  files=[grid.name, request.fixed_file])
+    model._axes = grid.axes
+    return model
 
 
 def build_points(source: Any, *, crs: Any = None, same_place: Optional[str] = None, nodata: Optional[float] = None,

@@ -40,6 +40,10 @@ def measure(mesh: Any, against: Any, *, expect: Optional[Size] = None, allow_cov
             _checks.whole("seed", seed, 0, 2**62) or 0, _checks.size_text("expect", expect), bool(both_ways), progress)))
     request = _arete.BuildRequest()
     depth = None if positive is None else _checks.word("positive", positive, ("up", "down")) == "down"
+    if not _checks.is_path(against) and not (isinstance(against, (list, tuple)) and against
+                                             and all(_checks.is_path(one) for one in against)):
+        raise TypeError(f"against is the path of a DEM, paths of one mosaic, or a mesh, not a {type(against).__name__}: "
+                        "Model.measure() compares with an array that a model was built from")
     paths: Sequence[str] = [os.fspath(against)] if _checks.is_path(against) else [os.fspath(one) for one in against]
     request.set_reading(_checks.whole("band", band, 1, 2**31 - 1), layer or "", z_field or "", same_place or "",
                         crs_text(crs), nodata, vertical_unit or "", depth, list(paths[1:]))

@@ -72,6 +72,10 @@ class Mesh:
         """
         from ._plot import plot_mesh
 
+        known = ("cmap", "vmin", "vmax", "edges", "colorbar", "title")
+        for name in options:
+            if name not in known:
+                raise TypeError(f"plot() has no option {name}: it has {', '.join(known)}")
         return plot_mesh(self, "height" if by is None else by, ax, **options)
 
     def to_meshio(self) -> Any:

@@ -14,6 +14,8 @@ _MOST_IN_SPACE = 50_000
 
 def new_axes(ax: Any, in_space: bool = False) -> Any:
     if ax is not None:
+        if not hasattr(ax, "add_patch"):
+            raise TypeError(f"ax={ax!r} is no axes of matplotlib")
         return ax
     from matplotlib import pyplot
 

@@ -26,6 +26,9 @@ def source_of(mesh: Any, triangles: Optional[ArrayLike]) -> Any:
     return mesh_of(mesh, triangles)
 
 
+_OPERATORS = ("measured", "qem", "lindstrom-turk", "half-edge", "vertex-pair", "face", "cluster")
+
+
 def _files_of(mesh: Any) -> List[str]:
     """The files that a mesh is made from."""
     if _checks.is_path(mesh):
@@ -62,15 +65,17 @@ def decimate(mesh: Any, triangles: Optional[ArrayLike] = None, *, max_triangles:
              cluster_vertices: str = "quadric", keep_borders: bool = False, no_crossings: bool = False,
              drop_parts: Optional[Size] = None, drop_attributes: Union[str, Sequence[str]] = (),
              progress: Progress = None) -> Mesh:
-    """Makes a mesh smaller, once, as `arete mesh decimate` does. Its `report` says what that came to.
+    """Makes a mesh smaller, once, as `arete mesh decimate` does. Its `report` says what that came to: "error" of "measured" is how
+    far a point of the source is from the result, and not the other way; Surface.measure() and measure() say both.
 
     max_triangles: how many at most, or "10%" of them. max_error: how far a point of the mesh may be from the result, or
         "0.5%" of the diagonal; of the operator "measured".
-    operator: "measured", the closest; "qem", "lindstrom-turk", "half-edge", "vertex-pair", "face" or "cluster".
+    operator: "measured", the closest for shape alone: of a file with attributes it keeps their seams, which others may leave
+        out; "qem", "lindstrom-turk", "half-edge", "vertex-pair", "face" or "cluster".
     queue, quadric_weight, cluster_vertices, no_crossings: of some operators (docs/topics/decimation.md).
     """
     request = _arete.DecimationRequest()
-    request.operator = str(operator)
+    request.operator = _checks.word("operator", str(operator), _OPERATORS)
     request.queue = str(queue)
     request.quadric_weight = str(quadric_weight)
     request.cluster_vertices = str(cluster_vertices)

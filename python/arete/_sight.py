@@ -178,7 +178,7 @@ def sight_of(verdicts: Sequence[str], rows: NDArray[np.float64], is_one: bool, f
         zone: Any = others[2]
         answer = Sight(verdicts[0], clearance, distance, None if np.isnan(x) else (x, y))
     else:
-        answer = Sight(np.array(verdicts), rows[:, 0].copy(), rows[:, 1].copy(), rows[:, 2:4].copy())
+        answer = Sight(np.array(verdicts, dtype=str), rows[:, 0].copy(), rows[:, 1].copy(), rows[:, 2:4].copy())
         azimuth, elevation, zone = rows[:, 4].copy(), rows[:, 5].copy(), rows[:, 6].copy()
     answer.azimuth, answer.elevation = azimuth, elevation
     if fresnel is not None:

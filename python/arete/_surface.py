@@ -49,6 +49,8 @@ class Surface(Stored):
 
         An error may be a percentage of the diagonal ("1%"), a number of triangles one of the finest.
         """
+        if camera is not None and not isinstance(camera, SurfaceCamera):
+            raise TypeError(f"camera={camera!r} is no arete.SurfaceCamera")
         inside = size_of("max_error", max_error, lambda: self.diagonal)
         outside: Any = size_of("outside_error", outside_error, lambda: self.diagonal)
         budget = count_of("max_triangles", max_triangles, lambda: self.finest_triangles)

@@ -56,6 +56,10 @@ std::string nameOfSource(const MeshSource& source) {
   return path ? *path : "arrays";
 }
 
+bool isOfArrays(const MeshSource& source) {
+  return !std::holds_alternative<std::string>(source);
+}
+
 /// Arrays are taken while Python's lock is held.
 std::optional<TriangleMesh> arraysOf(const MeshSource& source) {
   const auto* const arrays = std::get_if<std::tuple<Doubles, Indices>>(&source);
@@ -77,7 +81,7 @@ Result<MeshInput> inputOf(const std::string& name, std::optional<TriangleMesh> a
 std::string meshInfo(const MeshSource& source, bool findsCrossings, const py::object& progress) {
   const std::string name = nameOfSource(source);
   std::optional<TriangleMesh> arrays = arraysOf(source);
-  return call(progress, [&](const RunContext& context) -> Result<std::string> {
+  return callOn(isOfArrays(source), progress, [&](const RunContext& context) -> Result<std::string> {
     ARETE_TRY(const MeshInput input, inputOf(name, std::move(arrays), context));
     ARETE_TRY(const MeshFacts facts, meshFactsOf(input.file.mesh,
                                                  {.mostPlaces = std::numeric_limits<std::size_t>::max(),
@@ -105,30 +109,32 @@ Reported repairMesh(const MeshSource& source, const std::string& weld, std::uint
   const std::string name = nameOfSource(source);
   std::optional<TriangleMesh> arrays = arraysOf(source);
   Warnings warnings;
-  Reported reported = call(progress, [&](const RunContext& context) -> Result<Reported> {
-    ARETE_TRY(MeshInput input, inputOf(name, std::move(arrays), context));
-    warnings = input.file.warnings;
-    MendOptions options;
-    options.repair.mostHoleEdges = fillHoles;
-    options.repair.splitsSheets = splitsSheets;
-    if (!weld.empty()) {
-      ARETE_TRY(const StatedSize distance, parseStatedSize(weld, "weld"));
-      options.weld = distance.of(diagonalOf(input.file.mesh));
-    }
-    Result<MendedMesh> mended = mendMesh(input, options, context);
-    if (!mended && mended.error().culprit.empty()) mended.error().culprit = name;
-    if (!mended) return tl::unexpected(mended.error());
-    ARETE_TRY(const MeshDiagnosis diagnosis, diagnose(mended->repaired.mesh,
-                                                      {.mostPlaces = std::numeric_limits<std::size_t>::max(),
-                                                       .selfIntersections = false,
-                                                       .rounding = input.rounding},
-                                                      context));
-    for (const Warning& warning : input.file.warnings) warnings.push_back(warning);
-    Json report = {{"joinedAtSeams", input.joinedAtSeams}};
-    report.update(mendJson(*mended, input.rounding));
-    report["result"] = diagnosisJson(diagnosis, {});
-    return Reported(tinOf(std::move(input.file), std::move(mended->repaired.vertexOf)), report.dump());
-  });
+  Reported reported =
+      callOn(isOfArrays(source), progress, [&](const RunContext& context) -> Result<Reported> {
+        ARETE_TRY(MeshInput input, inputOf(name, std::move(arrays), context));
+        warnings = input.file.warnings;
+        MendOptions options;
+        options.repair.mostHoleEdges = fillHoles;
+        options.repair.splitsSheets = splitsSheets;
+        if (!weld.empty()) {
+          ARETE_TRY(const StatedSize distance, parseStatedSize(weld, "weld"));
+          options.weld = distance.of(diagonalOf(input.file.mesh));
+        }
+        Result<MendedMesh> mended = mendMesh(input, options, context);
+        if (!mended && mended.error().culprit.empty()) mended.error().culprit = name;
+        if (!mended) return tl::unexpected(mended.error());
+        ARETE_TRY(const MeshDiagnosis diagnosis,
+                  diagnose(mended->repaired.mesh,
+                           {.mostPlaces = std::numeric_limits<std::size_t>::max(),
+                            .selfIntersections = false,
+                            .rounding = input.rounding},
+                           context));
+        for (const Warning& warning : input.file.warnings) warnings.push_back(warning);
+        Json report = {{"joinedAtSeams", input.joinedAtSeams}};
+        report.update(mendJson(*mended, input.rounding));
+        report["result"] = diagnosisJson(diagnosis, {});
+        return Reported(tinOf(std::move(input.file), std::move(mended->repaired.vertexOf)), report.dump());
+      });
   warn(warnings);
   return reported;
 }
@@ -139,51 +145,52 @@ Reported decimate(const MeshSource& source, DecimationRequest request, const std
   const std::string name = nameOfSource(source);
   std::optional<TriangleMesh> arrays = arraysOf(source);
   Warnings warnings;
-  Reported reported = call(progress, [&](const RunContext& context) -> Result<Reported> {
-    if (!maxError.empty()) {
-      ARETE_TRY(request.maxError, parseStatedSize(maxError, "maxError"));
-    }
-    ARETE_TRY(MeshInput input, inputOf(name, std::move(arrays), context));
-    if (std::holds_alternative<std::string>(source)) ARETE_CHECK(warnOfGaps(input, context));
-    warnings = input.file.warnings;
-    MeshFile& file = input.file;
-    const std::size_t before = file.mesh.triangles.size();
-    if (before == 0) return failure(ErrorCode::invalidData, "has no faces to be decimated", name);
-    if (shareOfFaces > 0)
-      request.maxTriangles = static_cast<std::uint32_t>(shareOfFaces * static_cast<double>(before));
-    if (request.maxTriangles == 0u)
-      return failure(ErrorCode::usage, "is less than one triangle", "maxTriangles");
-    if (Status dropped = dropAttributes(file.mesh, dropNames); !dropped)
-      return failure(dropped.error().code, dropped.error().message,
-                     "drop_attributes=" + dropped.error().culprit);
-    SmallComponents left;
-    if (!dropParts.empty()) {
-      ARETE_TRY(const StatedSize least, parseStatedSize(dropParts, "dropParts"));
-      ARETE_TRY(left, withoutSmallComponents(file.mesh, least.of(diagonalOf(file.mesh))));
-      if (left.mesh.triangles.empty())
-        return failure(ErrorCode::usage, "leaves nothing: every component is smaller", "dropParts");
-      file.mesh = std::exchange(left.mesh, {});
-    }
-    ARETE_TRY(DecimatedOutcome outcome, decimateMesh(std::move(file.mesh), request, context));
-    if (outcome.dropsFlatNormals)
-      warnings.push_back(
-          {WarningCode::omitted, "normals of corners are left out: they belong to flat faces"});
-    for (const std::string& lost : outcome.lost)
-      warnings.push_back(
-          {WarningCode::omitted, fmt::format("{} cannot carry {}: left out", request.method, lost)});
-    if (!left.vertexOf.empty())
-      for (std::uint32_t& v : outcome.vertexOf) v = left.vertexOf[v];
-    Json report = {{"operator", request.method},
-                   {"trianglesBefore", before},
-                   {"triangles", outcome.mesh.triangles.size()},
-                   {"error", outcome.fit ? Json(outcome.fit->distance) : Json()},
-                   {"rms", outcome.fit ? Json(outcome.fit->rmsAfter) : Json()},
-                   {"isComplete", outcome.isComplete},
-                   {"selfIntersections", outcome.crossings ? Json(*outcome.crossings) : Json()},
-                   {"dropped", {{"components", left.components}, {"faces", left.triangles}}}};
-    file.mesh = std::move(outcome.mesh);
-    return Reported(tinOf(std::move(file), std::move(outcome.vertexOf)), report.dump());
-  });
+  Reported reported =
+      callOn(isOfArrays(source), progress, [&](const RunContext& context) -> Result<Reported> {
+        if (!maxError.empty()) {
+          ARETE_TRY(request.maxError, parseStatedSize(maxError, "maxError"));
+        }
+        ARETE_TRY(MeshInput input, inputOf(name, std::move(arrays), context));
+        if (std::holds_alternative<std::string>(source)) ARETE_CHECK(warnOfGaps(input, context));
+        warnings = input.file.warnings;
+        MeshFile& file = input.file;
+        const std::size_t before = file.mesh.triangles.size();
+        if (before == 0) return failure(ErrorCode::invalidData, "has no faces to be decimated", name);
+        if (shareOfFaces > 0)
+          request.maxTriangles = static_cast<std::uint32_t>(shareOfFaces * static_cast<double>(before));
+        if (request.maxTriangles == 0u)
+          return failure(ErrorCode::usage, "is less than one triangle", "maxTriangles");
+        if (Status dropped = dropAttributes(file.mesh, dropNames); !dropped)
+          return failure(dropped.error().code, dropped.error().message,
+                         "drop_attributes=" + dropped.error().culprit);
+        SmallComponents left;
+        if (!dropParts.empty()) {
+          ARETE_TRY(const StatedSize least, parseStatedSize(dropParts, "dropParts"));
+          ARETE_TRY(left, withoutSmallComponents(file.mesh, least.of(diagonalOf(file.mesh))));
+          if (left.mesh.triangles.empty())
+            return failure(ErrorCode::usage, "leaves nothing: every component is smaller", "dropParts");
+          file.mesh = std::exchange(left.mesh, {});
+        }
+        ARETE_TRY(DecimatedOutcome outcome, decimateMesh(std::move(file.mesh), request, context));
+        if (outcome.dropsFlatNormals)
+          warnings.push_back(
+              {WarningCode::omitted, "normals of corners are left out: they belong to flat faces"});
+        for (const std::string& lost : outcome.lost)
+          warnings.push_back(
+              {WarningCode::omitted, fmt::format("{} cannot carry {}: left out", request.method, lost)});
+        if (!left.vertexOf.empty())
+          for (std::uint32_t& v : outcome.vertexOf) v = left.vertexOf[v];
+        Json report = {{"operator", request.method},
+                       {"trianglesBefore", before},
+                       {"triangles", outcome.mesh.triangles.size()},
+                       {"error", outcome.fit ? Json(outcome.fit->distance) : Json()},
+                       {"rms", outcome.fit ? Json(outcome.fit->rmsAfter) : Json()},
+                       {"isComplete", outcome.isComplete},
+                       {"selfIntersections", outcome.crossings ? Json(*outcome.crossings) : Json()},
+                       {"dropped", {{"components", left.components}, {"faces", left.triangles}}}};
+        file.mesh = std::move(outcome.mesh);
+        return Reported(tinOf(std::move(file), std::move(outcome.vertexOf)), report.dump());
+      });
   warn(warnings);
   return reported;
 }
@@ -194,7 +201,8 @@ std::string measureMeshes(const MeshSource& first, const MeshSource& second, std
                           const py::object& progress) {
   const std::string names[] = {nameOfSource(first), nameOfSource(second)};
   std::optional<TriangleMesh> arrays[] = {arraysOf(first), arraysOf(second)};
-  return call(progress, [&](const RunContext& context) -> Result<std::string> {
+  const bool isArgument = isOfArrays(first) && isOfArrays(second);
+  return callOn(isArgument, progress, [&](const RunContext& context) -> Result<std::string> {
     TriangleMesh meshes[2];
     for (int i = 0; i < 2; ++i) {
       if (arrays[i]) {
