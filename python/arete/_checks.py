@@ -82,8 +82,18 @@ def files_of(paths: Iterable[str]) -> List[str]:
 def refuse_source(path: str, sources: Iterable[str]) -> None:
     """An output that is one of the files that it is made from, by whatever name or link, would destroy it."""
     for source in sources:
-        if os.path.abspath(path) == source or (os.path.exists(path) and os.path.exists(source) and os.path.samefile(path, source)):
+        if _is_same(path, source):
             raise ValueError(f"{path}: is the source {source}; writing would destroy it")
+
+
+def refuse_output(path: str, others: Iterable[str]) -> None:
+    """An output that is another one of the same call would be lost."""
+    if any(_is_same(path, other) for other in others):
+        raise ValueError(f"{path}: is written already, as another output of this call")
+
+
+def _is_same(path: str, other: str) -> bool:
+    return os.path.abspath(path) == other or (os.path.exists(path) and os.path.exists(other) and os.path.samefile(path, other))
 
 
 def refuse_other_than_amt(path: str) -> None:

@@ -105,10 +105,12 @@ class Tin(Mesh):
         Returns what the format cannot hold: ["the CRS"]. A file that is the source is refused.
         """
         name = os.fspath(path)
-        written = [one for one in (path, error_raster, map, None if isinstance(certificate, bool) else certificate)
-                   if one is not None]
-        for one in written:
-            _checks.refuse_source(os.fspath(one), self._files)
+        written: List[str] = []
+        stated = os.path.splitext(name)[0] + ".certificate.json" if certificate is True else certificate or None
+        for one in (os.fspath(other) for other in (path, error_raster, map, stated) if other is not None):
+            _checks.refuse_source(one, self._files)
+            _checks.refuse_output(one, written)
+            written.append(os.path.abspath(one))
         to_crs = crs_text(to_crs)
         names = _checks.names_of(drop_attributes)
         is_raster = name.lower().endswith((".tif", ".tiff"))
@@ -126,7 +128,7 @@ class Tin(Mesh):
         files = _arete.ExportFiles()
         files.output = name
         if certificate:
-            files.certificate = os.path.splitext(name)[0] + ".certificate.json" if certificate is True else os.fspath(certificate)
+            files.certificate = os.fspath(stated or "")
         files.error_raster = "" if error_raster is None else os.fspath(error_raster)
         files.map = "" if map is None else os.fspath(map)
         files.drop_attributes = names

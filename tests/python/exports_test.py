@@ -205,6 +205,16 @@ class Terrain(Folder):
         self.assertEqual(self.bytes_of("dem.tif"), before)
         self.assertFalse(os.path.exists(self.path("x.tif")))
 
+    def test_two_outputs_are_two_files(self):
+        tin = self.model.cut(max_error=20)
+        for name, options in (("t.tif", {"error_raster": "t.tif"}), ("t.ply", {"certificate": "t.ply"}),
+                              ("t.ply", {"error_raster": "e.tif", "certificate": "./e.tif"}),
+                              ("t.ply", {"certificate": True, "error_raster": "t.certificate.json"})):
+            stated = {key: value if value is True else self.path(value) for key, value in options.items()}
+            with self.subTest(name, **options), self.assertRaisesRegex(ValueError, "another output"):
+                tin.save(self.path(name), **stated)
+        self.assertFalse(os.path.exists(self.path("t.ply")))
+
     def test_a_mesh_is_not_written_over(self):
         arete.build_surface(*ball()).cut(max_error=0).save(self.path("ball.obj"))
         before = self.bytes_of("ball.obj")
