@@ -65,9 +65,9 @@ def decimate(mesh: Any, triangles: Optional[ArrayLike] = None, *, max_triangles:
              cluster_vertices: str = "quadric", keep_borders: bool = False, no_crossings: bool = False,
              drop_parts: Optional[Size] = None, drop_attributes: Union[str, Sequence[str]] = (),
              progress: Progress = None) -> Mesh:
-    """Makes a mesh smaller, once, as `arete mesh decimate` does. Its `report` says what that came to: "error" of "measured" is how
-    far a point of the source is from the result, and not the other way; Surface.measure() and measure() say both. "is_complete" is False where max_triangles ended "measured" before
-    max_error was reached, which is 0 unless it is stated.
+    """Makes a mesh smaller, once, as `arete mesh decimate` does. Its `report` says what that came to. "error" of "measured" is
+    how far a point of the source is from the result, and not the other way: measure() says both. "is_complete" is False
+    where max_triangles ended "measured" before max_error was reached, which is 0 unless it is stated.
 
     max_triangles: how many at most, or "10%" of them. max_error: how far a point of the mesh may be from the result, or
         "0.5%" of the diagonal; of the operator "measured".
