@@ -137,8 +137,12 @@ def mesh_of(mesh: Any, triangles: Any) -> Tuple[NDArray[np.float64], NDArray[np.
         raise ValueError("a coordinate is no float64 number: nothing is rounded")
     if not np.isfinite(vertices).all():
         raise ValueError(f"vertex {int(np.argwhere(~np.isfinite(vertices))[0][0])} is not finite")
-    if corners.dtype.kind not in "iu" or (corners.size and (corners.min() < 0 or corners.max() >= len(vertices))):
-        raise ValueError("the triangles are no numbers of vertices")
+    if corners.dtype.kind not in "iu":
+        raise ValueError(f"the triangles are no numbers of vertices: they are of type {corners.dtype}, not whole numbers")
+    if corners.size and (corners.min() < 0 or corners.max() >= len(vertices)):
+        wrong = int(np.argwhere(((corners < 0) | (corners >= len(vertices))).any(axis=1))[0][0])
+        raise ValueError(f"the triangles are no numbers of vertices: triangle {wrong} has one that is not from 0 to "
+                         f"{len(vertices) - 1}")
     return vertices, np.ascontiguousarray(corners, dtype=np.uint32)
 
 

@@ -49,7 +49,7 @@ def build(source: Any, *, transform: Any = None, crs: Any = None, nodata: Option
         stated = _checks.number("nodata", nodata) if nodata is None or nodata == nodata else nodata
         request.set_reading(_checks.whole("band", band, 1, 2**31 - 1), layer or "", z_field or "", same_place or "",
                             crs_text(crs), stated, vertical_unit or "", depth, paths[1:])
-        return Model(_arete.build_file(paths[0], request, progress))
+        return Model(_arete.build_file(paths[0], request, progress), files=[*paths, request.fixed_file])
     for name, value in (("layer", layer), ("z_field", z_field), ("same_place", same_place)):
         if value is not None:
             raise TypeError(f"{name} is for files of points; arete.build_points() takes points")
@@ -60,7 +60,10 @@ def build(source: Any, *, transform: Any = None, crs: Any = None, nodata: Option
         _checks.warn("the array counts downwards (positive: down): its depths are negated", "heights")
     request.set_reading(None, "", "", "", "", None, vertical_unit or "", grid.is_depth if depth is None else depth,
                         [])
-    return Model(_arete.build_array(grid.heights, grid.transform, grid.crs, grid.vertical_unit, request, progress))
+    model = Model(_arete.build_array(grid.heights, grid.transform, grid.crs, grid.vertical_unit, request, progress),
+                  files=[grid.name, request.fixed_file])
+    model._axes = grid.axes
+    return model
 
 
 def build_points(source: Any, *, crs: Any = None, same_place: Optional[str] = None, nodata: Optional[float] = None,
@@ -84,7 +87,7 @@ def build_points(source: Any, *, crs: Any = None, same_place: Optional[str] = No
 
     if _checks.is_path(source):
         read_as("")
-        return Model(_arete.build_point_file(os.fspath(source), request, progress))
+        return Model(_arete.build_point_file(os.fspath(source), request, progress), files=[os.fspath(source)])
     if layer is not None:
         raise TypeError("layer is for files")
     rows, own = points_of(source, z_field)

@@ -74,6 +74,36 @@ def is_path(source: Any) -> bool:
     return isinstance(source, (str, os.PathLike))
 
 
+def files_of(paths: Iterable[str]) -> List[str]:
+    """Those that are files now, by names that hold wherever the process goes."""
+    return [os.path.abspath(path) for path in paths if path and os.path.exists(path)]
+
+
+def refuse_source(path: str, sources: Iterable[str]) -> None:
+    """An output that is one of the files that it is made from, by whatever name or link, would destroy it."""
+    for source in sources:
+        if _is_same(path, source):
+            raise ValueError(f"{path}: is the source {source}; writing would destroy it")
+
+
+def refuse_output(path: str, others: Iterable[str]) -> None:
+    """An output that is another one of the same call would be lost."""
+    if any(_is_same(path, other) for other in others):
+        raise ValueError(f"{path}: is written already, as another output of this call")
+
+
+def _is_same(path: str, other: str) -> bool:
+    return os.path.abspath(path) == other or (os.path.exists(path) and os.path.exists(other) and os.path.samefile(path, other))
+
+
+def refuse_other_than_amt(path: str) -> None:
+    """A model has one format, whose name says it."""
+    extension = os.path.splitext(path)[1]
+    if extension.lower() != ".amt":
+        stated = f", not {extension}; the save() of a cut writes other formats" if extension else f", as {path}.amt"
+        raise ValueError(f"{path}: the name of a model must end in .amt{stated}")
+
+
 def warn(sentence: str, code: str, stacklevel: int = 3) -> None:
     """A warning of the line that called the function that calls this."""
     warnings.warn(AreteWarning(sentence, code), stacklevel=stacklevel)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arete, _checks
+from ._arrays import crs_text
 from ._mesh import Mesh
 from ._mesh import PathLike as PathLike
 from ._mesh import Progress as Progress
@@ -60,7 +61,7 @@ class Tin(Mesh):
     """The triangles of a cut. Arrays are read-only views of its memory, and keep it alive."""
 
     def __init__(self, tin: _arete.Tin, export: Optional["Export"] = None):
-        super().__init__(tin)
+        super().__init__(tin, None, () if export is None else export.files)
         self._export = export
 
     @property
@@ -85,7 +86,7 @@ class Tin(Mesh):
 
     def save(self, path: PathLike, progress: Progress = None, *, certificate: Union[bool, PathLike, None] = None,
              error_raster: Optional[PathLike] = None, map: Optional[PathLike] = None,
-             drop_attributes: Union[str, Sequence[str]] = (), both_ways: bool = False, to_crs: Optional[str] = None,
+             drop_attributes: Union[str, Sequence[str]] = (), both_ways: bool = False, to_crs: Any = None,
              metric: bool = False) -> List[str]:
         """Writes a mesh in the format that the name says, with its CRS, unit, errors and, of a surface, attributes; of a
         raster also .tif, the TIN sampled on the source's grid.
@@ -98,16 +99,23 @@ class Tin(Mesh):
         error_raster: of terrain, a GeoTIFF of the TIN minus the DEM. map: of a surface, a CSV of the vertices and faces of
             the source. drop_attributes: of a surface, names to leave out. both_ways: measures a surface that way too.
 
-        Terrain is led into another CRS by to_crs ("EPSG:32632", WKT, or "utm", the zone of its middle), or by metric into
+        Terrain is led into another CRS by to_crs (a CRS as build() takes it, or "utm", the zone of its middle), or by metric into
         metres to the east, north and up. Edges are split where bending adds more than a tenth of the error.
 
-        Returns what the format cannot hold: ["the CRS"].
+        Returns what the format cannot hold: ["the CRS"]. A file that is the source is refused.
         """
         name = os.fspath(path)
+        written: List[str] = []
+        stated = os.path.splitext(name)[0] + ".certificate.json" if certificate is True else certificate or None
+        for one in (os.fspath(other) for other in (path, error_raster, map, stated) if other is not None):
+            _checks.refuse_source(one, self._files)
+            _checks.refuse_output(one, written)
+            written.append(os.path.abspath(one))
+        to_crs = crs_text(to_crs)
         names = _checks.names_of(drop_attributes)
         is_raster = name.lower().endswith((".tif", ".tiff"))
         if not (certificate or error_raster or map or names or both_ways or is_raster):
-            return list(self._tin.save(name, to_crs or "", bool(metric), progress))
+            return list(self._tin.save(name, to_crs, bool(metric), progress))
         is_surface = len(self.source_vertices) > 0
         for option, value in (("map", map), ("drop_attributes", names), ("both_ways", both_ways)):
             if value and not is_surface:
@@ -120,17 +128,17 @@ class Tin(Mesh):
         files = _arete.ExportFiles()
         files.output = name
         if certificate:
-            files.certificate = os.path.splitext(name)[0] + ".certificate.json" if certificate is True else os.fspath(certificate)
+            files.certificate = os.fspath(stated or "")
         files.error_raster = "" if error_raster is None else os.fspath(error_raster)
         files.map = "" if map is None else os.fspath(map)
         files.drop_attributes = names
         files.both_ways = both_ways
-        files.to_crs = to_crs or ""
+        files.to_crs = to_crs
         files.metric = metric
         return self._export.write(files, progress)
 
-    def __reduce__(self) -> Tuple[Callable[..., Any], Tuple[Any, ...]]:
-        return _tin_of, self._parts()
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return _tin_of, self._parts(), {"_files": self._files}
 
     def __repr__(self) -> str:
         return f"<arete.Tin of {counted(len(self.triangles), 'triangle', 'triangles')}, error {self.error:g}>"
@@ -147,6 +155,8 @@ class Export:
     has_deadline: bool
     check_options: Callable[[], str] = str
     """Further arguments of measure(), by which the export is checked."""
+    files: Sequence[str] = ()
+    """What must not be written over: the files of the source, and that of the model."""
 
     def write(self, files: _arete.ExportFiles, progress: Progress) -> List[str]:
         if self.has_deadline:
@@ -154,8 +164,14 @@ class Export:
         files.model = self.model
         if files.certificate and all(os.path.exists(source) or "://" in source for source in self.sources):
             against = repr(self.sources[0]) if len(self.sources) == 1 else repr(list(self.sources))
+            place = ""
             files.check_before = f"arete.measure({files.output!r}, {against}, expect="
-            files.check_behind = self.check_options() + ")"
+            # An STL has no place for a CRS, and which zone "utm" was is not known to measure().
+            if files.to_crs and not _arete.holds_crs(files.output):
+                place = f", tin_crs={files.to_crs!r}"
+                if files.to_crs.lower() == "utm":
+                    files.check_before = ""
+            files.check_behind = self.check_options() + place + ")"
         report = report_of(self.extract(files, progress))
         if report.get("kept") is False:
             raise RuntimeError(f"{files.output}: the measurement contradicts the promised error; the files are written")
@@ -248,9 +264,22 @@ class Stored:
 
     _path: Optional[str]
 
-    def __init__(self, model: Union[_arete.Terrain, _arete.Surface], path: Optional[str] = None):
+    def __init__(self, model: Union[_arete.Terrain, _arete.Surface], path: Optional[str] = None,
+                 files: Sequence[str] = ()):
+        if not isinstance(model, (_arete.Terrain, _arete.Surface)):
+            raise TypeError("a model is made by arete.build(), build_points(), build_surface() and open()")
         self._stored = model
         self._path = path
+        # A surface knows the name of its source without the folder.
+        known = [model.source, *model.other_files()] if isinstance(model, _arete.Terrain) else []
+        self._sources = _checks.files_of([*files, *known])
+
+    def _name_to_save(self, path: PathLike) -> str:
+        """Of an .amt file that is not what the model was built from."""
+        name = os.fspath(path)
+        _checks.refuse_other_than_amt(name)
+        _checks.refuse_source(name, self._sources)
+        return name
 
     @property
     def crs(self) -> Optional[str]:
@@ -264,7 +293,7 @@ class Stored:
 
     @property
     def finest_triangles(self) -> int:
-        """Triangles of the cut without error."""
+        """Triangles of the source, of which nothing is left out. cut(max_error=0) has fewer where flat parts need none."""
         return self._stored.finest_triangle_count
 
     def info(self) -> Dict[str, Any]:
@@ -276,12 +305,15 @@ class Stored:
 
         return html_of_model(self)
 
-    def __reduce__(self) -> Tuple[Callable[[str], Any], Tuple[str]]:
+    def __reduce__(self) -> Tuple[Callable[..., Any], Tuple[Any, ...]]:
         if self._path is None:
             raise TypeError("a model is pickled by its file: save() it first")
-        from ._files import open as open_model
+        return _reopened, (self._path, self._content())
 
-        return open_model, (self._path,)
+    def _content(self) -> Tuple[Any, ...]:
+        """What another model in the same file differs in."""
+        facts = self.info()
+        return tuple(facts.get(name) for name in ("kind", "source_checksum", "source_faces", "vertices", "triangles"))
 
 
 def plot_cut(model: Any, by: Optional[str], ax: Any, max_triangles: Union[int, str], options: Dict[str, Any]) -> Any:
@@ -295,6 +327,15 @@ def plot_cut(model: Any, by: Optional[str], ax: Any, max_triangles: Union[int, s
     drawn.setdefault("title", f"{counted(len(tin.triangles), 'triangle', 'triangles')}, error {tin.error:.3g} "
                               f"{tin.vertical_unit}".rstrip())
     return tin.plot(by, ax, **drawn)
+
+
+def _reopened(path: str, content: Tuple[Any, ...]) -> Any:
+    from ._files import open as open_model
+
+    model = open_model(path)
+    if model._content() != content:
+        raise RuntimeError(f"{path}: holds another model than the one that was pickled")
+    return model
 
 
 def _tin_of(*parts: Any) -> Tin:

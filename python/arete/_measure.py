@@ -19,7 +19,7 @@ def measure(mesh: Any, against: Any, *, expect: Optional[Size] = None, allow_cov
             both_ways: bool = False,
             band: Optional[int] = None, layer: Optional[str] = None, z_field: Optional[str] = None,
             same_place: Optional[str] = None, nodata: Optional[float] = None, vertical_unit: Optional[str] = None,
-            positive: Optional[str] = None, crs: Any = None, progress: Progress = None) -> Dict[str, Any]:
+            positive: Optional[str] = None, crs: Any = None, tin_crs: Any = None, progress: Progress = None) -> Dict[str, Any]:
     """How far a mesh is from a DEM, at every sample, or from another mesh, in space, as `arete measure` finds it. The answer
     has the names of Model.measure(), or those of Surface.measure() with "from_first" and "from_second".
 
@@ -29,20 +29,30 @@ def measure(mesh: Any, against: Any, *, expect: Optional[Size] = None, allow_cov
         meshes it is asked of the points of the second, with both_ways of all.
     region, region_crs, distance: of a DEM, where its samples count, as for cut(). allow_covered_nodata: triangles over NODATA
         break no promise. samples, seed: between meshes. band and so on: how the DEM is read, as for build().
+    A mesh in another CRS than the DEM, or in metres (save() with to_crs or metric), is measured where it is, as its file says;
+        tin_crs says it where the file cannot (an STL).
     """
     if _is_mesh(against):
+        if tin_crs is not None:
+            raise TypeError("tin_crs is for a DEM: distances between meshes are in their own coordinates")
         return _between_meshes(report_of(_arete.measure_meshes(
             source_of(mesh, None), source_of(against, None), _checks.whole("samples", samples, 0, 2**62) or 0,
             _checks.whole("seed", seed, 0, 2**62) or 0, _checks.size_text("expect", expect), bool(both_ways), progress)))
     request = _arete.BuildRequest()
     depth = None if positive is None else _checks.word("positive", positive, ("up", "down")) == "down"
+    if not _checks.is_path(against) and not (isinstance(against, (list, tuple)) and against
+                                             and all(_checks.is_path(one) for one in against)):
+        raise TypeError(f"against is the path of a DEM, paths of one mosaic, or a mesh, not a {type(against).__name__}: "
+                        "Model.measure() compares with an array that a model was built from")
     paths: Sequence[str] = [os.fspath(against)] if _checks.is_path(against) else [os.fspath(one) for one in against]
     request.set_reading(_checks.whole("band", band, 1, 2**31 - 1), layer or "", z_field or "", same_place or "",
                         crs_text(crs), nodata, vertical_unit or "", depth, list(paths[1:]))
     # What has no CRS of its own is in that of the DEM, which is not known here.
     asked = region_of(region, crs_text(crs), distance, region_crs)
-    return _against_dem(report_of(_arete.measure_dem(source_of(mesh, None), paths[0], request, asked, _checks.size_text("expect", expect),
-                                        bool(allow_covered_nodata), progress)))
+    own = mesh.crs or "" if isinstance(mesh, Mesh) else ""
+    return _against_dem(report_of(_arete.measure_dem(
+        source_of(mesh, None), own, crs_text(tin_crs), paths[0], request, asked, _checks.size_text("expect", expect),
+        bool(allow_covered_nodata), progress)))
 
 
 def _promise_of(report: Dict[str, Any]) -> Dict[str, Any]:

@@ -2,12 +2,12 @@
 """A triangle mesh: its arrays, its files, its pictures, and what it is to other modules."""
 
 import os
-from typing import Any, Callable, Dict, List, Optional, Tuple, Union
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _arete
+from . import _arete, _checks
 from ._sizes import counted
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -17,8 +17,9 @@ Progress = Optional[Callable[[str, float], object]]
 class Mesh:
     """A triangle mesh. Arrays are read-only views of its memory, and keep it alive."""
 
-    def __init__(self, mesh: _arete.Tin, report: Optional[Dict[str, Any]] = None):
+    def __init__(self, mesh: _arete.Tin, report: Optional[Dict[str, Any]] = None, files: Sequence[str] = ()):
         self._tin = mesh
+        self._files = list(files)
         self.report = report
         """What repair() or decimate() did; None of other meshes."""
 
@@ -50,9 +51,11 @@ class Mesh:
     def save(self, path: PathLike, progress: Progress = None) -> List[str]:
         """Writes a mesh in the format that the name says, with its CRS, unit and attributes.
 
-        Returns what the format cannot hold: ["the CRS"].
+        Returns what the format cannot hold: ["the CRS"]. A file that is the source is refused.
         """
-        return list(self._tin.save(os.fspath(path), "", False, progress))
+        name = os.fspath(path)
+        _checks.refuse_source(name, self._files)
+        return list(self._tin.save(name, "", False, progress))
 
     def slopes(self) -> NDArray[np.float64]:
         """(m,): how steep each triangle is, in degrees from the horizontal, on the ground: degrees and feet are taken as
@@ -69,6 +72,10 @@ class Mesh:
         """
         from ._plot import plot_mesh
 
+        known = ("cmap", "vmin", "vmax", "edges", "colorbar", "title")
+        for name in options:
+            if name not in known:
+                raise TypeError(f"plot() has no option {name}: it has {', '.join(known)}")
         return plot_mesh(self, "height" if by is None else by, ax, **options)
 
     def to_meshio(self) -> Any:
@@ -105,8 +112,8 @@ class Mesh:
         return (np.array(tin.vertices), np.array(tin.triangles), np.array(tin.errors), tin.error, tin.is_complete,
                 tin.pixels, tin.crs_wkt, tin.file_parts, np.array(tin.source_vertices))
 
-    def __reduce__(self) -> Tuple[Callable[..., Any], Tuple[Any, ...]]:
-        return _mesh_of, (self.report, *self._parts())
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return _mesh_of, (self.report, *self._parts()), {"_files": self._files}
 
     def __repr__(self) -> str:
         return f"<arete.Mesh of {counted(len(self.triangles), 'triangle', 'triangles')}>"

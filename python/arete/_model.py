@@ -24,9 +24,11 @@ from ._sizes import Size, count_of, counted, size_of
 class Model(Stored):
     """The multitriangulation of a terrain."""
 
-    def __init__(self, terrain: _arete.Terrain, path: Optional[str] = None):
-        super().__init__(terrain, path)
+    def __init__(self, terrain: _arete.Terrain, path: Optional[str] = None, files: Sequence[str] = ()):
+        super().__init__(terrain, path, files)
         self._terrain = terrain
+        self._axes: Any = None
+        """Of what was built from an xarray.DataArray: its own coordinates."""
 
     def cut(self, max_error: Optional[Size] = None, max_triangles: Union[int, str, None] = None, region: Any = None,
             outside_error: Size = math.inf, camera: Optional[Camera] = None, pixel_error: Optional[float] = None,
@@ -49,12 +51,14 @@ class Model(Stored):
         order: what is refined first under max_triangles or a deadline: "worst", "breadth", "depth", or "two-queues".
         method: "saturated" takes a few more triangles, sooner.
         fit: moves the heights of the vertices: "triangles" for fewer triangles within max_error, "error" for a smaller
-            error of as many, "unbiased" for a mean error of 0 of as many. What that comes to is certain once measure()
+            error of as many, "unbiased" for a mean error near 0 of as many. What that comes to is certain once measure()
             has found it.
 
         An error may be a percentage of the relief ("1%": of the highest minus the lowest sample), a number of triangles one of
         the finest.
         """
+        if camera is not None and not isinstance(camera, Camera):
+            raise TypeError(f"camera={camera!r} is no arete.Camera")
         inside, outside = self._error("max_error", max_error), self._error("outside_error", outside_error)
         budget = count_of("max_triangles", max_triangles, lambda: self.finest_triangles)
         if where is not None and region is not None:
@@ -94,7 +98,8 @@ class Model(Stored):
             return "".join(f", {name}={value!r}" for name, value in stated.items() if value is not None)
 
         sources = [self._terrain.source, *self._terrain.other_files()]
-        return Tin(tin, Export(extract, sources, self._path or "", deadline is not None, check_options))
+        kept = [*self._sources, *([] if self._path is None else [self._path])]
+        return Tin(tin, Export(extract, sources, self._path or "", deadline is not None, check_options, kept))
 
     def _region(self, region: Any, distance: Any, region_crs: Any, where: Optional[Where]) -> AskedRegion:
         if where is None:
@@ -160,6 +165,8 @@ class Model(Stored):
             raise ValueError("clutter_free needs clutter")
         ends = [self._ends(name, end, lonlat) for name, end in (("observer", observer), ("target", target))]
         is_one = ends[0].ndim == 1 and ends[1].ndim == 1
+        if len({len(end) for end in ends if end.ndim == 2} - {1}) > 1:
+            raise ValueError(f"there are {len(ends[0])} rows of observer and {len(ends[1])} of target: as many, or one of either")
         first, second = np.broadcast_arrays(np.atleast_2d(ends[0]), np.atleast_2d(ends[1]))
         heights = os.fspath(clutter) if isinstance(clutter, (str, os.PathLike)) else repr(number("clutter", clutter, 0))
         if clutter is None:
@@ -221,11 +228,16 @@ class Model(Stored):
         radius, min_distance: metres on the ground. azimuth: from, to, clockwise. elevation: from, to. like: the path of a
         raster whose grid the answer has.
         mode: "height": the least height that is seen; "horizon": its elevation in degrees; of several "count": how many see
-        it; "server": the nearest of them, from 1 (65533 unknown, 65534 undecided, 65535 outside).
+        it; "server": the nearest of them, from 1; of both 0 is hidden, 65533 unknown, 65534 undecided, 65535 outside. The
+        `answers` of a viewshed name them.
         """
         ends = np.atleast_2d(self._ends("observer", observer, lonlat))
+        if not radius > 0:
+            raise ValueError(f"radius={radius!r} is not above 0")
         ranges = [None if one is None else numbers_of(name, one, 2)
                   for name, one in (("azimuth", azimuth), ("elevation", elevation))]
+        if ranges[0] is not None and abs(ranges[0][1] - ranges[0][0]) > 360:
+            raise ValueError(f"azimuth={azimuth!r} is more than a turn")
         cells, transform, crs = self._terrain.viewshed(
             ends.tolist(), float(target_height), float(radius), number("min_distance", min_distance, 0) or 0, ranges[0],
             ranges[1], mode, "" if like is None else os.fspath(like), self._tolerance(max_error), method,
@@ -282,11 +294,15 @@ class Model(Stored):
         """An xarray.DataArray of heights at the middles of pixels: of the source's grid, or of square cells (the grid that
         GDAL's driver has with CELL).
 
-        It has the dimensions y and x, the CRS in its attribute "crs", and .rio if rioxarray is imported.
+        It has the dimensions y and x, the CRS in its attribute "crs", and .rio if rioxarray is imported. Of a model that was
+        built from an xarray.DataArray it has the coordinates of that, to the bit, and its names of the dimensions. Heights are
+        float64, whatever the source had, and NaN where there are none.
         """
         import xarray
 
         transform, shape = self.transform, self.shape
+        if transform is None and shape is not None:
+            transform = (0, 1, 0, shape[0], 0, -1)  # where height() has an array without a place
         if cell is None and (transform is None or shape is None or transform[2] != 0 or transform[4] != 0):
             raise ValueError("the source has no grid along x and y: state a cell")
         if cell is None:
@@ -294,7 +310,11 @@ class Model(Stored):
             left, step_x, top, step_y = transform[0], transform[1], transform[3], transform[5]
             columns, rows = shape[1], shape[0]
         else:
+            if not (number("cell", cell) or 0) > 0:
+                raise ValueError(f"cell={cell!r} is not above 0")
             columns, rows, of_cells = self._terrain.grid_of(float(cell))
+            if columns * rows > 2**40:
+                raise MemoryError(f"cell={cell!r} makes {rows} x {columns} cells, more than memory holds")
             left, step_x, top, step_y = of_cells[0], of_cells[1], of_cells[3], of_cells[5]
         x = left + step_x * (np.arange(columns) + 0.5)
         y = top + step_y * (np.arange(rows) + 0.5)
@@ -303,16 +323,23 @@ class Model(Stored):
         if cell is None and not is_source:
             samples, alone = self._terrain.isolated()
             heights[np.divmod(samples, self._terrain.columns)] = alone
-        array = xarray.DataArray(heights, dims=("y", "x"), coords={"y": y, "x": x}, name="height")
+        names: Tuple[Any, Any] = ("y", "x")
+        coordinates: Dict[Any, Any] = {"y": y, "x": x}
+        if cell is None and self._axes is not None:
+            names = (self._axes[0].dims[0], self._axes[1].dims[0])
+            coordinates = dict(zip(names, self._axes))
+        array = xarray.DataArray(heights, dims=names, coords=coordinates, name="height")
         array.attrs.update({key: text for key, text in (("crs", self.crs), ("units", self.vertical_unit)) if text})
         array.attrs["transform"] = (step_x, 0.0, left, 0.0, step_y, top)
         if self.crs and hasattr(array, "rio"):
+            if names != ("y", "x"):
+                array = array.rio.set_spatial_dims(y_dim=names[0], x_dim=names[1])
             array = array.rio.write_crs(self.crs)
         return array
 
     def save(self, path: PathLike, packed: bool = False, progress: Progress = None) -> None:
-        """Writes the .amt file, whole or not at all."""
-        name = os.fspath(path)
+        """Writes the .amt file, whole or not at all. Another ending, or the file of the source, is refused."""
+        name = self._name_to_save(path)
         self._terrain.save(name, packed, progress)
         self._path = os.path.abspath(name)
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures by matplotlib. The ramps of colours grow lighter, or darker, from one end to the other."""
 
-from typing import Any, Optional, Sequence, Tuple
+from typing import Any, Dict, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -14,6 +14,8 @@ _MOST_IN_SPACE = 50_000
 
 def new_axes(ax: Any, in_space: bool = False) -> Any:
     if ax is not None:
+        if not hasattr(ax, "add_patch"):
+            raise TypeError(f"ax={ax!r} is no axes of matplotlib")
         return ax
     from matplotlib import pyplot
 
@@ -134,7 +136,7 @@ def plot_profile(profile: Any, ax: Any = None, color: Any = "saddlebrown") -> An
 
 
 def plot_viewshed(viewshed: Any, ax: Any = None, cmap: Any = None, colorbar: bool = True) -> Any:
-    from matplotlib import colors
+    from matplotlib import colors, ticker
 
     ax = new_axes(ax)
     cells = np.asarray(viewshed)
@@ -152,12 +154,28 @@ def plot_viewshed(viewshed: Any, ax: Any = None, cmap: Any = None, colorbar: boo
         if cells.dtype.kind == "u":
             numbers[cells >= 65533] = np.nan
         numbers[~np.isfinite(numbers)] = np.nan
-        drawn = _draw_grid(numbers, viewshed, ax, cmap=cmap or "viridis")
+        whole = cells.dtype.kind == "u" and bool(np.isfinite(numbers).any())
+        drawn = _draw_grid(numbers, viewshed, ax, **_whole_colours(numbers, cmap) if whole else {"cmap": cmap or "viridis"})
         if colorbar:
-            ax.figure.colorbar(drawn, ax=ax, label=viewshed.label)
+            bar = ax.figure.colorbar(drawn, ax=ax, label=viewshed.label)
+            if whole:
+                bar.locator = ticker.MaxNLocator(nbins=10, integer=True)
+                bar.minorticks_off()
+                bar.update_ticks()
     for x, y in viewshed.observers:
         ax.plot(x, y, marker="^", color="red", markeredgecolor="white", markersize=7, linestyle="none")
     return ax
+
+
+def _whole_colours(numbers: Any, cmap: Any) -> Dict[str, Any]:
+    """A colour for each whole number from 0, as many as a reader tells apart."""
+    from matplotlib import cm, colors
+
+    most = int(np.nanmax(numbers))
+    if most > 30:
+        return {"cmap": cmap or "viridis", "vmin": 0, "vmax": most}
+    ramp = cm.ScalarMappable(colors.Normalize(0, max(most, 1)), cmap or "viridis").to_rgba(np.arange(most + 1))
+    return {"cmap": colors.ListedColormap(ramp), "vmin": -0.5, "vmax": most + 0.5}
 
 
 _CELLS = {255: "#fde725", 0: "#3b3b6d", 100: "#b0b0b0", 200: "#e08214", 1: "#ffffff"}

@@ -178,6 +178,10 @@ def line_of(line: Any, most: int = 2) -> NDArray[np.float64]:
         if geometry.get("type") != "LineString":
             raise ValueError(f"a line is a LineString, not a {geometry.get('type')}")
         line = [place[:2] for place in geometry["coordinates"]]
+    if is_path(line):
+        raise TypeError("a line is rows of x, y or a line of shapely, not a path: geopandas reads files")
+    if isinstance(line, (list, tuple)) and len({len(row) for row in line if hasattr(row, "__len__")}) > 1:
+        raise ValueError("the rows of a line have different lengths: x, y of all, or x, y, height of both")
     places = np.ascontiguousarray(unmasked_places(line, "place"))
     if places.ndim != 2 or not 2 <= places.shape[1] <= most or len(places) < 2:
         raise ValueError("a line is two or more rows of x, y")

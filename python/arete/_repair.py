@@ -2,7 +2,7 @@
 """Meshes examined, mended and made smaller, of files and of arrays."""
 
 import os
-from typing import Any, Dict, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 from numpy.typing import ArrayLike
 
@@ -26,6 +26,16 @@ def source_of(mesh: Any, triangles: Optional[ArrayLike]) -> Any:
     return mesh_of(mesh, triangles)
 
 
+_OPERATORS = ("measured", "qem", "lindstrom-turk", "half-edge", "vertex-pair", "face", "cluster")
+
+
+def _files_of(mesh: Any) -> List[str]:
+    """The files that a mesh is made from."""
+    if _checks.is_path(mesh):
+        return _checks.files_of([os.fspath(mesh)])
+    return mesh._files if isinstance(mesh, Mesh) else []
+
+
 def mesh_info(mesh: Any, triangles: Optional[ArrayLike] = None, *, self_intersections: bool = True,
               progress: Progress = None) -> Dict[str, Any]:
     """What is in a mesh, and what is the matter with it, as `arete mesh info` says it: "verdict", "is_manifold",
@@ -47,7 +57,7 @@ def repair(mesh: Any, triangles: Optional[ArrayLike] = None, *, weld: Optional[S
     """
     mended, report = _arete.repair(source_of(mesh, triangles), _checks.size_text("weld", weld),
                                    _checks.whole("fill_holes", fill_holes, 0, 1_000_000_000) or 0, bool(split_sheets), progress)
-    return Mesh(mended, report_of(report))
+    return Mesh(mended, report_of(report), _files_of(mesh))
 
 
 def decimate(mesh: Any, triangles: Optional[ArrayLike] = None, *, max_triangles: Union[int, str, None] = None,
@@ -55,15 +65,18 @@ def decimate(mesh: Any, triangles: Optional[ArrayLike] = None, *, max_triangles:
              cluster_vertices: str = "quadric", keep_borders: bool = False, no_crossings: bool = False,
              drop_parts: Optional[Size] = None, drop_attributes: Union[str, Sequence[str]] = (),
              progress: Progress = None) -> Mesh:
-    """Makes a mesh smaller, once, as `arete mesh decimate` does. Its `report` says what that came to.
+    """Makes a mesh smaller, once, as `arete mesh decimate` does. Its `report` says what that came to. "error" of "measured" is
+    how far a point of the source is from the result, and not the other way: measure() says both. "is_complete" is False
+    where max_triangles ended "measured" before max_error was reached, which is 0 unless it is stated.
 
     max_triangles: how many at most, or "10%" of them. max_error: how far a point of the mesh may be from the result, or
         "0.5%" of the diagonal; of the operator "measured".
-    operator: "measured", the closest; "qem", "lindstrom-turk", "half-edge", "vertex-pair", "face" or "cluster".
+    operator: "measured", the closest for shape alone: of a file with attributes it keeps their seams, which others may leave
+        out; "qem", "lindstrom-turk", "half-edge", "vertex-pair", "face" or "cluster".
     queue, quadric_weight, cluster_vertices, no_crossings: of some operators (docs/topics/decimation.md).
     """
     request = _arete.DecimationRequest()
-    request.operator = str(operator)
+    request.operator = _checks.word("operator", str(operator), _OPERATORS)
     request.queue = str(queue)
     request.quadric_weight = str(quadric_weight)
     request.cluster_vertices = str(cluster_vertices)
@@ -78,7 +91,7 @@ def decimate(mesh: Any, triangles: Optional[ArrayLike] = None, *, max_triangles:
     smaller, report = _arete.decimate(source_of(mesh, triangles), request, _checks.size_text("max_error", max_error),
                                       _checks.size_text("drop_parts", drop_parts), _checks.names_of(drop_attributes), share,
                                       progress)
-    return Mesh(smaller, report_of(report))
+    return Mesh(smaller, report_of(report), _files_of(mesh))
 
 
 def _share_of(name: str, text: str) -> float:

@@ -76,12 +76,18 @@ class Profile(_ProfileVertices):
         return html_of_profile(self)
 
 
+_OUTSIDE = 65535
+# What is no number of observers, of modes "count" and "server".
+_MARKS = {0: "hidden", 65533: "unknown", 65534: "undecided", _OUTSIDE: "outside"}
+
+
 class Viewshed(np.ndarray):  # type: ignore[type-arg]
     """What is seen, as an array on a grid that knows where it lies. A part of it, and what is computed of it, is a plain
     array."""
 
     answers: Dict[int, str] = {255: "seen", 0: "hidden", 100: "unknown", 200: "undecided", 1: "outside"}
-    """What a number means, of mode "seen"."""
+    """What a number means: of the class in mode "seen", of a viewshed in its own mode. Other numbers of "count" are how many
+    observers see it, of "server" which one, from 1. "height" and "horizon" are numbers: NaN is unknown or outside."""
     mode: str = ""
     transform: Optional[Tuple[float, ...]] = None
     """GDAL's six numbers; None where the source has no position."""
@@ -92,8 +98,10 @@ class Viewshed(np.ndarray):  # type: ignore[type-arg]
     @classmethod
     def of(cls, cells: NDArray[Any], mode: str, transform: Optional[Tuple[float, ...]], crs: Optional[str],
            observers: Sequence[Tuple[float, float]], vertical_unit: str) -> "Viewshed":
+        """A viewshed of its cells, its mode and its place: how it is copied and pickled."""
         made = cells.view(cls)
         made.mode, made.transform, made.crs = mode, transform, crs
+        made.answers = dict({"seen": cls.answers, "count": _MARKS, "server": _MARKS}.get(mode, {}))
         made.observers, made.vertical_unit = tuple(observers), vertical_unit
         return made
 
@@ -112,7 +120,8 @@ class Viewshed(np.ndarray):  # type: ignore[type-arg]
         return plot_viewshed(self, ax, **options)
 
     def to_xarray(self) -> Any:
-        """An xarray.DataArray with the middles of pixels, the CRS, and of mode "seen" the flags by their names."""
+        """An xarray.DataArray with the middles of pixels, the CRS, and of modes "seen", "count" and "server" the
+        answers as flags by their names, of the last two 65535 (outside) as _FillValue."""
         import xarray
 
         self._refuse_part()
@@ -124,9 +133,11 @@ class Viewshed(np.ndarray):  # type: ignore[type-arg]
             "y": y0 + dy * (np.arange(rows) + 0.5), "x": x0 + dx * (np.arange(columns) + 0.5)})
         if self.crs:
             array.attrs["crs"] = self.crs
-        if self.mode == "seen":
-            array.attrs.update(flag_values=np.array(list(self.answers), dtype=np.uint8),
+        if self.answers:
+            array.attrs.update(flag_values=np.array(list(self.answers), dtype=self.dtype),
                                flag_meanings=" ".join(self.answers.values()))
+        if self.mode in ("count", "server"):
+            array.attrs["_FillValue"] = self.dtype.type(_OUTSIDE)
         return array
 
     def _repr_html_(self) -> str:
@@ -167,7 +178,7 @@ def sight_of(verdicts: Sequence[str], rows: NDArray[np.float64], is_one: bool, f
         zone: Any = others[2]
         answer = Sight(verdicts[0], clearance, distance, None if np.isnan(x) else (x, y))
     else:
-        answer = Sight(np.array(verdicts), rows[:, 0].copy(), rows[:, 1].copy(), rows[:, 2:4].copy())
+        answer = Sight(np.array(verdicts, dtype=str), rows[:, 0].copy(), rows[:, 1].copy(), rows[:, 2:4].copy())
         azimuth, elevation, zone = rows[:, 4].copy(), rows[:, 5].copy(), rows[:, 6].copy()
     answer.azimuth, answer.elevation = azimuth, elevation
     if fresnel is not None:

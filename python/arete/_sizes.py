@@ -25,6 +25,8 @@ def size_of(name: str, value: Any, whole: Callable[[], float]) -> Optional[float
         if not 0 <= share < math.inf:
             raise ValueError(f"{name}={value!r} is not at least 0")
         return share / 100 * whole()
+    if isinstance(value, bool):
+        raise TypeError(f"{name}={value!r} is no number and no percentage (\"1%\")")
     if not isinstance(value, numbers.Real) and not (hasattr(value, "ndim") and value.ndim == 0):
         raise TypeError(f"{name}={value!r} is no number and no percentage (\"1%\")")
     return float(value)
@@ -36,6 +38,8 @@ def count_of(name: str, value: Any, total: Callable[[], int]) -> Optional[int]:
         return whole_number(name, value, 1, 0xFFFFFFFE)
     size = size_of(name, value, total)
     assert size is not None
+    if float(value.strip()[:-1]) > 100:
+        raise ValueError(f"{name}={value!r} is more than all")
     if size < 1:
         raise ValueError(f"{name}={value!r} is less than one triangle")
     return int(size)

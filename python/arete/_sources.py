@@ -21,6 +21,8 @@ class Grid:
     crs: str = ""
     vertical_unit: str = ""
     name: str = "array"
+    axes: Optional[Tuple[Any, Any]] = None
+    """Of an xarray.DataArray: its coordinates along rows (y) and columns (x), which a transform has but for the last bits."""
     is_depth: Optional[bool] = None
     """Whether the values count downwards; None: it is not said."""
 
@@ -54,6 +56,16 @@ def _of_rasterio(dataset: Any, nodata: Optional[float], band: Optional[int]) -> 
     number = 1 if band is None else band
     if not 1 <= number <= dataset.count:
         raise ValueError(f"band={band!r} is not one of 1 to {dataset.count}")
+    colours = [colour.name for colour in dataset.colorinterp]
+    if len(colours) - colours.count("alpha") > 1 and band is None:
+        # As a file is refused or warned of.
+        if dataset.dtypes[0] == "uint8" or colours[0] == "red":
+            raise ValueError(f"{dataset.name}: looks like a colour image of {dataset.count} bands, not like heights; band= reads "
+                             "one of its bands as heights")
+        _checks.warn(f"{dataset.name}: has {dataset.count} bands; band 1 is read", "choice", stacklevel=5)
+    if colours[number - 1] == "palette":
+        _checks.warn(f"{dataset.name}: the band has a colour table: its values may be classes or colours, not heights", "heights",
+                     stacklevel=5)
     array = dataset.read(number, masked=True)
     heights = heights_of(array, nodata)
     scale, offset = float(dataset.scales[number - 1]), float(dataset.offsets[number - 1])
@@ -84,7 +96,9 @@ def _of_xarray(array: Any, nodata: Optional[float]) -> Grid:
         heights = heights * scale + offset
     unit = str(array.attrs.get("units", "") or "")
     is_depth = True if str(array.attrs.get("positive", "")).lower() == "down" else None
-    return Grid(heights, _transform_of(array), _crs_of(array), unit, str(array.name or "array"), is_depth)
+    place = _transform_of(array)
+    axes = None if place is None else (array.coords[array.dims[0]], array.coords[array.dims[1]])
+    return Grid(heights, place, _crs_of(array), unit, str(array.name or "array"), axes, is_depth)
 
 
 _X = ("x", "lon", "longitude", "easting")
@@ -141,6 +155,8 @@ def points_of(source: Any, z_field: Optional[str]) -> Tuple[NDArray[np.float64],
     """Rows of x, y, z, and their CRS."""
     geometry = getattr(source, "geometry", None)
     if geometry is not None and hasattr(geometry, "x"):
+        if z_field is not None and z_field not in getattr(source, "columns", ()):
+            raise ValueError(f"z_field={z_field!r} is no column: there are {', '.join(map(str, getattr(source, 'columns', ())))}")
         z = geometry.z if z_field is None else source[z_field]
         return np.column_stack([np.asarray(one, dtype=np.float64) for one in (geometry.x, geometry.y, z)]), crs_text(
             getattr(geometry, "crs", None))

@@ -20,8 +20,8 @@ from ._sizes import Size, count_of, counted, size_of
 class Surface(Stored):
     """The multitriangulation of a triangle mesh."""
 
-    def __init__(self, surface: _arete.Surface, path: Optional[str] = None):
-        super().__init__(surface, path)
+    def __init__(self, surface: _arete.Surface, path: Optional[str] = None, files: Sequence[str] = ()):
+        super().__init__(surface, path, files)
         self._surface = surface
 
     def cut(self, max_error: Optional[Size] = None, max_triangles: Union[int, str, None] = None, region: Any = None,
@@ -49,6 +49,8 @@ class Surface(Stored):
 
         An error may be a percentage of the diagonal ("1%"), a number of triangles one of the finest.
         """
+        if camera is not None and not isinstance(camera, SurfaceCamera):
+            raise TypeError(f"camera={camera!r} is no arete.SurfaceCamera")
         inside = size_of("max_error", max_error, lambda: self.diagonal)
         outside: Any = size_of("outside_error", outside_error, lambda: self.diagonal)
         budget = count_of("max_triangles", max_triangles, lambda: self.finest_triangles)
@@ -73,7 +75,8 @@ class Surface(Stored):
         def extract(files: _arete.ExportFiles, export_progress: Progress) -> str:
             return self._surface.extract(request, where_it_holds, text, numbers, files, export_progress)
 
-        return Tin(tin, Export(extract, [self._surface.source], self._path or "", deadline is not None))
+        kept = [*self._sources, *([] if self._path is None else [self._path])]
+        return Tin(tin, Export(extract, [self._surface.source], self._path or "", deadline is not None, files=kept))
 
     def _region(self, region: Any, where: Optional[Where], progress: Progress) -> Tuple[Optional[_arete.RegionOfSpace], str]:
         if where is None:
@@ -120,10 +123,11 @@ class Surface(Stored):
         return self._surface.measure(*some_mesh_of(mesh, triangles), int(samples), int(seed), progress)
 
     def save(self, path: PathLike, packed: bool = False, position_bits: int = 0, progress: Progress = None) -> None:
-        """Writes the .amt file, whole or not at all. position_bits: of a packed file, the bits of each coordinate; 0: all."""
+        """Writes the .amt file, whole or not at all. position_bits: of a packed file, the bits of each coordinate; 0: all.
+        Another ending, or the file of the source, is refused."""
         if position_bits and not packed:
             raise ValueError("position_bits is for packed files")
-        name = os.fspath(path)
+        name = self._name_to_save(path)
         self._surface.save(name, packed, int(position_bits), progress)
         self._path = os.path.abspath(name)
 
@@ -163,7 +167,8 @@ def build_surface(source: Any, triangles: Optional[ArrayLike] = None, *, displac
     if isinstance(source, (str, os.PathLike)):
         if triangles is not None:
             raise TypeError("triangles are for arrays: a file says its own")
-        return Surface(_arete.build_surface_file(os.fspath(source), displacement, keep_borders, growth, degree, names, progress))
+        path = os.fspath(source)
+        return Surface(_arete.build_surface_file(path, displacement, keep_borders, growth, degree, names, progress), files=[path])
     if names:
         raise ValueError("drop_attributes is for files: arrays have no attributes")
     return Surface(_arete.build_surface_arrays(*mesh_of(source, triangles), displacement, keep_borders, growth, degree, progress))

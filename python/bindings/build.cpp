@@ -82,7 +82,7 @@ Result<TerrainModel> buildFrom(DemRead dem, const BuildRequest& request, Warning
         ARETE_TRY(const FixedVertices fixed, chooseFixedVertices(field, fixedOptions, context));
         const std::size_t given = fixedOptions.given.size();
         if (given > 0 && fixed.givenOutside == given)
-          return failure(ErrorCode::invalidData,
+          return failure(ErrorCode::usage,
                          fmt::format("none of {} lies on the DEM's data", counted(given, "point", "points")),
                          "fixed");
         if (fixed.givenOutside > 0)
@@ -117,11 +117,13 @@ Error ofReading(Error error, const SourceReading& reading) {
 
 /// Builds from what `read` gives.
 /// @param file  of an array, its name; empty: there is none
+/// @param isArgument  whether bad heights are a wrong argument: of arrays, and of files that are stated
+/// together and do not fit
 template <class Read>
-TerrainPtr buildOf(const BuildRequest& request, const std::string& file, const Read& read,
+TerrainPtr buildOf(const BuildRequest& request, const std::string& file, bool isArgument, const Read& read,
                    const py::object& progress) {
   Warnings warnings;
-  TerrainModel model = call(progress, [&](const RunContext& context) -> Result<TerrainModel> {
+  TerrainModel model = callOn(isArgument, progress, [&](const RunContext& context) -> Result<TerrainModel> {
     const auto named = [&](const Error& error) {
       return tl::unexpected(ofReading(file.empty() ? error : ofArray(error, file), request.reading));
     };
@@ -149,7 +151,7 @@ bool isMeshWithFaces(const std::string& path) {
 
 TerrainPtr buildFile(const std::string& path, const BuildRequest& request, const py::object& progress) {
   return buildOf(
-      request, "",
+      request, "", !request.reading.otherFiles.empty(),
       [&](const RunContext& context) -> Result<DemRead> {
         // Its vertices alone are another thing.
         if (isMeshWithFaces(path))
@@ -174,7 +176,7 @@ TerrainPtr buildArray(const Doubles& heights, const std::optional<std::array<dou
   const Result<ArrayFile> file = ArrayFile::write(array);
   if (!file) raise(file.error());
   return buildOf(
-      request, file->path(),
+      request, file->path(), true,
       [&](const RunContext& context) { return readDem(file->path(), request.reading, context); }, progress);
 }
 
@@ -200,7 +202,7 @@ TerrainPtr buildPoints(const Doubles& rows, const BuildRequest& request, const p
     points.push_back({p[0], p[1], p[2]});
   }
   return buildOf(
-      request, "",
+      request, "", true,
       [&](const RunContext&) { return readPointsOf(points, "", "points", pointOptionsOf(request.reading)); },
       progress);
 }
@@ -208,7 +210,7 @@ TerrainPtr buildPoints(const Doubles& rows, const BuildRequest& request, const p
 /// The points of a file, or the vertices of a mesh.
 TerrainPtr buildPointFile(const std::string& path, const BuildRequest& request, const py::object& progress) {
   return buildOf(
-      request, "",
+      request, "", false,
       [&](const RunContext& context) -> Result<DemRead> {
         if (!isMeshWithFaces(path)) return readDem(path, request.reading, context);
         ARETE_TRY(MeshFile mesh, readMeshOrPoints(path, context));

@@ -88,6 +88,7 @@ void raise(const Error& error) {
   // Python's own class is raised where one fits; other errors are a RuntimeError.
   switch (error.code) {
     case ErrorCode::usage:
+    case ErrorCode::unsupported:
       PyErr_SetObject(PyExc_ValueError, text.ptr());
       break;
     case ErrorCode::notFound:
@@ -119,6 +120,12 @@ void warn(const Warnings& warnings) {
                "stacklevel"_a = 2);
 }
 
+Error ofArgument(Error error) {
+  if (error.code == ErrorCode::invalidData || error.code == ErrorCode::degenerate)
+    error.code = ErrorCode::usage;
+  return error;
+}
+
 Error inPython(Error error) {
   // "maxTriangles 5": a field and its value. The name of a file may look like one.
   const std::size_t end = error.code == ErrorCode::usage ? error.culprit.find(' ') : error.culprit.npos;
@@ -129,6 +136,8 @@ Error inPython(Error error) {
 }
 
 void runBeside(const py::object& progress, const std::function<void(const RunContext&)>& body) {
+  if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0)
+    throw py::type_error("progress is a function of a stage and a fraction");
   std::mutex mutex;
   std::condition_variable changed;
   bool isDone = false, hasReport = false;

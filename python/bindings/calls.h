@@ -15,8 +15,9 @@
 
 namespace arete::python {
 
-/// Raises an error as Python's own: ValueError (usage), FileNotFoundError, OSError, MemoryError,
-/// KeyboardInterrupt, and RuntimeError for data that is damaged, invalid or not supported.
+/// Raises an error as Python's own: ValueError (usage, and files of a kind that is not meant),
+/// FileNotFoundError, OSError, MemoryError, KeyboardInterrupt, and RuntimeError for files whose content is
+/// damaged or invalid.
 [[noreturn]] void raise(const Error& error);
 
 /// Raises each as an AreteWarning of the caller, with its code. Errors: what Python makes of it where
@@ -34,14 +35,24 @@ Error inPython(Error error);
 /// @param progress a callable, or None
 void runBeside(const pybind11::object& progress, const std::function<void(const RunContext&)>& body);
 
+/// An error about numbers that the caller gave, which are a wrong argument and no bad file.
+Error ofArgument(Error error);
+
 /// The result of body(context), or its error raised.
+/// @param isArgument  what the body works on is an argument, and no file
 template <class Body>
-auto call(const pybind11::object& progress, const Body& body) {
+auto callOn(bool isArgument, const pybind11::object& progress, const Body& body) {
   using Answer = decltype(body(std::declval<const RunContext&>()));
   std::optional<Answer> answer;
   runBeside(progress, [&](const RunContext& context) { answer.emplace(body(context)); });
-  if (!*answer) raise(inPython(answer->error()));
+  if (!*answer) raise(inPython(isArgument ? ofArgument(answer->error()) : answer->error()));
   if constexpr (!std::is_same_v<Answer, Status>) return std::move(**answer);
+}
+
+/// The same of files.
+template <class Body>
+auto call(const pybind11::object& progress, const Body& body) {
+  return callOn(false, progress, body);
 }
 
 }  // namespace arete::python

@@ -18,6 +18,7 @@
 #include "io/files/text/stated_size.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/geo/crs/map_scale.h"
+#include "io/geo/crs/names.h"
 #include "io/geo/crs/reader.h"
 #include "io/geo/dem/dem_reader.h"
 #include "io/query/certificate/report_json.h"
@@ -25,6 +26,7 @@
 #include "io/query/mesh/diagnosis_json.h"
 #include "io/query/mesh/facts.h"
 #include "io/query/mesh/mend.h"
+#include "io/query/placed/measure_placed.h"
 #include "io/query/surface/mesh_input.h"
 #include "measure/mesh_distance.h"
 #include "python/bindings/arrays.h"
@@ -54,6 +56,10 @@ std::string nameOfSource(const MeshSource& source) {
   return path ? *path : "arrays";
 }
 
+bool isOfArrays(const MeshSource& source) {
+  return !std::holds_alternative<std::string>(source);
+}
+
 /// Arrays are taken while Python's lock is held.
 std::optional<TriangleMesh> arraysOf(const MeshSource& source) {
   const auto* const arrays = std::get_if<std::tuple<Doubles, Indices>>(&source);
@@ -75,7 +81,7 @@ Result<MeshInput> inputOf(const std::string& name, std::optional<TriangleMesh> a
 std::string meshInfo(const MeshSource& source, bool findsCrossings, const py::object& progress) {
   const std::string name = nameOfSource(source);
   std::optional<TriangleMesh> arrays = arraysOf(source);
-  return call(progress, [&](const RunContext& context) -> Result<std::string> {
+  return callOn(isOfArrays(source), progress, [&](const RunContext& context) -> Result<std::string> {
     ARETE_TRY(const MeshInput input, inputOf(name, std::move(arrays), context));
     ARETE_TRY(const MeshFacts facts, meshFactsOf(input.file.mesh,
                                                  {.mostPlaces = std::numeric_limits<std::size_t>::max(),
@@ -103,30 +109,32 @@ Reported repairMesh(const MeshSource& source, const std::string& weld, std::uint
   const std::string name = nameOfSource(source);
   std::optional<TriangleMesh> arrays = arraysOf(source);
   Warnings warnings;
-  Reported reported = call(progress, [&](const RunContext& context) -> Result<Reported> {
-    ARETE_TRY(MeshInput input, inputOf(name, std::move(arrays), context));
-    warnings = input.file.warnings;
-    MendOptions options;
-    options.repair.mostHoleEdges = fillHoles;
-    options.repair.splitsSheets = splitsSheets;
-    if (!weld.empty()) {
-      ARETE_TRY(const StatedSize distance, parseStatedSize(weld, "weld"));
-      options.weld = distance.of(diagonalOf(input.file.mesh));
-    }
-    Result<MendedMesh> mended = mendMesh(input, options, context);
-    if (!mended && mended.error().culprit.empty()) mended.error().culprit = name;
-    if (!mended) return tl::unexpected(mended.error());
-    ARETE_TRY(const MeshDiagnosis diagnosis, diagnose(mended->repaired.mesh,
-                                                      {.mostPlaces = std::numeric_limits<std::size_t>::max(),
-                                                       .selfIntersections = false,
-                                                       .rounding = input.rounding},
-                                                      context));
-    for (const Warning& warning : input.file.warnings) warnings.push_back(warning);
-    Json report = {{"joinedAtSeams", input.joinedAtSeams}};
-    report.update(mendJson(*mended, input.rounding));
-    report["result"] = diagnosisJson(diagnosis, {});
-    return Reported(tinOf(std::move(input.file), std::move(mended->repaired.vertexOf)), report.dump());
-  });
+  Reported reported =
+      callOn(isOfArrays(source), progress, [&](const RunContext& context) -> Result<Reported> {
+        ARETE_TRY(MeshInput input, inputOf(name, std::move(arrays), context));
+        warnings = input.file.warnings;
+        MendOptions options;
+        options.repair.mostHoleEdges = fillHoles;
+        options.repair.splitsSheets = splitsSheets;
+        if (!weld.empty()) {
+          ARETE_TRY(const StatedSize distance, parseStatedSize(weld, "weld"));
+          options.weld = distance.of(diagonalOf(input.file.mesh));
+        }
+        Result<MendedMesh> mended = mendMesh(input, options, context);
+        if (!mended && mended.error().culprit.empty()) mended.error().culprit = name;
+        if (!mended) return tl::unexpected(mended.error());
+        ARETE_TRY(const MeshDiagnosis diagnosis,
+                  diagnose(mended->repaired.mesh,
+                           {.mostPlaces = std::numeric_limits<std::size_t>::max(),
+                            .selfIntersections = false,
+                            .rounding = input.rounding},
+                           context));
+        for (const Warning& warning : input.file.warnings) warnings.push_back(warning);
+        Json report = {{"joinedAtSeams", input.joinedAtSeams}};
+        report.update(mendJson(*mended, input.rounding));
+        report["result"] = diagnosisJson(diagnosis, {});
+        return Reported(tinOf(std::move(input.file), std::move(mended->repaired.vertexOf)), report.dump());
+      });
   warn(warnings);
   return reported;
 }
@@ -137,51 +145,52 @@ Reported decimate(const MeshSource& source, DecimationRequest request, const std
   const std::string name = nameOfSource(source);
   std::optional<TriangleMesh> arrays = arraysOf(source);
   Warnings warnings;
-  Reported reported = call(progress, [&](const RunContext& context) -> Result<Reported> {
-    if (!maxError.empty()) {
-      ARETE_TRY(request.maxError, parseStatedSize(maxError, "maxError"));
-    }
-    ARETE_TRY(MeshInput input, inputOf(name, std::move(arrays), context));
-    if (std::holds_alternative<std::string>(source)) ARETE_CHECK(warnOfGaps(input, context));
-    warnings = input.file.warnings;
-    MeshFile& file = input.file;
-    const std::size_t before = file.mesh.triangles.size();
-    if (before == 0) return failure(ErrorCode::invalidData, "has no faces to be decimated", name);
-    if (shareOfFaces > 0)
-      request.maxTriangles = static_cast<std::uint32_t>(shareOfFaces * static_cast<double>(before));
-    if (request.maxTriangles == 0u)
-      return failure(ErrorCode::usage, "is less than one triangle", "maxTriangles");
-    if (Status dropped = dropAttributes(file.mesh, dropNames); !dropped)
-      return failure(dropped.error().code, dropped.error().message,
-                     "drop_attributes=" + dropped.error().culprit);
-    SmallComponents left;
-    if (!dropParts.empty()) {
-      ARETE_TRY(const StatedSize least, parseStatedSize(dropParts, "dropParts"));
-      ARETE_TRY(left, withoutSmallComponents(file.mesh, least.of(diagonalOf(file.mesh))));
-      if (left.mesh.triangles.empty())
-        return failure(ErrorCode::usage, "leaves nothing: every component is smaller", "dropParts");
-      file.mesh = std::exchange(left.mesh, {});
-    }
-    ARETE_TRY(DecimatedOutcome outcome, decimateMesh(std::move(file.mesh), request, context));
-    if (outcome.dropsFlatNormals)
-      warnings.push_back(
-          {WarningCode::omitted, "normals of corners are left out: they belong to flat faces"});
-    for (const std::string& lost : outcome.lost)
-      warnings.push_back(
-          {WarningCode::omitted, fmt::format("{} cannot carry {}: left out", request.method, lost)});
-    if (!left.vertexOf.empty())
-      for (std::uint32_t& v : outcome.vertexOf) v = left.vertexOf[v];
-    Json report = {{"operator", request.method},
-                   {"trianglesBefore", before},
-                   {"triangles", outcome.mesh.triangles.size()},
-                   {"error", outcome.fit ? Json(outcome.fit->distance) : Json()},
-                   {"rms", outcome.fit ? Json(outcome.fit->rmsAfter) : Json()},
-                   {"isComplete", outcome.isComplete},
-                   {"selfIntersections", outcome.crossings ? Json(*outcome.crossings) : Json()},
-                   {"dropped", {{"components", left.components}, {"faces", left.triangles}}}};
-    file.mesh = std::move(outcome.mesh);
-    return Reported(tinOf(std::move(file), std::move(outcome.vertexOf)), report.dump());
-  });
+  Reported reported =
+      callOn(isOfArrays(source), progress, [&](const RunContext& context) -> Result<Reported> {
+        if (!maxError.empty()) {
+          ARETE_TRY(request.maxError, parseStatedSize(maxError, "maxError"));
+        }
+        ARETE_TRY(MeshInput input, inputOf(name, std::move(arrays), context));
+        if (std::holds_alternative<std::string>(source)) ARETE_CHECK(warnOfGaps(input, context));
+        warnings = input.file.warnings;
+        MeshFile& file = input.file;
+        const std::size_t before = file.mesh.triangles.size();
+        if (before == 0) return failure(ErrorCode::invalidData, "has no faces to be decimated", name);
+        if (shareOfFaces > 0)
+          request.maxTriangles = static_cast<std::uint32_t>(shareOfFaces * static_cast<double>(before));
+        if (request.maxTriangles == 0u)
+          return failure(ErrorCode::usage, "is less than one triangle", "maxTriangles");
+        if (Status dropped = dropAttributes(file.mesh, dropNames); !dropped)
+          return failure(dropped.error().code, dropped.error().message,
+                         "drop_attributes=" + dropped.error().culprit);
+        SmallComponents left;
+        if (!dropParts.empty()) {
+          ARETE_TRY(const StatedSize least, parseStatedSize(dropParts, "dropParts"));
+          ARETE_TRY(left, withoutSmallComponents(file.mesh, least.of(diagonalOf(file.mesh))));
+          if (left.mesh.triangles.empty())
+            return failure(ErrorCode::usage, "leaves nothing: every component is smaller", "dropParts");
+          file.mesh = std::exchange(left.mesh, {});
+        }
+        ARETE_TRY(DecimatedOutcome outcome, decimateMesh(std::move(file.mesh), request, context));
+        if (outcome.dropsFlatNormals)
+          warnings.push_back(
+              {WarningCode::omitted, "normals of corners are left out: they belong to flat faces"});
+        for (const std::string& lost : outcome.lost)
+          warnings.push_back(
+              {WarningCode::omitted, fmt::format("{} cannot carry {}: left out", request.method, lost)});
+        if (!left.vertexOf.empty())
+          for (std::uint32_t& v : outcome.vertexOf) v = left.vertexOf[v];
+        Json report = {{"operator", request.method},
+                       {"trianglesBefore", before},
+                       {"triangles", outcome.mesh.triangles.size()},
+                       {"error", outcome.fit ? Json(outcome.fit->distance) : Json()},
+                       {"rms", outcome.fit ? Json(outcome.fit->rmsAfter) : Json()},
+                       {"isComplete", outcome.isComplete},
+                       {"selfIntersections", outcome.crossings ? Json(*outcome.crossings) : Json()},
+                       {"dropped", {{"components", left.components}, {"faces", left.triangles}}}};
+        file.mesh = std::move(outcome.mesh);
+        return Reported(tinOf(std::move(file), std::move(outcome.vertexOf)), report.dump());
+      });
   warn(warnings);
   return reported;
 }
@@ -192,7 +201,8 @@ std::string measureMeshes(const MeshSource& first, const MeshSource& second, std
                           const py::object& progress) {
   const std::string names[] = {nameOfSource(first), nameOfSource(second)};
   std::optional<TriangleMesh> arrays[] = {arraysOf(first), arraysOf(second)};
-  return call(progress, [&](const RunContext& context) -> Result<std::string> {
+  const bool isArgument = isOfArrays(first) && isOfArrays(second);
+  return callOn(isArgument, progress, [&](const RunContext& context) -> Result<std::string> {
     TriangleMesh meshes[2];
     for (int i = 0; i < 2; ++i) {
       if (arrays[i]) {
@@ -217,8 +227,24 @@ std::string measureMeshes(const MeshSource& first, const MeshSource& second, std
   });
 }
 
+/// Where a TIN is. What its file or its object says goes before what the caller states.
+Result<TinPlace> placeOfTin(const MeshFile& file, const std::string& name, const std::string& stated) {
+  if (!stated.empty()) {
+    if (const Result<OGRSpatialReference> crs = crsFromUser(stated); !crs)
+      return failure(ErrorCode::usage, crs.error().message, "tin_crs=" + stated);
+    if (compareCrs(stated, file.crsWkt) == CrsAgreement::different)
+      return failure(ErrorCode::usage,
+                     fmt::format("contradicts {}, which is in {}", name, crsName(file.crsWkt)),
+                     "tin_crs=" + stated);
+  }
+  return TinPlace{.crsWkt = file.crsWkt.empty() ? stated : file.crsWkt, .metresAbout = file.metresAbout};
+}
+
 /// A TIN against a DEM, as `arete measure --json` has it.
-std::string measureDem(const MeshSource& tin, const std::string& dem, const BuildRequest& request,
+/// @param ownCrs  of arrays: what their object says; may be empty
+/// @param tinCrs  what the caller says; may be empty
+std::string measureDem(const MeshSource& tin, const std::string& ownCrs, const std::string& tinCrs,
+                       const std::string& dem, const BuildRequest& request,
                        const std::optional<AskedRegion>& region, const std::string& expect, bool allowsNodata,
                        const py::object& progress) {
   const std::string name = nameOfSource(tin);
@@ -228,11 +254,14 @@ std::string measureDem(const MeshSource& tin, const std::string& dem, const Buil
     MeshFile file;
     if (arrays) {
       file.mesh = SurfaceMesh(std::move(*arrays));
+      file.crsWkt = ownCrs;
     } else {
       ARETE_TRY(file, readMesh(name, context));
     }
+    ARETE_TRY(const TinPlace place, placeOfTin(file, name, tinCrs));
+    warnings = file.warnings;
     ARETE_TRY(const DemRead read, readDem(dem, request.reading, context));
-    warnings = read.warnings;
+    for (const Warning& warning : read.warnings) warnings.push_back(warning);
     return std::visit(
         [&](const auto& field) -> Result<std::string> {
           std::vector<std::uint8_t> mask;
@@ -242,7 +271,14 @@ std::string measureDem(const MeshSource& tin, const std::string& dem, const Buil
           MeasureOptions options;
           options.mask = mask;
           options.planRounding = {file.frame.rounding.x, file.frame.rounding.y};
-          ARETE_TRY(const MeasureReport report, measure(file.mesh, field, options, context));
+          if (place.metresAbout && field.georeference.crsWkt.empty())
+            warnings.push_back({WarningCode::position,
+                                "the TIN is in metres about a place of a CRS, and the DEM has none: they are "
+                                "compared as if they were in one"});
+          ARETE_TRY(const MeasureReport report,
+                    isElsewhere(place, field.georeference)
+                        ? measureElsewhere(file.mesh, place, field, options, context)
+                        : measure(file.mesh, field, options, context));
           Json json = toJson(report, std::holds_alternative<RasterHeightfield>(read.heightfield));
           if (!expect.empty()) {
             ARETE_TRY(const StatedSize stated, parseStatedSize(expect, "expect"));
@@ -299,6 +335,10 @@ void defineMeshes(py::module_& module) {
       .def_readwrite("keep_borders", &DecimationRequest::keepsBorders)
       .def_readwrite("no_crossings", &DecimationRequest::forbidsCrossings);
   module.def("is_mesh_file", [](const std::string& path) { return isMeshFile(path); });
+  module.def("holds_crs", [](const std::string& path) {
+    const Result<MeshFormat> format = meshFormatOf(path);
+    return format && format->holds.holdsCrs;
+  });
   module.def("mesh_info", &meshInfo);
   module.def("repair", &repairMesh);
   module.def("decimate", &decimate);

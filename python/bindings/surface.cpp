@@ -46,7 +46,8 @@ struct RegionOfSpace {
 
 SurfacePtr buildOf(MeshInput input, const std::string& source, const SurfaceFileOptions& options,
                    const py::object& progress) {
-  BuiltSurface built = call(progress, [&](const RunContext& context) {
+  const bool isArgument = source == "arrays";
+  BuiltSurface built = callOn(isArgument, progress, [&](const RunContext& context) {
     return buildSurfaceModel(std::move(input), source, options, context);
   });
   warn(built.warnings);
@@ -126,7 +127,7 @@ py::dict oneWay(const DistanceOneWay& way) {
 py::dict measureSurfaceMesh(const SurfaceModel& model, const Doubles& vertices, const Indices& triangles,
                             std::uint64_t samples, std::uint64_t seed, const py::object& progress) {
   const MeshDistanceReport report =
-      call(progress, [&](const RunContext& context) -> Result<MeshDistanceReport> {
+      callOn(true, progress, [&](const RunContext& context) -> Result<MeshDistanceReport> {
         const SurfaceFront source = finestSurfaceOf(model);
         auto measured = measureDistance(source.mesh.shape(), meshOf(vertices, triangles),
                                         {.samples = samples, .seed = seed}, context);
@@ -179,7 +180,7 @@ void defineRegion(py::module_& module) {
     return RegionOfSpace{std::make_shared<BoxesRegion>(std::move(all))};
   });
   module.def("region_of_mesh", [=](const Doubles& vertices, const Indices& triangles) {
-    return RegionOfSpace{call(py::none(), [&](const RunContext&) {
+    return RegionOfSpace{callOn(true, py::none(), [&](const RunContext&) {
       return ClosedMeshRegion::create(meshOf(vertices, triangles));
     })};
   });

@@ -146,6 +146,19 @@ class Hosts(unittest.TestCase):
                     with self.assertRaises((RuntimeError, OSError)):
                         arete.open(path)
 
+    def test_a_pickled_model_is_that_of_its_file_or_an_error(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "dem.amt")
+            for packed in (False, True):
+                model = arete.build(np.random.default_rng(5).random((20, 30)))
+                model.save(path, packed=packed)
+                for one in (model, arete.open(path)):
+                    self.assertEqual(pickle.loads(pickle.dumps(one)).height(5, 5), model.height(5, 5))
+                kept = pickle.dumps(model)
+                arete.build(np.random.default_rng(6).random((20, 30))).save(path, packed=packed)
+                with self.assertRaisesRegex(RuntimeError, "another model"):
+                    pickle.loads(kept)
+
     def test_children_of_fork_answer(self):
         model = arete.build(hills())
         wanted = len(model.cut(max_error=1).triangles)

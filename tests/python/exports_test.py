@@ -133,6 +133,103 @@ class Terrain(Folder):
             self.assertTrue(found["kept"])
             self.assertEqual(found["covered"] < 4800, region is not None)
 
+    def test_the_check_of_a_certificate_is_kept_wherever_the_mesh_was_placed(self):
+        import rasterio
+
+        y, x = np.mgrid[0:40, 0:50]
+        for crs, transform in (("EPSG:4269", (0.002, 0, -110, 0, -0.002, 45)), ("EPSG:32611", (30, 0, 500000, 0, -30, 4000000))):
+            with rasterio.open(self.path("dem.tif"), "w", driver="GTiff", height=40, width=50, count=1, dtype="float32",
+                               crs=crs, transform=rasterio.Affine(*transform)) as file:
+                file.write((100 * np.sin(x / 9) * np.cos(y / 7) + 500).astype("f4"), 1)
+            model = arete.build(self.path("dem.tif"))
+            tin = model.cut(max_error=2)
+            for name, place in (("m.obj", {"metric": True}), ("m.ply", {"metric": True}), ("m.stl", {"metric": True}),
+                                ("u.obj", {"to_crs": "utm"}), ("w.ply", {"to_crs": "EPSG:3857"}), ("w.stl", {"to_crs": "EPSG:3857"}),
+                                ("d.off", {"to_crs": "EPSG:4326"})):
+                with self.subTest(crs=crs, name=name), warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    tin.save(self.path(name), certificate=True, **place)
+                    certificate = os.path.splitext(name)[0] + ".certificate.json"
+                    found = eval(json.loads(self.bytes_of(certificate))["check"], {"arete": arete})
+                    self.assertTrue(found["kept"], found)
+                    self.assertEqual(found["covered"], 2000)
+                    stated = ["--tin-crs", "EPSG:3857"] if name == "w.stl" else []
+                    said = self.said("measure", self.path(name), self.path("dem.tif"), *stated)
+                    self.assertEqual(found["max_abs_error"], said["error"]["maximum"])
+            with self.assertRaisesRegex(ValueError, "tin_crs=EPSG:4326.*contradicts"):
+                arete.measure(self.path("w.ply"), self.path("dem.tif"), tin_crs=4326)
+            for wrong in ("utm", "EPSG:nothing"):
+                with self.assertRaisesRegex(ValueError, "tin_crs"):
+                    arete.measure(self.path("w.stl"), self.path("dem.tif"), tin_crs=wrong)
+            with self.assertRaisesRegex(TypeError, "tin_crs"):
+                arete.measure(self.path("w.stl"), self.path("w.ply"), tin_crs=3857)
+            tin.save(self.path("zone.stl"), certificate=True, to_crs="utm")
+            self.assertEqual(json.loads(self.bytes_of("zone.certificate.json"))["check"], "")
+        # Of another DEM's model, a Tin says itself where it is.
+        with rasterio.open(self.path("dem.tif")) as file:
+            heights = file.read(1)
+        self.assertTrue(arete.measure(tin, self.path("dem.tif"), expect=2)["kept"])
+        there = arete.build(heights, crs="EPSG:3857", transform=PLACE).cut(max_error=2)
+        self.assertEqual(arete.measure(there, self.path("dem.tif"))["covered"], 0)
+
+    def test_a_source_is_not_written_over(self):
+        import rasterio
+
+        with rasterio.open(self.path("dem.tif"), "w", driver="GTiff", height=60, width=80, count=1, dtype="float32",
+                           crs="EPSG:32611", transform=rasterio.Affine(*PLACE)) as file:
+            file.write(hills().astype("f4"), 1)
+        before = self.bytes_of("dem.tif")
+        os.symlink(self.path("dem.tif"), self.path("link.tif"))
+        os.link(self.path("dem.tif"), self.path("hard.tif"))
+        os.symlink(self.path("dem.tif"), self.path("link.amt"))
+        with rasterio.open(self.path("dem.tif")) as dataset:
+            read = arete.build(dataset)
+        for model in (arete.build(self.path("dem.tif")), arete.build([self.path("dem.tif")]), read):
+            tin = model.cut(max_error=20)
+            for name in ("dem.tif", "link.tif", "hard.tif", "./dem.tif"):
+                with self.subTest(name), self.assertRaisesRegex(ValueError, "source.*destroy"):
+                    tin.save(self.path(name))
+                with self.assertRaisesRegex(ValueError, "source.*destroy"):
+                    tin.save(self.path("t.ply"), error_raster=self.path(name))
+                with self.assertRaisesRegex(ValueError, "source.*destroy"):
+                    tin.save(self.path("t.ply"), certificate=self.path(name))
+            with self.assertRaisesRegex(ValueError, "link.amt.*dem.tif.*destroy"):
+                model.save(self.path("link.amt"))
+            for name in ("dem.tif", "x.tif", "x"):
+                with self.assertRaisesRegex(ValueError, "x?.*must end in .amt"):
+                    model.save(self.path(name))
+            model.save(self.path("m.amt"))
+            model.save(self.path("m.amt"))  # it lives in memory
+            with self.assertRaisesRegex(ValueError, "destroy"):
+                model.cut(max_error=20).save(self.path("t.ply"), certificate=self.path("m.amt"))
+        self.assertEqual(self.bytes_of("dem.tif"), before)
+        self.assertFalse(os.path.exists(self.path("x.tif")))
+
+    def test_two_outputs_are_two_files(self):
+        tin = self.model.cut(max_error=20)
+        for name, options in (("t.tif", {"error_raster": "t.tif"}), ("t.ply", {"certificate": "t.ply"}),
+                              ("t.ply", {"error_raster": "e.tif", "certificate": "./e.tif"}),
+                              ("t.ply", {"certificate": True, "error_raster": "t.certificate.json"})):
+            stated = {key: value if value is True else self.path(value) for key, value in options.items()}
+            with self.subTest(name, **options), self.assertRaisesRegex(ValueError, "another output"):
+                tin.save(self.path(name), **stated)
+        self.assertFalse(os.path.exists(self.path("t.ply")))
+
+    def test_a_mesh_is_not_written_over(self):
+        arete.build_surface(*ball()).cut(max_error=0).save(self.path("ball.obj"))
+        before = self.bytes_of("ball.obj")
+        os.symlink(self.path("ball.obj"), self.path("link.obj"))
+        mended = arete.repair(self.path("ball.obj"))
+        for made in (arete.decimate(self.path("ball.obj"), max_triangles=200), mended, pickle.loads(pickle.dumps(mended)),
+                     arete.decimate(mended, max_triangles=200), arete.build_surface(self.path("ball.obj")).cut(max_triangles=200)):
+            for name in ("ball.obj", "link.obj"):
+                with self.assertRaisesRegex(ValueError, "source.*destroy"):
+                    made.save(self.path(name))
+            made.save(self.path("other.obj"))
+        with self.assertRaisesRegex(ValueError, "must end in .amt"):
+            arete.build_surface(self.path("ball.obj")).save(self.path("ball.obj"))
+        self.assertEqual(self.bytes_of("ball.obj"), before)
+
     def test_what_is_not_for_terrain_is_refused(self):
         for options in ({"map": "m.csv"}, {"both_ways": True}, {"drop_attributes": "normal"}):
             with self.assertRaisesRegex(TypeError, next(iter(options))):
@@ -363,12 +460,30 @@ class Sights(unittest.TestCase):
         self.assertTrue(np.array_equal(count, (whole == 255).astype(int) + (second == 255)))
         height = np.asarray(self.model.viewshed(at, mode="height"))
         self.assertTrue(np.array_equal(height == 0, whole == 255))
+        self.assert_answers_are_those_of_the_mode(at)
         for options in ({"mode": "colour"}, {"azimuth": (5, 5)}, {"elevation": (5, 1)}, {"min_distance": 9, "radius": 5},
                         {"method": "guess"}):
             with self.subTest(options), self.assertRaisesRegex(ValueError, next(iter(options))):
                 self.model.viewshed(at, **options)
         with self.assertRaisesRegex(ValueError, "observer"):
             self.model.viewshed((1, 2))
+
+    def assert_answers_are_those_of_the_mode(self, at):
+        marks = {0: "hidden", 65533: "unknown", 65534: "undecided", 65535: "outside"}
+        for mode in ("count", "server"):
+            found = self.model.viewshed([at, (500300, 3999700, 30)], mode=mode, radius=300)
+            for one in (found, found.copy(), pickle.loads(pickle.dumps(found))):
+                self.assertEqual(one.answers, marks)
+            self.assertIn(65535, np.asarray(found))
+            self.assertNotIn(1, found.answers)
+            if HAS_XARRAY:
+                attributes = found.to_xarray().attrs
+                self.assertEqual(attributes["_FillValue"], 65535)
+                self.assertEqual(attributes["_FillValue"].dtype, found.dtype)
+                self.assertEqual(dict(zip(attributes["flag_values"].tolist(), attributes["flag_meanings"].split())), marks)
+        for mode in ("height", "horizon"):
+            self.assertEqual(self.model.viewshed(at, mode=mode).answers, {})
+        self.assertEqual(self.model.viewshed(at).answers[1], "outside")
 
 
 if __name__ == "__main__":

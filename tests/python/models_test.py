@@ -246,7 +246,7 @@ class Models(unittest.TestCase):
     def test_a_mesh_is_refused_by_name(self):
         with open(self.path("mesh.obj"), "w", encoding="utf-8") as file:
             file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-        with self.assertRaisesRegex(RuntimeError, "is a mesh: arete.build_surface"):
+        with self.assertRaisesRegex(ValueError, "is a mesh: arete.build_surface"):
             arete.build(self.path("mesh.obj"))
 
     def test_xarray_has_the_source_to_the_bit(self):

@@ -61,7 +61,6 @@ EXCEPTED = {
     ("viewshed", "observers"): "observer may be rows", ("viewshed", "layer"): "as observers",
     ("viewshed", "observer-height"): "the third number of each row", ("viewshed", "polygons"): "output",
     ("measure", "as"): "Model.measure() has the samples of the model, points or not",
-    ("measure", "tin-crs"): "a Tin has the CRS of its model",
     ("measure", "error-raster"): "output; Tin.save() has it", ("measure", "error-mesh"): "output",
     ("mesh decimate", "map"): "output; source_vertices of the result", ("convert", "up"): "of a file written of a file",
     ("convert", "unit"): "of a file written of a file", ("mesh repair", "up"): "of the output",

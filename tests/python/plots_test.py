@@ -156,6 +156,10 @@ class Plots(unittest.TestCase):
         self.assertEqual((left, right, bottom, top), (500000, 500000 + 60 * 30, 4000000 - 40 * 30, 4000000))
         self.assertEqual(ax.lines[0].get_xdata()[0], 500600)
         self.model.viewshed((500600, 3999500, 10), mode="height").plot()
+        count = self.model.viewshed([(500600, 3999500, 10), (500900, 3999500, 10)], mode="count").plot()
+        bar = count.images[0].colorbar
+        self.assertTrue(all(tick == int(tick) for tick in bar.get_ticks()))
+        self.assertLessEqual(count.images[0].cmap.N, 3)  # of none, one, two observers
 
     def test_what_jupyter_shows_has_a_picture(self):
         for shown in (self.model, self.tin, arete.repair(self.tin), arete.build_surface(self.tin),

@@ -178,7 +178,7 @@ class Surfaces(unittest.TestCase):
                                ({"max_error": 1, "region": (1, 2, 3, -1)}, ValueError),
                                ({"max_error": 1, "region": (1, 0, 0, 0, 1, 1)}, ValueError),
                                ({"max_error": 1, "region": object()}, TypeError),
-                               ({"max_error": 1, "region": (self.vertices, self.triangles[1:])}, RuntimeError),
+                               ({"max_error": 1, "region": (self.vertices, self.triangles[1:])}, ValueError),
                                ({"max_error": 1, "fit": "error"}, ValueError),
                                ({"max_error": 1, "outside_error": 0.5, "region": (0, 0, 0, 1)}, ValueError),
                                ({"camera": arete.SurfaceCamera((1, 1, 1), (1, 1, 1))}, ValueError),
