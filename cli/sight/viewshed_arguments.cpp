@@ -160,7 +160,8 @@ Status ViewshedArguments::check() const {
     return failure(ErrorCode::usage, "requires answers or numbers of observers: --mode seen, count or server",
                    "--polygons " + polygons);
   if (!output.empty() && !isGeoTiffName(output))
-    return failure(ErrorCode::usage, "a viewshed is a GeoTIFF and ends in .tif or .tiff",
+    return failure(ErrorCode::usage,
+                   "a viewshed is a GeoTIFF and ends in .tif or .tiff; --polygons writes a GeoPackage",
                    "--output " + output);
   if (method == ViewshedMethod::sweep && isAboveZero(maxError))
     return failure(ErrorCode::usage, "cannot be combined with --max-error", "--method sweep");

@@ -21,6 +21,8 @@ TEST_F(UnknownWords, AreNamedWithTheOptionsOfSimilarNames) {
   extract({"-z", "3"}, "there is no option -z");
   // Other programs' words.
   extract({"--tolerance", "2"}, "there is no option --tolerance; similar: --max-error");
+  extract({"--ratio", "0.1"}, "there is no option --ratio; similar: --max-triangles");
+  extract({"--t_srs", "EPSG:3857"}, "there is no option --t_srs");
   extract({"--bbox", "1,2,3,4"}, "there is no option --bbox; similar: --region");
   extract({"--verbose"}, "there is no option --verbose; similar: --progress");
   extract({"other.amt"}, "The following argument was not expected: other.amt");

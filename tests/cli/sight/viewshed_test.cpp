@@ -209,7 +209,8 @@ TEST_F(Viewsheds, RefusesWhatMakesNoSense) {
           2, "requires one observer");
   for (const char* output : {"v.png", "v.csv", "v", "v.tif.gz"}) {
     refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "-o", output}, 2,
-            std::string("--output ") + output + ": a viewshed is a GeoTIFF and ends in .tif or .tiff");
+            std::string("--output ") + output +
+                ": a viewshed is a GeoTIFF and ends in .tif or .tiff; --polygons writes a GeoPackage");
     EXPECT_FALSE(exists(output));
   }
   EXPECT_EQ(run({"viewshed", "dem.amt", "--observer", "1105,1895,2", "-o", "V.TIFF", "-q"}).code, 0);
