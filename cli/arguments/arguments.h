@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "cli/session/byte_count.h"
 #include "cli/session/session.h"
 #include "engine/base/result.h"
 #include "io/files/existing_file.h"

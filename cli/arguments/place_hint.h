@@ -14,7 +14,7 @@ namespace arete {
 /// @param place as it is stated, in the DEM's CRS for all that is known.
 /// @param model its root is enough.
 /// @return empty where the DEM has no CRS or one of degrees, where the place is on the DEM's box, and where
-/// its numbers are none of degrees. O(1) for rasters, O(root vertices) for points.
+/// its numbers are too large for degrees. O(1) for rasters, O(root vertices) for points.
 std::string degreesHint(Vec2 place, const TerrainModel& model);
 
 /// The same of a box, of which --lonlat says nothing: "add --region-crs EPSG:4326".

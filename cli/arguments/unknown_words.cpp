@@ -143,6 +143,12 @@ std::string unknownOption(const CLI::App& command, const std::vector<std::string
     if (command.get_option_no_throw(name) != nullptr) continue;
     const std::vector<std::string> similar =
         isLong ? similarOptions(command, std::string_view(name).substr(2)) : std::vector<std::string>();
+    // A tolerance belongs to a cut; as an option of build it resembles others that mean something else.
+    if (command.get_name() == "build" &&
+        (name == "--tolerance" || name == "--max-error" || name == "--max-triangles"))
+      return fmt::format(
+          "a model has every tolerance, and {} belongs to arete extract (--max-error, --max-triangles)",
+          name);
     return fmt::format("there is no option {}{}{}", name,
                        similar.empty() ? "" : "; similar: ", fmt::join(similar, ", "));
   }

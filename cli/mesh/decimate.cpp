@@ -76,6 +76,12 @@ Result<StatedSize> distanceOf(const std::string& text, const DataUnit& unit) {
   return sizes.front();
 }
 
+Result<double> leastPart(const std::string& text, double diagonal, const DataUnit& unit) {
+  ARETE_TRY(const auto sizes, parseSurfaceTolerances("--drop-parts", text, diagonal, unit));
+  if (sizes.size() != 1) return failure(ErrorCode::usage, "takes one length", "--drop-parts");
+  return sizes.front().distance;
+}
+
 /// For checks of a length before the mesh, and thus its unit, is read.
 constexpr DataUnit kAnyUnit{1};
 
@@ -91,8 +97,7 @@ Result<DecimationRequest> requestOf(const DecimateArguments& arguments) {
     ARETE_TRY(request.maxError, distanceOf(arguments.maxError, kAnyUnit));
   }
   if (!arguments.dropParts.empty()) {
-    ARETE_TRY(const auto least, parseSurfaceTolerances("--drop-parts", arguments.dropParts, 1, kAnyUnit));
-    if (least.size() != 1) return failure(ErrorCode::usage, "takes one length", "--drop-parts");
+    ARETE_TRY([[maybe_unused]] const double least, leastPart(arguments.dropParts, 1, kAnyUnit));
   }
   ARETE_CHECK(checkDecimation(request));
   return request;
@@ -120,10 +125,8 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
 
   SmallComponents dropped;
   if (!arguments.dropParts.empty()) {
-    ARETE_TRY(const auto least, parseSurfaceTolerances("--drop-parts", arguments.dropParts,
-                                                       diagonalOf(file.mesh), spaceUnitOf(file)));
-    if (least.size() != 1) return failure(ErrorCode::usage, "takes one length", "--drop-parts");
-    ARETE_TRY(SmallComponents without, withoutSmallComponents(file.mesh, least.front().distance));
+    ARETE_TRY(const double least, leastPart(arguments.dropParts, diagonalOf(file.mesh), spaceUnitOf(file)));
+    ARETE_TRY(SmallComponents without, withoutSmallComponents(file.mesh, least));
     dropped = std::move(without);
     if (dropped.mesh.triangles.empty())
       return failure(ErrorCode::usage, "leaves nothing: every component is smaller",

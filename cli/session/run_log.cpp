@@ -20,9 +20,9 @@
 #include <system_error>
 #include <utility>
 
+#include "cli/session/sha256_of_file.h"
 #include "engine/base/caught_failure.h"
 #include "engine/parallel/thread_limit.h"
-#include "io/files/digest/sha256_of_file.h"
 #include "io/files/text/address_text.h"
 #include "io/files/written_files.h"
 

@@ -15,7 +15,6 @@
 #include <new>
 #include <utility>
 
-#include "cli/session/byte_count.h"
 #include "cli/session/interrupt.h"
 #include "cli/session/named_files.h"
 #include "cli/session/next_step.h"
@@ -27,6 +26,7 @@
 #include "engine/memory/pages.h"
 #include "engine/parallel/thread_limit.h"
 #include "io/files/text/address_text.h"
+#include "io/files/text/grouped.h"
 #include "io/files/watched_files.h"
 #include "io/files/written_files.h"
 #include "io/geo/gdal/confined.h"

@@ -32,7 +32,7 @@ READERS = {
     "Drawing": ["viewer", "flights", "geomorphing"],
     "Programming": ["python", "library", "package", "services", "log", "multitriangulation", "amt-format", "sources"],
 }
-# What CMake knows of whoever answers for the build; pages name neither where it is empty.
+# The contact and the tracker that CMake has for the build; pages leave out what is empty.
 CONTACT = {"ARETE_TRACKER_URL": "Faults are reported at", "ARETE_CONTACT": "The contact of this build, also for reports in private, is"}
 FOLDERS = "bench|cli|cmake|datasets|docs|engine|examples|gis|io|measure|surface|terrain|tests|viewer"
 # A path from the root of the repository, in the text or in backticks.

@@ -244,12 +244,10 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
   double bound = 0;
   if (request.place.isStated()) {
     ARETE_TRY(placed, lead(request, exported, tin, bound, context));
-    ARETE_TRY(const MeshFormat format, meshFormatOf(request.output, request.format));
-    if (auto degrees = warningOfDegrees(format, placed->crsWkt, model_->georeference.verticalUnit))
-      tin.warnings.push_back(std::move(*degrees));
-  } else if (const auto format = meshFormatOf(request.output, request.format); format) {
-    if (auto degrees =
-            warningOfDegrees(*format, model_->georeference.crsWkt, model_->georeference.verticalUnit))
+  }
+  if (const auto format = meshFormatOf(request.output, request.format)) {
+    const std::string& crs = placed ? placed->crsWkt : model_->georeference.crsWkt;
+    if (auto degrees = warningOfDegrees(*format, crs, model_->georeference.verticalUnit))
       tin.warnings.push_back(std::move(*degrees));
   }
   MeshWriteOptions write{.crsWkt = model_->georeference.crsWkt,

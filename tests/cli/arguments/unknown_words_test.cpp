@@ -21,6 +21,8 @@ TEST_F(UnknownWords, AreNamedWithTheOptionsOfSimilarNames) {
   extract({"-z", "3"}, "there is no option -z");
   // Other programs' words.
   extract({"--tolerance", "2"}, "there is no option --tolerance; similar: --max-error");
+  for (const char* option : {"--tolerance", "--max-error", "--max-triangles"})
+    expectRefusal({"build", "dem.tif", "-o", "b.amt", option, "5"}, 2, "belongs to arete extract");
   extract({"--ratio", "0.1"}, "there is no option --ratio; similar: --max-triangles");
   extract({"--t_srs", "EPSG:3857"}, "there is no option --t_srs");
   extract({"--bbox", "1,2,3,4"}, "there is no option --bbox; similar: --region");

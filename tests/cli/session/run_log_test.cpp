@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cli/arguments_fixture.h"
-#include "io/files/digest/sha256_of_file.h"
+#include "cli/session/sha256_of_file.h"
 
 namespace arete::cli_test {
 namespace {

@@ -16,7 +16,8 @@ struct FileDigest {
   bool isStable = false;  ///< size and time of the file were the same before and after
 };
 
-/// The SHA-256 of a regular file, an empty one too. O(size of the file); memory: a block.
+/// The SHA-256 of a regular file, which sha256sum gives too, an empty one too. O(size of the file); memory: a
+/// block.
 ///
 /// Errors: notFound. unreadable: with the system's reason; a folder, a pipe. interrupted: `cancel` became
 /// true.
