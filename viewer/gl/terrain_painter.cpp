@@ -11,10 +11,11 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/parallel/parallel_loops.h"
 #include "terrain/model/camera.h"
 #include "viewer/gl/drape_on_gpu.h"
 #include "viewer/gl/gl_program.h"
+#include "viewer/heights/contour_levels.h"
+#include "viewer/heights/height_pyramid.h"
 #include "viewer/picture/color_ramp.h"
 
 namespace arete {
@@ -26,32 +27,12 @@ struct TerrainPainter::Look {
 
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
+/// shaders/contours.glsl, std140.
+struct ContourBlock {
+  glm::vec4 levels{}, ink{}, color{};
+};
 
-/// dz/dx and dz/dy of the samples in metric space: central differences, one-sided beside what has no data.
-std::vector<float> slopesOf(const RasterHeightfield& f, const MetricFrame& metric) {
-  std::vector<float> slopes(2 * f.size(), 0);
-  const auto along = [](double before, double here, double after) {
-    if (!std::isnan(before) && !std::isnan(after)) return (after - before) / 2;
-    if (!std::isnan(after)) return after - here;
-    return std::isnan(before) ? 0 : here - before;
-  };
-  parallelFor(std::uint32_t(0), f.rows, [&](std::uint32_t row) {
-    for (std::uint32_t col = 0; col < f.columns; ++col) {
-      const double here = f.at(col, row);
-      if (std::isnan(here)) continue;
-      const double none = std::nan("");
-      const double x =
-          along(col > 0 ? f.at(col - 1, row) : none, here, col + 1 < f.columns ? f.at(col + 1, row) : none);
-      const double y =
-          along(row > 0 ? f.at(col, row - 1) : none, here, row + 1 < f.rows ? f.at(col, row + 1) : none);
-      float* s = &slopes[2 * (std::size_t(row) * f.columns + col)];
-      s[0] = float(x * metric.scale.z / metric.scale.x);
-      s[1] = float(y * metric.scale.z / metric.scale.y);
-    }
-  });
-  return slopes;
-}
+constexpr double kRadians = std::numbers::pi / 180;
 
 void setSampling(GLuint texture, GLenum minify, GLenum magnify) {
   glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GLint(minify));
@@ -60,22 +41,14 @@ void setSampling(GLuint texture, GLenum minify, GLenum magnify) {
   glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-/// Mesa's software renderer walks over the whole footprint of an anisotropic sample. At the edge of a
-/// triangle seen along itself, with several samples a pixel, that footprint has no end: one frame took
-/// minutes.
-bool isMesaSoftware() {
-  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  const std::string_view name = renderer != nullptr ? renderer : "";
-  return name.find("llvmpipe") != name.npos || name.find("softpipe") != name.npos;
-}
-
 GLsizei levelsOf(std::uint32_t width, std::uint32_t height) {
   return GLsizei(std::bit_width(std::max(width, height)));
 }
 
 }  // namespace
 
-Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
+Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model, const HeightsOptions& options,
+                                              const RunContext& context) {
   TerrainPainter p;
   const auto program = [](GlProgram& into, std::initializer_list<std::string_view> vertex,
                           std::initializer_list<std::string_view> fragment) -> Status {
@@ -84,7 +57,7 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
     return {};
   };
   for (const Status& ok :
-       {program(p.terrain_, {"frame.glsl", "terrain.vert.glsl"}, {"frame.glsl", "terrain.frag.glsl"}),
+       {program(p.terrain_, {"frame.glsl", "terrain.vert.glsl"}, {"frame.glsl", "ground.glsl", "contours.glsl", "terrain.frag.glsl"}),
         program(p.sky_, {"sky.vert.glsl"}, {"frame.glsl", "sky.frag.glsl"}),
         program(p.lines_, {"frame.glsl", "lines.vert.glsl"}, {"lines.frag.glsl"})})
     if (!ok) return tl::unexpected(ok.error());
@@ -94,20 +67,27 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
   p.scale_ = mt.scale();
   p.frame_ = makeBuffer(sizeof(FrameBlock));
   p.look_ = makeBuffer(sizeof(Look));
+  p.contours_ = makeBuffer(sizeof(ContourBlock));
   // A small buffer stands in where a front has no ids, so that the shader never meets an empty binding.
   p.noIds_ = makeBuffer(64);
   p.emptyArray_ = makeVertexArray();
   p.linesArray_ = makeVertexArray();
   p.terrainArray_ = makeVertexArray();
 
+  {
+    // The pyramid is freed as soon as the device has it.
+    ARETE_TRY(const HeightPyramid pyramid, HeightPyramid::create(model, {}, context));
+    ARETE_TRY(HeightsOnGpu heights, HeightsOnGpu::load(pyramid, options, context));
+    p.heights_ = std::move(heights);
+  }
   double low = INFINITY, high = -INFINITY;
   for (std::uint32_t v = 0; v < mt.vertexCount(); ++v) {
     const double z = mt.vertices().height(VertexId(v));
     low = std::min(low, z);
     high = std::max(high, z);
   }
-  p.lowest_ = (low - p.metric_.origin.z) * p.metric_.scale.z;
-  p.highest_ = (high - p.metric_.origin.z) * p.metric_.scale.z;
+  p.lowest_ = low;
+  p.highest_ = high;
   // The sun and the aspects refer to east and north on the ground: where a camera at the middle looks.
   const Vec2 middle = model.toSource({p.metric_.origin.x, p.metric_.origin.y});
   const auto axis = [&](double azimuth, const Vec2& onAFlatMap) {
@@ -127,27 +107,6 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
   glTextureSubImage1D(p.tints_, 0, 0, 256, GL_RGBA, GL_UNSIGNED_BYTE, tints.data());
   setSampling(p.tints_, GL_LINEAR, GL_LINEAR);
 
-  // A raster larger than a texture has no slopes of its own; the shader then computes them from the
-  // triangles.
-  GLint most = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-  if (model.isRaster && model.columns <= std::uint32_t(most) && model.rows <= std::uint32_t(most)) {
-    const std::vector<float> slopes = slopesOf(model.rasterSamples(), p.metric_);
-    p.slopes_ = makeTexture(GL_TEXTURE_2D);
-    glTextureStorage2D(p.slopes_, levelsOf(model.columns, model.rows), GL_RG16F, GLsizei(model.columns),
-                       GLsizei(model.rows));
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(p.slopes_, 0, 0, 0, GLsizei(model.columns), GLsizei(model.rows), GL_RG, GL_FLOAT,
-                        slopes.data());
-    glGenerateTextureMipmap(p.slopes_);
-    setSampling(p.slopes_, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
-    GLfloat anisotropy = 1;
-    if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic") && !isMesaSoftware()) {
-      glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &anisotropy);
-      glTextureParameterf(p.slopes_, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(anisotropy, 8.0f));
-    }
-    p.hasSlopes_ = true;
-  }
   return p;
 }
 
@@ -182,17 +141,27 @@ void TerrainPainter::draw(const TerrainOnGpu& terrain, const DrawnFront& front, 
   look.sun = {float(flat * (std::sin(azimuth) * east_.x + std::cos(azimuth) * north_.x)),
               float(flat * (std::sin(azimuth) * east_.y + std::cos(azimuth) * north_.y)),
               float(std::sin(elevation)), l.isShaded ? 1.0f : 0.0f};
-  look.range = {float(lowest_), float(highest_), float(l.contourInterval), 1.0f};
-  look.heightUnits = {float(1 / metric_.scale.z), float(metric_.origin.z), float(l.hazeKilometres * 1000), 0};
+  const double base = heights_->base();
+  look.range = {float(lowest_ - base), float(highest_ - base), 0, 0};
+  look.heightUnits = {float(1 / metric_.scale.z), float(metric_.origin.z - base),
+                      float(l.hazeKilometres * 1000), 0};
   const int mode = l.coloring == Coloring::hypsometric ? 0
                    : l.coloring == Coloring::slope     ? 1
                    : l.coloring == Coloring::aspect    ? 2
                    : l.coloring == Coloring::error     ? 4
                                                        : 3;
   const bool isDraped = l.hasDrape && drape_ != nullptr;
-  look.modes = {float(mode), hasSlopes_ ? 1.0f : 0.0f, isDraped ? 1.0f : 0.0f,
+  look.modes = {float(mode), l.contourInterval > 0 ? 1.0f : 0.0f, isDraped ? 1.0f : 0.0f,
                 l.hasOverlay && hasOverlay_ ? 1.0f : 0.0f};
   if (isDraped) drape_->bind(terrain_, 2, eyePlan_, {metric_.scale.x, metric_.scale.y});
+  if (l.contourInterval > 0) {
+    const ContourLevels levels = contourLevels(l.contourInterval, base, heights_->reach());
+    const ContourBlock block{{float(levels.interval), float(levels.shift), float(levels.lift), 0},
+                             {0.6f, 1.0f, 1.0f, 1.4f},
+                             {0.32f, 0.2f, 0.1f, 0.85f}};
+    glNamedBufferSubData(contours_, 0, sizeof block, &block);
+  }
+  heights_->bind(eyePlan_, {metric_.scale.x, metric_.scale.y});
   look.overlayFrame = overlayFrame_;
   look.eastNorth = {float(east_.x), float(east_.y), float(north_.x), float(north_.y)};
   look.heat = {float(l.heatError), 0, 0, 0};
@@ -222,8 +191,8 @@ void TerrainPainter::drawWith(const TerrainOnGpu& terrain, const DrawnFront& fro
   glNamedBufferSubData(look_, 0, sizeof look, &look);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, look_);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 5, contours_);
   glUseProgram(terrain_);
-  glBindTextureUnit(0, slopes_);
   glBindTextureUnit(1, tints_);
   glBindTextureUnit(3, overlay_);
   // Codes follow each other as the bits of the floats that they stand for do.

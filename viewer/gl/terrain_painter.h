@@ -9,6 +9,7 @@
 #include "viewer/gl/drawn_front.h"
 #include "viewer/gl/frame_block.h"
 #include "viewer/gl/gl_objects.h"
+#include "viewer/gl/heights_on_gpu.h"
 #include "viewer/gl/terrain_on_gpu.h"
 #include "viewer/picture/picture.h"
 #include "viewer/scene/view_look.h"
@@ -20,9 +21,12 @@ class DrapeOnGpu;
 /// Draws fronts of one terrain and the sky behind them, into the framebuffer that is bound.
 class TerrainPainter {
  public:
-  /// Slopes for the shading are those of the samples, whatever front is drawn, so that light does not change
-  /// with the level of detail. O(samples) of a raster. Errors: unsupported, by the driver.
-  static Result<TerrainPainter> create(const TerrainModel& model);
+  /// Heights, slopes and aspects that are painted are those of full resolution, whatever front is drawn
+  /// (viewer/heights/height_pyramid.h). O(samples). Errors: unsupported, by the driver; those of
+  /// HeightPyramid and HeightsOnGpu.
+  static Result<TerrainPainter> create(const TerrainModel& model, const HeightsOptions& options = {},
+                                       const RunContext& context = {});
+  const HeightsOnGpu& heights() const { return *heights_; }
 
   /// The frame's block goes into uniform buffer binding 0, for cuts as well.
   void setFrame(const FrameView& frame);
@@ -53,15 +57,16 @@ class TerrainPainter {
   void drawWith(const TerrainOnGpu& terrain, const DrawnFront& front, const Look& look);
 
   GlProgram terrain_, sky_, lines_;
-  GlBuffer frame_, look_, noIds_;
+  GlBuffer frame_, look_, contours_, noIds_;
   GlVertexArray terrainArray_, emptyArray_, linesArray_;
-  GlTexture slopes_, tints_, overlay_;
+  GlTexture tints_, overlay_;
+  std::optional<HeightsOnGpu> heights_;
   glm::vec4 overlayFrame_{};
-  bool hasSlopes_ = false, hasOverlay_ = false;
+  bool hasOverlay_ = false;
   const DrapeOnGpu* drape_ = nullptr;
   Vec2 eyePlan_;
   MetricFrame metric_;
-  double lowest_ = 0, highest_ = 0;  // metric z
+  double lowest_ = 0, highest_ = 0;
   Vec2 east_, north_;                // of the map, in metric space
   double metresPerUnit_ = 1;         // of metric space
   OutwardScale scale_;

@@ -4,15 +4,14 @@ in vec2 overGround;
 layout(location = 0) out vec4 color;
 layout(std140, binding = 1) uniform Look {
   vec4 sun;          // direction to it in metric space, 1 = shaded
-  vec4 range;        // lowest and highest place.z, contour interval, width of a contour in pixels
-  vec4 heightUnits;  // of place.z: height = z * x + y; haze distance; flat colour of the test (1 = on)
-  vec4 modes;        // colouring, has slopes, has drape, has overlay
+  vec4 range;        // lowest and highest height above the base (ground.glsl)
+  vec4 heightUnits;  // of place.z: height above the base = z * x + y; haze distance; flat colour of the test (1 = on)
+  vec4 modes;        // colouring, has contours, has drape, has overlay
   vec4 flatColor;
   vec4 overlayFrame; // plan to texture: (u, v) = (x, y) * xy + zw
   vec4 eastNorth;    // the map's east and north in metric space
   vec4 heat;         // error of the largest heat; 0 = the cut's pixels
 };
-layout(binding = 0) uniform sampler2D slopes;     // dz/dx, dz/dy of the samples, metric
 layout(binding = 1) uniform sampler1D tints;
 layout(binding = 2) uniform sampler2DArray drapeTiles;
 layout(binding = 3) uniform sampler2D overlay;
@@ -70,32 +69,45 @@ vec4 drapeSeen() {
   return sum / float(count);
 }
 
+vec3 heightColor(float height) {
+  return texture(tints, clamp((height - range.x) / max(range.y - range.x, 1e-6), 0.0, 1.0)).rgb;
+}
+
 void main() {
   if (heightUnits.w > 0.0) { color = flatColor; return; }
   vec2 plan = place.xy / metricScale.xy + metricOrigin.xy;
-  vec2 slope;
+  vec2 at = groundPlace(overGround), dx = dFdx(at), dy = dFdy(at);
+  Footprint pixel = footprintOf(dx, dy);
+  float run = sqrt(0.5 * (dot(dFdx(overGround), dFdx(overGround)) + dot(dFdy(overGround), dFdy(overGround))));
   vec3 flatNormal = cross(dFdx(fromEye), dFdy(fromEye));
-  if (modes.y > 0.0) {
-    slope = texture(slopes, (plan + 0.5) / vec2(textureSize(slopes, 0))).xy * earth.x;
-  } else {
-    // Turned as the vertical of the place to the z axis.
-    vec3 up = upAt(fromEye + eyeHigh.xyz), between = up + vec3(0.0, 0.0, 1.0);
-    flatNormal += 2.0 * dot(up, flatNormal) * vec3(0.0, 0.0, 1.0) - dot(between, flatNormal) / max(1.0 + up.z, 1e-6) * between;
-    flatNormal *= flatNormal.z < 0.0 ? -1.0 : 1.0;
-    slope = -flatNormal.xy / max(flatNormal.z, 1e-6);
+  int mode = int(modes.x);
+  vec4 ground = vec4(0.0);  // slope and direction downhill
+  vec2 slope = vec2(0.0);
+  if (sun.w > 0.0 || mode == 1 || mode == 2) {
+    ground = groundMeanSlope(at, pixel);
+    if (ground.w == 0.0) {
+      // Turned as the vertical of the place to the z axis.
+      vec3 up = upAt(fromEye + eyeHigh.xyz), between = up + vec3(0.0, 0.0, 1.0);
+      flatNormal += 2.0 * dot(up, flatNormal) * vec3(0.0, 0.0, 1.0) - dot(between, flatNormal) / max(1.0 + up.z, 1e-6) * between;
+      flatNormal *= flatNormal.z < 0.0 ? -1.0 : 1.0;
+      vec2 down = flatNormal.xy / max(flatNormal.z, 1e-6) / earth.x;
+      float steepness = length(down);
+      ground = vec4(atan(steepness) / 1.5707963, steepness > 0.0 ? vec2(dot(down, eastNorth.xy), dot(down, eastNorth.zw)) / steepness : vec2(0.0), 1.0);
+    }
+    slope = -tan(1.5707963 * min(ground.x, 0.99)) * earth.x * (ground.y * eastNorth.xy + ground.z * eastNorth.zw);
   }
   vec3 normal = normalize(vec3(-slope, 1.0));
 
-  int mode = int(modes.x);
-  float height = place.z * heightUnits.x + heightUnits.y;
-  float part = clamp((place.z - range.x) / max(range.y - range.x, 1e-6), 0.0, 1.0);
   vec3 base = vec3(0.78);
-  if (mode == 0) base = texture(tints, part).rgb;
-  if (mode == 1) base = ramp3(clamp(atan(length(slope / earth.x)) / 1.0472, 0.0, 1.0), vec3(0.95, 0.95, 0.88), vec3(0.93, 0.6, 0.25), vec3(0.45, 0.08, 0.2));
+  if (mode == 0) {
+    float height = groundMeanHeight(at, pixel);
+    base = heightColor(height < kNoHeight ? place.z * heightUnits.x + heightUnits.y : height);
+  }
+  if (mode == 1) base = ramp3(clamp(ground.x * 1.5, 0.0, 1.0), vec3(0.95, 0.95, 0.88), vec3(0.93, 0.6, 0.25), vec3(0.45, 0.08, 0.2));
   if (mode == 2) {
-    vec2 down = -slope;
-    float turns = atan(dot(down, eastNorth.xy), dot(down, eastNorth.zw)) / 6.2831853;
-    base = mix(vec3(0.8), hue(turns), min(1.0, length(slope / earth.x) * 8.0) * 0.75);
+    // Where directions cancel there is none.
+    float turns = atan(ground.y, ground.z) / 6.2831853;
+    base = mix(vec3(0.8), hue(turns), 0.75 * smoothstep(0.05, 0.2, length(ground.yz)));
   }
   if (mode == 4) {
     float e = errorOf(drawnId[drawFirst / 3u + uint(gl_PrimitiveID)]);
@@ -111,15 +123,7 @@ void main() {
     vec4 seen = texture(overlay, plan * overlayFrame.xy + overlayFrame.zw);
     base = mix(base, seen.rgb, seen.a);
   }
-  if (range.z > 0.0) {
-    // A thousandth of an interval higher than they say, so that a sea at exactly 0 is not all one line.
-    float level = height / range.z - 1e-3, width = fwidth(level);
-    float away = abs(fract(level + 0.5) - 0.5) / max(width, 1e-6);
-    bool isFifth = abs(fract(level / 5.0 + 0.5) - 0.5) < 0.05;
-    float ink = (1.0 - smoothstep(range.w * (isFifth ? 0.8 : 0.25), range.w * (isFifth ? 0.8 : 0.25) + 1.0, away)) *
-                (1.0 - smoothstep(0.12, 0.35, width));  // too close together to be told apart
-    base = mix(base, vec3(0.32, 0.2, 0.1), 0.75 * ink);
-  }
+  if (modes.y > 0.0) base = mix(base, contourColor.rgb, contourColor.a * contourInkAt(at, dx, dy, pixel, run));
   if (sun.w > 0.0) {
     // The sun, the sky above, and what the ground throws back.
     float lit = max(dot(normal, sun.xyz), 0.0), sky = 0.5 + 0.5 * normal.z;
