@@ -1,11 +1,12 @@
 // Contour lines of the heights of full resolution (ground.glsl): ink by the distance on the screen from where
 // the ground has a level's height, and not by triangles.
 //
-// Heights are taken in the middle of the pixel and half a pixel from it each way, so a line along the edge of
-// flat ground, which has a gradient on one side only, is as wide as any other.
+// Heights are taken in the middle of the pixel and half a pixel from it each way. The next level above is as far
+// as the ground rises to it, the next one below as far as it falls: so a line along a crest, or along the edge
+// of flat ground, which has a gradient on one side only, is as wide as any other.
 layout(std140, binding = 5) uniform Contours {
   vec4 contourLevels;  // interval (0 = none), level of the base of heights, lift in levels
-  vec4 contourInk;     // ink of minor lines and of every fifth; their widths in pixels
+  vec4 contourInk;     // ink of minor lines and of every fifth; pixels from a line to its full ink and to none
   vec4 contourColor;   // its alpha is the most ink
 };
 
@@ -22,20 +23,24 @@ float contourInkAt(vec2 at, vec2 dx, vec2 dy, Footprint pixel, float run) {
   if (around.z < kNoHeight) around.z = around.w < kNoHeight ? here : 2.0 * here - around.w;
   if (around.w < kNoHeight) around.w = 2.0 * here - around.z;
   float interval = contourLevels.x;
-  float rise = length(vec2(around.y - around.x, around.w - around.z)) / interval;  // levels a pixel
+  around = 2.0 * (around - here) / interval;  // levels a pixel
+  float up = length(max(max(around.xz, around.yw), 0.0)), down = length(min(min(around.xz, around.yw), 0.0));
+  float rise = 0.5 * (up + down);
   if (rise <= 0.0) return 0.0;
   float level = here / interval + contourLevels.y - contourLevels.z;
   // Lines thin out where the slopes around, whatever side they face, have more of them than can be told apart.
   vec4 slopes = groundSlope(int(groundLod(8.0 * pixel.longer)), at);
   float steep = tan(1.5707963 * min(slopes.x / max(slopes.w, 1e-6), 0.95));
-  float crowd = max(0.5 * rise, steep * run / (interval * abs(metricScale.z)));
+  float crowd = steep * run / (interval * abs(metricScale.z));
   float ink = 0.0, every = 1.0;
   for (int k = 0; k < 4; ++k, every *= 5.0) {
-    float away = abs(fract(level / every + 0.5) - 0.5) * every / rise;
-    float seen = 1.0 - smoothstep(0.25, 0.5, crowd / every);
-    bool isMinor = k == 0;
-    float line = clamp(0.5 * (isMinor ? contourInk.z : contourInk.w) + 0.5 - away, 0.0, 1.0);
-    ink = max(ink, (isMinor ? contourInk.x : contourInk.y) * seen * line);
+    float above = fract(level / every) * every, below = every - above;  // how far the ground is, in levels
+    float away = min(above / max(down, 1e-6), below / max(up, 1e-6));
+    // Lines of one kind never touch; minor ones leave room besides.
+    float seen = 1.0 - smoothstep(0.5, 1.0, rise / every);
+    if (k == 0) seen *= 1.0 - smoothstep(0.25, 0.5, crowd);
+    float line = 1.0 - smoothstep(contourInk.z, contourInk.w, away);
+    ink = max(ink, (k == 0 ? contourInk.x : contourInk.y) * seen * line);
   }
   return ink;
 }
