@@ -157,7 +157,7 @@ void TerrainPainter::draw(const TerrainOnGpu& terrain, const DrawnFront& front, 
   if (l.contourInterval > 0) {
     const ContourLevels levels = contourLevels(l.contourInterval, base, heights_->reach());
     const ContourBlock block{{float(levels.interval), float(levels.shift), float(levels.lift), 0},
-                             {0.55f, 1.0f, 0.35f, 0.65f},
+                             {0.5f, 0.8f, 0.8f, 0.7f},
                              {0.32f, 0.2f, 0.1f, 0.85f}};
     glNamedBufferSubData(contours_, 0, sizeof block, &block);
   }

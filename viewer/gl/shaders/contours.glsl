@@ -6,13 +6,13 @@
 // of flat ground, which has a gradient on one side only, is as wide as any other.
 layout(std140, binding = 5) uniform Contours {
   vec4 contourLevels;  // interval (0 = none), level of the base of heights, lift in levels
-  vec4 contourInk;     // ink of minor lines and of every fifth; pixels from a line to its full ink and to none
+  vec4 contourInk;     // ink of minor lines and of every fifth; pixels from either to where it ends
   vec4 contourColor;   // its alpha is the most ink
 };
 
 /// Ink from 0 to 1 at a place. `dx`, `dy`: to the places of the next pixels; `run`: metric units to them.
 float contourInkAt(vec2 at, vec2 dx, vec2 dy, Footprint pixel, float run) {
-  float lod = groundLod(0.5 * max(pixel.shorter, 0.25 * pixel.longer));
+  float lod = groundLod(0.4 * max(pixel.shorter, 0.25 * pixel.longer));
   float here = groundHeightAt(lod, at);
   if (here < kNoHeight) return 0.0;
   vec4 around = vec4(groundHeightAt(lod, at - 0.5 * dx), groundHeightAt(lod, at + 0.5 * dx),
@@ -39,8 +39,8 @@ float contourInkAt(vec2 at, vec2 dx, vec2 dy, Footprint pixel, float run) {
     // Lines of one kind never touch; minor ones leave room besides.
     float seen = 1.0 - smoothstep(0.5, 1.0, rise / every);
     if (k == 0) seen *= 1.0 - smoothstep(0.25, 0.5, crowd);
-    float line = 1.0 - smoothstep(contourInk.z, contourInk.w, away);
-    ink = max(ink, (k == 0 ? contourInk.x : contourInk.y) * seen * line);
+    vec2 kind = k == 0 ? contourInk.xz : contourInk.yw;
+    ink = max(ink, kind.x * seen * max(1.0 - away / kind.y, 0.0));
   }
   return ink;
 }
