@@ -14,7 +14,7 @@
 #include <limits>
 #include <utility>
 
-#include "viewer/picture/color_ramp.h"
+#include "viewer/color/color_tables.h"
 #include "viewer/picture/map_page.h"
 #include "viewer/picture/ticks.h"
 
@@ -58,7 +58,7 @@ double roundUpNice(double value) {
 }
 
 Rgb errorColor(double error, double limit) {
-  return rampColor(divergingRamp(), (error / limit + 1) / 2);
+  return colorTable("difference").at(error / limit).opaque();
 }
 
 /// First and one past the last sample whose centre falls into a pixel; the nearest where none does.
