@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::int32_t kSmallestPicture = 32;  // of the last level, in pixels along its longer side
 constexpr std::size_t kMostLevels = 16;        // shaders/terrain.frag.glsl
-constexpr GLint kPicture = 2, kEye = 3, kStep = 4, kLevels = 5, kClasses = 22;
+constexpr GLint kPicture = 2, kEye = 3, kStep = 4, kLevels = 5, kClasses = 92;
 
 /// Half of what is free, as far as the driver tells; a quarter of the machine's memory where it does not.
 std::uint64_t roomInBytes() {

@@ -27,7 +27,7 @@ struct TerrainPainter::Look {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
-constexpr GLint kColorMapPlaces = 21;  // shaders/terrain.frag.glsl
+constexpr GLint kColorMapPlaces = 91;  // shaders/terrain.frag.glsl
 
 /// dz/dx and dz/dy of the samples in metric space: central differences, one-sided beside what has no data.
 std::vector<float> slopesOf(const RasterHeightfield& f, const MetricFrame& metric) {

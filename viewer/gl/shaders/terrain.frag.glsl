@@ -24,8 +24,8 @@ layout(location = 2) uniform ivec4 drapePicture;    // pixels across and down, s
 layout(location = 3) uniform ivec2 drapeEye;        // the pixel under the eye
 layout(location = 4) uniform vec4 drapeStep;        // pixels a unit of metric space; where in its pixel the eye is
 layout(location = 5) uniform ivec2 drapeLevel[16];  // first layer, tiles across
-layout(location = 22) uniform int drapeClasses;     // 1: colours of classes, which are not mixed
-layout(location = 21) uniform uvec4 colorMaps;      // of heights, slopes, aspects, errors (color_map.glsl)
+layout(location = 92) uniform int drapeClasses;     // 1: colours of classes, which are not mixed
+layout(location = 91) uniform uvec4 colorMaps;      // of heights, slopes, aspects, errors (color_map.glsl)
 
 float errorOf(uint t) {
   uint code = triangleError[t >> 1] >> (16u * (t & 1u)) & 0xFFFFu;
