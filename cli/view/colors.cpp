@@ -108,7 +108,7 @@ Result<TerrainColors> ColorArguments::colors(const std::string& coloring, double
   const ColorTable* table = findColorTable(ramp.empty() ? of : ramp);
   if (!table) {
     Result<RampFile> file = readRampFile(ramp);
-    // A word that is no file is taken for a name that is wrong.
+    // A word without a file is taken for a misspelt name.
     if (!file && file.error().code == ErrorCode::notFound && ramp.find_first_of("./\\") == ramp.npos)
       return refusal("--ramp " + ramp, fmt::format("is neither a file nor one of {}", namesOfTables()));
     if (!file) return tl::unexpected(file.error());

@@ -26,7 +26,7 @@ struct ColorArguments {
   /// The colours of a terrain whose heights run from `lowest` to `highest`.
   ///
   /// @param coloring what is coloured: "height", "slope", "aspect"; empty: height.
-  /// Errors: usage: options that do not go together or with `coloring`, or that say nothing; those of
+  /// Errors: usage: options that do not go together or with `coloring`, or that say nothing; the errors of
   /// readRampFile() and RampFile::map().
   Result<TerrainColors> colors(const std::string& coloring, double lowest, double highest,
                                Warnings& warnings) const;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // All formats are lines of a value and a colour, so one reader takes them; only what follows the colour
-// differs. A label is told from a number too many by its first letter, or by QGIS's header. Whatever would be
-// read as something else by one of these programs is refused: a wrong colour is not seen to be wrong.
+// differs. A label differs from a number too many in its first letter, or QGIS's header says so. Whatever
+// would be read as something else by one of these programs is refused: a wrong colour is not seen to be
+// wrong.
 #include "viewer/color/ramp_file.h"
 
 #include <fmt/format.h>
