@@ -40,10 +40,13 @@ class DrapeOnGpu {
   Vec2 shift() const { return shift_; }
   /// Differences from the file as sentences: read coarser, bands chosen.
   const Warnings& warnings() const { return warnings_; }
+  /// The picture has classes: their colours are never mixed, and coarse levels show the class of the most
+  /// pixels.
+  bool hasClasses() const { return hasClasses_; }
 
-  /// The texture and the uniforms of shaders/terrain.frag.glsl, for an eye over a plan position and so many
-  /// units of metric space a unit of the plan.
-  void bind(GLuint program, GLuint unit, Vec2 eyePlan, Vec2 metricScale) const;
+  /// The texture and the uniforms of shaders/terrain.frag.glsl for a layer on the ground, counted from 0, for
+  /// an eye over a plan position and so many units of metric space a unit of the plan.
+  void bind(GLuint program, GLuint slot, Vec2 eyePlan, Vec2 metricScale) const;
 
  private:
   struct Level {
@@ -58,6 +61,7 @@ class DrapeOnGpu {
   std::uint32_t columns_ = 0, rows_ = 0, side_ = 0, layers_ = 0;
   std::vector<Level> grid_;
   Vec2 scale_, shift_;
+  bool hasClasses_ = false;
   Warnings warnings_;
 };
 

@@ -3,6 +3,7 @@
 // What a picture over a terrain looks like, against a look-up of the place on the map of every pixel drawn.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <numbers>
@@ -12,6 +13,7 @@
 #include "viewer/drawn_mesh.h"
 #include "viewer/gl/drape_on_gpu.h"
 #include "viewer/gl/frame_target.h"
+#include "viewer/gl/terrain_drawable.h"
 
 namespace arete {
 namespace {
@@ -28,7 +30,7 @@ const Transform kDem = {500000, 30, 0, 4000000, 0, -30};
 constexpr std::uint8_t kPlain = 199;  // 0.78 of 255
 
 /// A terrain, a picture over it, and what one camera sees.
-struct Scene {
+struct DrapedView {
   Image image;
   std::vector<Vec2> place;  ///< on the map, of the middle of each pixel; infinite where there is sky
   std::uint32_t tiles = 0;
@@ -39,17 +41,17 @@ struct Scene {
 class Laid {
  public:
   Laid(const TerrainModel& model, const std::string& picture, std::uint32_t tileSide) {
-    auto view = TerrainView::create(model, {});
+    auto view = TerrainDrawable::create(model, {});
     EXPECT_TRUE(view);
     view_.emplace(std::move(*view));
     auto drape = DrapeOnGpu::load(picture, model, {.read = {}, .tileSide = tileSide});
     EXPECT_TRUE(drape) << drape.error().describe();
-    drape_.emplace(std::move(*drape));
-    view_->painter().setDrape(&*drape_);
+    drape_ = std::make_shared<const DrapeOnGpu>(std::move(*drape));
+    layers_.put("drape", drape_);
   }
   const DrapeOnGpu& drape() const { return *drape_; }
 
-  Scene draw(const Camera& camera) {
+  DrapedView draw(const Camera& camera) {
     ViewSettings settings;
     settings.look.isShaded = false;
     settings.look.coloring = Coloring::plain;
@@ -57,9 +59,9 @@ class Laid {
     const auto target = FrameTarget::create(kWidth, kHeight);
     EXPECT_TRUE(target);
     target->begin();
-    EXPECT_TRUE(view_->draw(camera, settings));
+    EXPECT_TRUE(view_->draw(camera, settings, layers_.list()));
     const std::vector<float> depths = target->depths(view_->frameOf(camera, settings)->drawnNear);
-    Scene scene{target->image(), {}, drape_->tiles(), drape_->levels()};
+    DrapedView scene{target->image(), {}, drape_->tiles(), drape_->levels()};
     // The map has metres along both axes, and the camera looks along it.
     const double a = camera.azimuthDegrees * std::numbers::pi / 180,
                  p = camera.pitchDegrees * std::numbers::pi / 180;
@@ -76,8 +78,9 @@ class Laid {
   }
 
  private:
-  std::optional<TerrainView> view_;
-  std::optional<DrapeOnGpu> drape_;
+  std::optional<TerrainDrawable> view_;
+  std::shared_ptr<const DrapeOnGpu> drape_;
+  Layers layers_;
 };
 
 Vec2 inPicture(const Transform& t, Vec2 p) {
@@ -86,7 +89,7 @@ Vec2 inPicture(const Transform& t, Vec2 p) {
 }
 
 /// How far apart in the picture the places of pixels beside this one are, or nothing beside the sky.
-std::optional<double> reachOf(const Scene& scene, const Transform& t, int x, int y) {
+std::optional<double> reachOf(const DrapedView& scene, const Transform& t, int x, int y) {
   const Vec2 here = inPicture(t, scene.placeAt(x, y));
   double reach = 0;
   for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
@@ -131,7 +134,7 @@ TEST(Drape, EveryPixelShowsTheColourOfItsPlaceOnTheMap) {
         const Camera camera = i < 3 ? above(model, {20, 16}, 300 + 250 * i, 40 * i)
                                     : above(model, {random.between(5, 35), random.between(5, 28)}, 400,
                                             random.between(0, 360), -50);
-        const Scene scene = laid.draw(camera);
+        const DrapedView scene = laid.draw(camera);
         for (int y = 1; y + 1 < kHeight; ++y)
           for (int x = 1; x + 1 < kWidth; ++x) {
             const auto reach = reachOf(scene, t, x, y);
@@ -196,7 +199,7 @@ TEST(Drape, ASmoothPictureOverManyTilesHasNoSeamAtAnyZoom) {
   std::size_t compared = 0;
   double worst = 0;
   for (const Camera& camera : cameras) {
-    const Scene scene = laid.draw(camera);
+    const DrapedView scene = laid.draw(camera);
     for (int y = 1; y + 1 < kHeight; ++y)
       for (int x = 1; x + 1 < kWidth; ++x) {
         const auto reach = reachOf(scene, t, x, y);
@@ -239,7 +242,7 @@ TEST(Drape, FarFromItsFirstCornerALongPictureIsAsSharp) {
     const RasterHeightfield samples = model.rasterSamples();
     const Vec2 plan = model.toPlan({x, 3999514});
     camera.height = samples.at(std::uint32_t(plan.x + 0.5), std::uint32_t(plan.y + 0.5)) + 3;
-    const Scene scene = laid.draw(camera);
+    const DrapedView scene = laid.draw(camera);
     for (int y = 1; y + 1 < kHeight; ++y)
       for (int px = 1; px + 1 < kWidth; ++px) {
         const Vec2 p = inPicture(t, scene.placeAt(px, y));
@@ -275,7 +278,7 @@ TEST(Drape, HalfHiddenPixelsLetHalfOfTheColourBelowThrough) {
                                                             : 20; },
            .adjust = [](GDALDataset& d) { d.GetRasterBand(4)->SetColorInterpretation(GCI_AlphaBand); }}),
       0);
-  const Scene scene = laid.draw(above(model, {20, 16}, 700));
+  const DrapedView scene = laid.draw(above(model, {20, 16}, 700));
   std::size_t clear = 0, covered = 0;
   for (int y = 1; y + 1 < kHeight; ++y)
     for (int x = 1; x + 1 < kWidth; ++x) {
@@ -292,6 +295,66 @@ TEST(Drape, HalfHiddenPixelsLetHalfOfTheColourBelowThrough) {
       }
     }
   EXPECT_GT(std::min(clear, covered), 10000u);
+}
+
+TEST(Drape, ClassesKeepTheirColoursNearAndAreTheMajorityFarAway) {
+  ARETE_NEEDS_OPENGL(context);
+  const TemporaryFolder folder;
+  const TerrainModel model = terrainAt(folder, kUtm, kDem);
+  const Transform t = {500000, 1.5, 0, 4000000, 0, -1.5};
+  const Rgb colors[] = {{20, 90, 40}, {230, 200, 60}, {190, 30, 30}, {40, 80, 200}};
+  // In the west class 1 has 55 of 100 pixels, in the east class 2 has; single pixels of all classes between
+  // them.
+  const auto classAt = [](int c, int r, int) {
+    return Random::at(3, c, r) % 100 < 40 ? double(c < 400 ? 1 : 2) : double(Random::at(4, c, r) % 4);
+  };
+  Laid laid(model,
+            writePicture(folder.file("cover.tif"),
+                         {.columns = 800,
+                          .rows = 640,
+                          .transform = t,
+                          .crs = kUtm,
+                          .bands = 1,
+                          .value = classAt,
+                          .adjust =
+                              [&](GDALDataset& d) {
+                                GDALColorTable table;
+                                for (int i = 0; i < 4; ++i) {
+                                  const GDALColorEntry e{colors[i].r, colors[i].g, colors[i].b, 255};
+                                  table.SetColorEntry(i, &e);
+                                }
+                                d.GetRasterBand(1)->SetColorTable(&table);
+                              }}),
+            66);
+  EXPECT_TRUE(laid.drape().hasClasses());
+  std::size_t nearby = 0, nearbyRight = 0, far = 0, farRight = 0;
+  for (const Camera& camera : {above(model, {22, 14}, 150, 30, -60), above(model, {20, 16}, 2600)}) {
+    const Scene scene = laid.draw(camera);
+    for (int y = 1; y + 1 < kHeight; ++y)
+      for (int x = 1; x + 1 < kWidth; ++x) {
+        const auto reach = reachOf(scene, t, x, y);
+        if (!reach) continue;
+        const Vec2 p = inPicture(t, scene.placeAt(x, y));
+        const double beside = 2 + 2 * *reach;
+        if (p.x < beside || p.y < beside || p.x > 800 - beside || p.y > 640 - beside) continue;
+        const Rgb got = scene.image.at(x, y);
+        ASSERT_NE(std::ranges::find(colors, got), std::end(colors))
+            << "no class has the colour at " << x << ", " << y;
+        const auto isInside = [](double at) { return std::abs(at - std::round(at)) > 0.1; };
+        if (*reach < 0.9 && isInside(p.x) && isInside(p.y)) {
+          ++nearby;
+          nearbyRight += got == colors[int(classAt(int(p.x), int(p.y), 0))] ? 1 : 0;
+        } else if (*reach > 6 && std::abs(p.x - 400) > 2 * *reach) {
+          ++far;
+          farRight += got == colors[p.x < 400 ? 1 : 2] ? 1 : 0;
+        }
+      }
+  }
+  std::cout << nearbyRight << " of " << nearby << " near, " << farRight << " of " << far << " far away\n";
+  EXPECT_GT(nearby, 5000u);
+  EXPECT_EQ(nearbyRight, nearby);
+  EXPECT_GT(far, 1000u);
+  EXPECT_GE(double(farRight), 0.97 * double(far));
 }
 
 TEST(Drape, APictureTooLargeForTheDeviceIsToldToBeCoarser) {

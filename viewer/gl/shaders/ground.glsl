@@ -13,8 +13,6 @@ layout(std140, binding = 4) uniform Ground {
 
 const float kNoHeight = -1e38;  // less is no height
 
-vec2 groundPlace(vec2 overGround) { return overGround * groundStep.xy + groundStep.zw; }
-
 float groundFetch(int level, ivec2 node) {
   node = clamp(node, ivec2(0), groundLevel[level].zw - 1);
   int inner = groundTiles.x - 1;
@@ -83,18 +81,23 @@ vec4 groundSlope(int level, vec2 at) {
   return textureLod(groundSlopes, vec3((vec2(n - tile * inner) + f + 0.5) / float(side), float(groundLevel[level].x + tile.y * groundLevel[level].y + tile.x)), 0.0);
 }
 
-/// What a pixel of the screen covers of the ground, in nodes: the longer axis, as a vector, and the shorter
-/// one's length.
-struct Footprint { vec2 axis; float longer, shorter; };
-Footprint footprintOf(vec2 dx, vec2 dy) {
-  float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
+/// What a pixel of the screen covers of the ground, in nodes: its place, the ways to the places of the next
+/// pixels, the longer axis of what it covers and the lengths of both axes; metric units to the next pixels.
+struct Sight { vec2 at, dx, dy, axis; float longer, shorter, run; };
+Sight sightOf(vec2 overGround) {
+  Sight s;
+  s.at = overGround * groundStep.xy + groundStep.zw;
+  vec2 right = dFdx(overGround), up = dFdy(overGround);
+  s.run = sqrt(0.5 * (dot(right, right) + dot(up, up)));
+  s.dx = right * groundStep.xy;
+  s.dy = up * groundStep.xy;
+  float xx = s.dx.x * s.dx.x + s.dy.x * s.dy.x, yy = s.dx.y * s.dx.y + s.dy.y * s.dy.y, xy = s.dx.x * s.dx.y + s.dy.x * s.dy.y;
   float middle = 0.5 * (xx + yy), apart = 0.5 * (xx - yy), around = sqrt(apart * apart + xy * xy);
-  Footprint f;
-  f.longer = sqrt(middle + around);
-  f.shorter = sqrt(max(middle - around, 0.0));
+  s.longer = sqrt(middle + around);
+  s.shorter = sqrt(max(middle - around, 0.0));
   vec2 axis = apart >= 0.0 ? vec2(apart + around, xy) : vec2(xy, around - apart);
-  f.axis = axis * (f.longer / max(length(axis), 1e-30));
-  return f;
+  s.axis = axis * (s.longer / max(length(axis), 1e-30));
+  return s;
 }
 
 float groundLod(float nodes) {
@@ -103,24 +106,24 @@ float groundLod(float nodes) {
 
 /// Means over the pixel: up to 8 places along the longer axis, each at the level whose nodes are as far apart as
 /// the shorter one is long. x: the height; less than kNoHeight where there is none.
-float groundMeanHeight(vec2 at, Footprint pixel) {
+float groundMeanHeight(Sight pixel) {
   int count = int(clamp(ceil(pixel.longer / max(pixel.shorter, 1.0) - 0.01), 1.0, 8.0));
   float lod = groundLod(max(pixel.longer / float(count), pixel.shorter)), sum = 0.0, found = 0.0;
   for (int i = 0; i < count; ++i) {
-    float height = groundHeightAt(lod, at + ((float(i) + 0.5) / float(count) - 0.5) * pixel.axis);
+    float height = groundHeightAt(lod, pixel.at + ((float(i) + 0.5) / float(count) - 0.5) * pixel.axis);
     if (height > kNoHeight) { sum += height; found += 1.0; }
   }
   return found > 0.0 ? sum / found : 2.0 * kNoHeight;
 }
 
 /// x: the mean angle of slopes, 1 = 90 degrees; yz: the mean unit vector downhill, east and north; w: 0 = no data.
-vec4 groundMeanSlope(vec2 at, Footprint pixel) {
+vec4 groundMeanSlope(Sight pixel) {
   int count = int(clamp(ceil(pixel.longer / max(pixel.shorter, 1.0) - 0.01), 1.0, 8.0));
   float lod = groundLod(max(pixel.longer / float(count), pixel.shorter));
   int fine = int(lod), coarse = min(fine + 1, groundTiles.y - 1);
   vec4 sum = vec4(0.0);
   for (int i = 0; i < count; ++i) {
-    vec2 place = at + ((float(i) + 0.5) / float(count) - 0.5) * pixel.axis;
+    vec2 place = pixel.at + ((float(i) + 0.5) / float(count) - 0.5) * pixel.axis;
     vec4 slope = groundSlope(fine, place);
     if (lod > float(fine)) slope = mix(slope, groundSlope(coarse, place), lod - float(fine));
     sum += slope;

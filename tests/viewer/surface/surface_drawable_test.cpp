@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Pictures are judged by their pixels: where a surface is, what colour it has there, and where it is not.
+#include "viewer/surface/surface_drawable.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "surface/builder/build.h"
+#include "surface/families.h"
+#include "viewer/drawn_mesh.h"
+#include "viewer/headless/headless.h"
+#include "viewer/surface/shading_normals.h"
+
+namespace arete {
+namespace {
+
+/// A PNG of 2 x 1 pixels, red on the left and green on the right.
+std::vector<std::byte> redAndGreen() {
+  constexpr unsigned char kBytes[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d,
+                                      0x49, 0x48, 0x44, 0x52, 0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01,
+                                      0x08, 0x02, 0x00, 0x00, 0x00, 0x7b, 0x40, 0xe8, 0xdd, 0x00, 0x00, 0x00,
+                                      0x0f, 0x49, 0x44, 0x41, 0x54, 0x78, 0xda, 0x63, 0xf8, 0xcf, 0xc0, 0xc0,
+                                      0xf0, 0x9f, 0x01, 0x00, 0x07, 0xff, 0x01, 0xff, 0xb8, 0x04, 0x35, 0xe0,
+                                      0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+  std::vector<std::byte> bytes;
+  for (const unsigned char b : kBytes) bytes.push_back(std::byte(b));
+  return bytes;
+}
+
+/// A flat square of two halves: the left one of a red material, the right one of a green one.
+SurfaceMesh twoColors() {
+  SurfaceMesh mesh(shapes::sheet(9, 9));
+  mesh.materials = {Material{.name = "red", .baseColor = {1, 0, 0, 1}},
+                    Material{.name = "green", .baseColor = {0, 1, 0, 1}}};
+  for (const auto& t : mesh.triangles) {
+    double x = 0;
+    for (const std::uint32_t v : t) x += mesh.positions[v].x / 3;
+    mesh.materialOf.push_back(x < 4 ? 0 : 1);
+  }
+  return mesh;
+}
+
+ViewSettings byMaterial(double pixels = 1) {
+  ViewSettings settings;
+  settings.pixels = pixels;
+  settings.look.coloring = Coloring::material;
+  settings.look.isShaded = false;
+  return settings;
+}
+
+Result<HeadlessView> viewOf(const SurfaceModel& model, const ViewSettings& settings = byMaterial()) {
+  return HeadlessView::create(
+      {.widthPixels = 200, .heightPixels = 160, .samples = 1, .settings = settings},
+      [&](Scene& scene) -> Status {
+        ARETE_TRY(SurfaceDrawable made,
+                  SurfaceDrawable::create(model, std::make_shared<SurfaceSubject>(model, ZUpFrame(model))));
+        return scene.add(std::make_unique<SurfaceDrawable>(std::move(made)));
+      });
+}
+
+Camera fromAbove(const SurfaceModel& model) {
+  Camera picture;
+  picture.widthPixels = 200;
+  picture.heightPixels = 160;
+  return homeCamera(HomeView::fromAbove, CameraSpace(), uprightShape(model, ZUpFrame(model)).box, picture);
+}
+
+// Between two texels there is some of the other color.
+bool isRed(Rgb c) {
+  return c.r > 200 && c.g < 160 && c.b < 40;
+}
+bool isGreen(Rgb c) {
+  return c.g > 200 && c.r < 160 && c.b < 40;
+}
+
+TEST(SurfaceDrawable, ShowsTheMaterialOfEveryFaceAtEveryTolerance) {
+  ARETE_NEEDS_OPENGL(probe);
+  const Result<SurfaceModel> model = buildSurface(twoColors());
+  ASSERT_TRUE(model) << model.error().describe();
+  std::uint32_t before = ~0u;
+  for (const double pixels : {0.01, 1.0, 1000.0}) {
+    Result<HeadlessView> view = viewOf(*model, byMaterial(pixels));
+    ASSERT_TRUE(view) << view.error().describe();
+    const auto figures = view->draw(fromAbove(*model));
+    ASSERT_TRUE(figures) << figures.error().describe();
+    EXPECT_TRUE(figures->isShown);
+    EXPECT_LE(figures->triangles, before);
+    before = figures->triangles;
+    const Image image = view->image();
+    EXPECT_TRUE(isRed(image.at(60, 80))) << pixels;
+    EXPECT_TRUE(isGreen(image.at(140, 80))) << pixels;
+    EXPECT_GT(image.at(2, 2).r, 150);  // the background
+    EXPECT_EQ(image.at(2, 2).r, image.at(197, 2).r);
+  }
+  EXPECT_LE(before, 12u);
+}
+
+TEST(SurfaceDrawable, ShowsAPictureTheRightWayUpAndRound) {
+  ARETE_NEEDS_OPENGL(probe);
+  SurfaceMesh mesh(shapes::sheet(9, 9));
+  Material material;
+  material.textures = {{.role = "baseColor", .picture = "#0"}};
+  mesh.materials = {material};
+  mesh.materialOf.assign(mesh.triangles.size(), 0);
+  mesh.pictures = {{.name = "p.png", .mimeType = "image/png", .bytes = redAndGreen()}};
+  Attribute coords;
+  coords.name = kTexcoordName;
+  coords.meaning = AttributeMeaning::textureCoords;
+  coords.components = 2;
+  for (const Vec3& p : mesh.positions) coords.append(std::vector<double>{p.x / 8, p.y / 8});
+  mesh.vertexAttributes = {coords};
+  const Result<SurfaceModel> model = buildSurface(mesh);
+  ASSERT_TRUE(model) << model.error().describe();
+  Result<HeadlessView> view = viewOf(*model);
+  ASSERT_TRUE(view) << view.error().describe();
+  EXPECT_TRUE(view->warnings().empty()) << view->warnings().front().sentence;
+  ASSERT_TRUE(view->draw(fromAbove(*model)));
+  const Image image = view->image();
+  const Rgb left = image.at(60, 80), right = image.at(140, 80);
+  EXPECT_TRUE(isRed(left)) << int(left.r) << ' ' << int(left.g) << ' ' << int(left.b);
+  EXPECT_TRUE(isGreen(right)) << int(right.r) << ' ' << int(right.g) << ' ' << int(right.b);
+}
+
+TEST(SurfaceDrawable, SaysWhichPictureCannotBeShown) {
+  ARETE_NEEDS_OPENGL(probe);
+  SurfaceMesh mesh(shapes::sheet(4, 4));
+  Material material;
+  material.textures = {{.role = "baseColor", .picture = "#0"}};
+  mesh.materials = {material};
+  mesh.materialOf.assign(mesh.triangles.size(), 0);
+  mesh.pictures = {{.name = "broken.png", .mimeType = "image/png", .bytes = {std::byte{1}, std::byte{2}}}};
+  const Result<SurfaceModel> model = buildSurface(mesh);
+  ASSERT_TRUE(model) << model.error().describe();
+  Result<HeadlessView> view = viewOf(*model);
+  ASSERT_TRUE(view) << view.error().describe();
+  ASSERT_EQ(view->warnings().size(), 1u);
+  EXPECT_NE(view->warnings()[0].sentence.find("broken.png"), std::string::npos)
+      << view->warnings()[0].sentence;
+}
+
+TEST(SurfaceDrawable, KeepsABudgetAndSaysWhichToleranceIsReached) {
+  ARETE_NEEDS_OPENGL(probe);
+  const Result<SurfaceModel> model =
+      buildSurface(SurfaceMesh(shapes::shaken(shapes::globe(40, 30), 3, 0.02)));
+  ASSERT_TRUE(model);
+  ViewSettings settings = byMaterial(0.01);
+  settings.maxTriangles = 400;
+  Result<HeadlessView> view = viewOf(*model, settings);
+  ASSERT_TRUE(view) << view.error().describe();
+  const auto figures = view->draw(fromAbove(*model));
+  ASSERT_TRUE(figures) << figures.error().describe();
+  EXPECT_LE(figures->triangles, 400u);
+  EXPECT_FALSE(figures->isComplete);
+  EXPECT_GT(figures->pixels, 0.01);
+  Camera away = fromAbove(*model);
+  away.pitchDegrees = 90;
+  EXPECT_FALSE(view->draw(away)->isShown);
+}
+
+TEST(ShadingNormals, AreThoseOfTheSourceAndNoneOnSharpEdges) {
+  const Result<SurfaceModel> round = buildSurface(SurfaceMesh(shapes::globe(60, 40)));
+  ASSERT_TRUE(round);
+  const std::vector<Vec3> normals = shadingNormals(*round);
+  for (std::uint32_t v = 0; v < normals.size(); ++v)
+    EXPECT_GT(dot(normals[v], unit(round->mt.position(VertexId(v)))), 0.99);
+  const Result<SurfaceModel> sharp = buildSurface(SurfaceMesh(shapes::tetrahedron()));
+  ASSERT_TRUE(sharp);
+  for (const Vec3& n : shadingNormals(*sharp)) EXPECT_EQ(norm(n), 0);
+}
+
+}  // namespace
+}  // namespace arete

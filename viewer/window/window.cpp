@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A frame: input, camera, cut, scene into a picture beside (float depths, samples), a copy into the window,
+// the panel over it. The frame's time is taken up to where the device has finished, before the wait for the
+// screen.
+#include "viewer/window/window.h"
+
+#include <epoxy/gl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "viewer/gl/frame_target.h"
+#include "viewer/headless/headless.h"
+#include "viewer/panel/panel_context.h"
+#include "viewer/picture/picture.h"
+#include "viewer/window/glfw_window.h"
+#include "viewer/window/memory_use.h"
+#include "viewer/window/panel.h"
+
+namespace arete {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::string nameOfNow() {
+  return fmt::format("arete-{:%Y%m%d-%H%M%S}.png", fmt::localtime(std::time(nullptr)));
+}
+
+/// The flight, frame by frame, into a folder.
+class FrameFiles {
+ public:
+  Result<Camera> next(ViewerSession& s) {
+    ARETE_TRY(const auto flight, s.deck.flight());
+    std::error_code error;
+    std::filesystem::create_directories(s.files.framesFolder, error);
+    if (error) return failure(ErrorCode::unreadable, error.message(), s.files.framesFolder.string());
+    count_ = flight->frameCount();
+    return flight->at(double(frame_) / flight->plan().framesPerSecond);
+  }
+  /// True when that was the last.
+  Result<bool> save(const ViewerSession& s, const Image& image) {
+    const auto path = s.files.framesFolder / fmt::format("frame_{:05}.png", frame_);
+    ARETE_CHECK(savePng(image, path));
+    return ++frame_ >= count_;
+  }
+  std::uint64_t done() const { return frame_; }
+  std::uint64_t count() const { return count_; }
+
+ private:
+  std::uint64_t frame_ = 0, count_ = 0;
+};
+
+/// A home view is found for the picture that the window has.
+ViewerSession::Start startOf(const WindowOptions& options, const GlfwWindow& window) {
+  ViewerSession::Start start = options.start;
+  start.picture.widthPixels = std::max(window.widthPixels(), 1);
+  start.picture.heightPixels = std::max(window.heightPixels(), 1);
+  return start;
+}
+
+/// The loop of the window. The window owns the context of OpenGL and is destroyed after what uses it.
+class WindowLoop {
+ public:
+  WindowLoop(const WindowOptions& options, GlfwWindow window, Scene scene)
+      : options_(options),
+        window_(std::move(window)),
+        panelContext_(window_.handle(), window_.contentScale()),
+        scene_(std::move(scene)),
+        session_(scene_.subject(), scene_.layers, startOf(options, window_)) {
+    session_.device.renderer = window_.description();
+    session_.device.refusal = scene_.deviceRefusal();
+    if (!session_.device.refusal.empty()) session_.settings.path = CutPath::processor;
+    if (session_.tools) glGetIntegerv(GL_MAX_TEXTURE_SIZE, &session_.tools->mostOverlayPixels);
+    for (const Warning& warning : scene_.warnings()) session_.say(warning);
+  }
+
+  // A window of no size, as one that is minimized, is not drawn; the loop sleeps instead of spinning.
+  Status run(const RunContext& context) {
+    window_.show();
+    for (int frame = 0; !window_.isClosing(); ++frame) {
+      if (context.cancelled()) return failure(ErrorCode::interrupted, "interrupted");
+      if (options_.frames > 0 && frame >= options_.frames) break;
+      if (options_.onFrame && !options_.onFrame(session_, frame)) break;
+      if (window_.widthPixels() == 0 || window_.heightPixels() == 0) {
+        window_.wait(0.1);
+        continue;
+      }
+      ARETE_CHECK(drawFrame(context));
+    }
+    if (options_.lastPicture.empty() || shown_.width == 0) return {};
+    return savePng(shown_, options_.lastPicture);
+  }
+
+ private:
+  Status drawFrame(const RunContext& context) {
+    const auto start = Clock::now();
+    const int width = window_.widthPixels(), height = window_.heightPixels();
+    if (!target_ || target_->width() != width || target_->height() != height) {
+      ARETE_TRY(FrameTarget target, FrameTarget::create(width, height, options_.samples));
+      target_.emplace(std::move(target));
+    }
+    // Input to the panel does not reach the camera. All input is applied before the frame is drawn, so that
+    // the picture shows it.
+    const ImGuiIO& io = ImGui::GetIO();
+    GlfwWindow::Events events = window_.poll(io.WantCaptureMouse, io.WantCaptureKeyboard);
+    session_.rig.setPicture(width, height);
+    for (const Action action : events.actions) session_.apply(action);
+    if (events.click) session_.click(*events.click);
+    session_.step(events.input);
+    placeFrameFile();
+
+    panelContext_.beginFrame();
+    panel_.draw(session_, window_.pixelsPerUnit());
+    ImGui::Render();
+
+    ARETE_CHECK(drawScene(context));
+    // Pictures are saved before the panel is drawn over the terrain. The time is taken before the swap, which
+    // waits for the screen.
+    savePictures();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, width, height);
+    target_->copyTo(0);
+    panelContext_.drawFrame();
+    if (!options_.lastPicture.empty()) shown_ = windowImage(width, height);
+    glFinish();
+    const double work = millisecondsSince(start);
+    glfwSwapBuffers(window_.handle());
+    session_.history.add(work, millisecondsSince(lastFrame_));
+    lastFrame_ = Clock::now();
+    if (millisecondsSince(lastMemory_) > 1000) {
+      session_.device.residentBytes = residentBytes();
+      session_.device.deviceBytes = deviceBytes();
+      lastMemory_ = Clock::now();
+    }
+    return {};
+  }
+
+  /// To what could be drawn, from what cannot: a camera beyond the CRS of a curved Earth, for instance.
+  void goBack(const Error& why) {
+    ViewerSession& s = session_;
+    s.say(why.describe());
+    s.deck.stop();
+    s.files.wantsFrames = false;
+    files_.reset();
+    s.settings = drawn_->settings;
+    s.rig.setStretch(s.settings.stretch);
+    s.rig.place(drawn_->camera);
+  }
+
+  Status drawScene(const RunContext& context) {
+    ViewerSession& s = session_;
+    // A film has every frame as it should be, without the marks of a hand at work.
+    const bool isFilming = files_.has_value();
+    const Layers laid = isFilming ? scene_.layers : Layers();
+    if (isFilming)
+      for (const char* mark : ViewerSession::kMarks) scene_.layers.remove(mark);
+    // A setting that cannot be cut or drawn is taken back, and the last one that was drawn is used; only if
+    // that fails too the window ends.
+    Status drawn = drawOnce(context);
+    if (!drawn && drawn_ && drawn.error().code != ErrorCode::interrupted) {
+      goBack(drawn.error());
+      drawn = drawOnce(context);
+    }
+    if (drawn) drawn_ = {s.rig.camera(), s.settings};
+    if (isFilming) scene_.layers = laid;
+    return drawn;
+  }
+
+  Status drawOnce(const RunContext& context) {
+    ViewerSession& s = session_;
+    ViewSettings settings = s.settings;
+    settings.waits = settings.waits || files_.has_value();
+    if (!s.isFrozen || !hasCut_) {
+      ARETE_TRY(s.figures, scene_.cut(s.rig.camera(), settings, context));
+      hasCut_ = true;
+    }
+    target_->begin();
+    const auto start = Clock::now();
+    Status drawn = scene_.draw(s.rig.camera(), settings);
+    glFinish();
+    s.figures.drawMilliseconds = millisecondsSince(start);
+    return drawn;
+  }
+
+  /// While frames are written, the flight places the camera, and the user's input does not move it.
+  void placeFrameFile() {
+    ViewerSession& s = session_;
+    if (!s.files.wantsFrames) return files_.reset();
+    if (!files_) files_.emplace();
+    const Result<Camera> camera = files_->next(s);
+    if (camera) {
+      s.rig.place(*camera);
+      s.say(fmt::format("{}: frame {} of {}", s.files.framesFolder.string(), files_->done() + 1,
+                        files_->count()));
+    } else {
+      s.say(camera.error().describe());
+      s.files.wantsFrames = false;
+      files_.reset();
+    }
+  }
+
+  // The writing of frames ends after the last frame or the first failure; the window says either and goes on.
+  void savePictures() {
+    ViewerSession& s = session_;
+    if (files_) {
+      const Result<bool> isLast = files_->save(s, target_->image());
+      if (!isLast || *isLast) {
+        s.say(isLast ? fmt::format("{} frames in {}", files_->count(), s.files.framesFolder.string())
+                     : isLast.error().describe());
+        s.files.wantsFrames = false;
+      }
+    }
+    if (std::exchange(s.files.wantsScreenshot, false)) {
+      const std::string name = nameOfNow();
+      const Status saved = savePng(target_->image(), name);
+      s.say(saved ? "saved " + name : saved.error().describe());
+    }
+  }
+
+  const WindowOptions& options_;
+  GlfwWindow window_;
+  PanelContext panelContext_;
+  Scene scene_;
+  ViewerSession session_;
+  Panel panel_;
+  std::optional<FrameTarget> target_;
+  std::optional<FrameFiles> files_;
+  Image shown_;
+  bool hasCut_ = false;
+  struct Drawn {
+    Camera camera;
+    ViewSettings settings;
+  };
+  std::optional<Drawn> drawn_;  // last
+  Clock::time_point lastFrame_ = Clock::now(), lastMemory_{};
+};
+
+}  // namespace
+
+Status runWindow(const FillScene& fill, const WindowOptions& options, const RunContext& context) {
+  ARETE_TRY(GlfwWindow window,
+            GlfwWindow::open(options.title, options.width, options.height, options.waitsForScreen));
+  ARETE_TRY(Scene scene, Scene::create());
+  ARETE_CHECK(fill(scene));
+  WindowLoop loop(options, std::move(window), std::move(scene));
+  return loop.run(context);
+}
+
+}  // namespace arete
