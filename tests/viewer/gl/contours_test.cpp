@@ -31,21 +31,26 @@ struct Picture {
   std::vector<float> depths;
 };
 
-Picture drawn(TerrainView& view, const Camera& camera, const ViewSettings& settings) {
+Layers contourLayer(double interval) {
+  Layers layers;
+  if (interval > 0) layers.put("contours", Contours{interval});
+  return layers;
+}
+
+Picture drawn(TerrainDrawable& view, const Camera& camera, const ViewSettings& settings, double interval) {
   EXPECT_TRUE(view.cut(camera, settings));
   const auto target = FrameTarget::create(int(camera.widthPixels), int(camera.heightPixels));
   EXPECT_TRUE(target);
   target->begin();
-  EXPECT_TRUE(view.draw(camera, settings));
+  EXPECT_TRUE(view.draw(camera, settings, contourLayer(interval).list()));
   return {target->image(), target->depths(view.frameOf(camera, settings)->drawnNear)};
 }
 
-ViewSettings inkAlone(double interval, double pixels) {
+ViewSettings inkAlone(double pixels) {
   ViewSettings settings;
   settings.pixels = pixels;
   settings.look.isShaded = false;
   settings.look.coloring = Coloring::plain;
-  settings.look.contourInterval = interval;
   return settings;
 }
 
@@ -59,7 +64,7 @@ TEST(Contours, MeasureRealData) {
   auto model = build(field);
   ASSERT_TRUE(model);
   const GroundHeights ground(*model);
-  auto view = TerrainView::create(*model, {});
+  auto view = TerrainDrawable::create(*model, {});
   ASSERT_TRUE(view);
   const double interval = std::atof(std::getenv("INK_INTERVAL"));
   const double threshold = std::getenv("INK_THRESHOLD") ? std::atof(std::getenv("INK_THRESHOLD")) : 0.25;
@@ -75,7 +80,7 @@ TEST(Contours, MeasureRealData) {
       const Vec2 xy = model->toSource({p.plan.x * model->columns, p.plan.y * model->rows});
       const auto under = ground.at(xy);
       Camera camera{.xy = xy, .height = (under ? under->height : top) + p.height * m, .azimuthDegrees = p.azimuth, .pitchDegrees = p.pitch, .widthPixels = 640, .heightPixels = 400};
-      Picture with = drawn(*view, camera, inkAlone(interval, pixels));
+      Picture with = drawn(*view, camera, inkAlone(pixels), interval);
       const auto hasInk = [&](int x, int y) { return with.image.at(x, y).r < kBare - threshold * 140; };
       const InkReport r = test::compareInk(field, *model, camera, interval, pixels + 0.5, with.depths, hasInk, true);
       if (std::getenv("INK_OUT") && pixels == 1.0) {
@@ -99,7 +104,7 @@ TEST(Contours, MeasureCrawl) {
   auto model = build(field);
   ASSERT_TRUE(model);
   const GroundHeights ground(*model);
-  auto view = TerrainView::create(*model, {});
+  auto view = TerrainDrawable::create(*model, {});
   const auto target = FrameTarget::create(480, 270, 4);
   for (const bool shaded : {true})
   for (const double interval : {100.0, 250.0})
@@ -110,12 +115,12 @@ TEST(Contours, MeasureCrawl) {
       double top = ground.at(middle)->height + 1000;
       for (int i = 0; i < 5; ++i) {
         Camera camera{.xy = {middle.x + 1.2 * i, middle.y + 1.6 * i}, .height = top, .azimuthDegrees = 36.87, .pitchDegrees = pitch, .widthPixels = 480, .heightPixels = 270};
-        ViewSettings settings = inkAlone(interval, 1);
+        ViewSettings settings = inkAlone(1);
         settings.look.isShaded = shaded;
-        if (shaded) settings.look.coloring = Coloring::hypsometric;
+        if (shaded) settings.look.coloring = Coloring::height;
         ASSERT_TRUE(view->cut(camera, settings));
         target->begin();
-        ASSERT_TRUE(view->draw(camera, settings));
+        ASSERT_TRUE(view->draw(camera, settings, contourLayer(interval).list()));
         Image now = target->image();
         if (i > 0) {
           int changed = 0;
