@@ -36,10 +36,10 @@
 #include "viewer/camera/round_flight.h"
 #include "viewer/headless/headless.h"
 #include "viewer/picture/chart.h"
-#include "viewer/picture/error_map.h"
+#include "viewer/map/error_map.h"
 #include "viewer/picture/ticks.h"
-#include "viewer/picture/tin_picture.h"
-#include "viewer/picture/viewshed_map.h"
+#include "viewer/map/tin_picture.h"
+#include "viewer/map/viewshed_map.h"
 
 namespace arete {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The layout is computed from the top down: title, map, caption; the page is made as high as they need.
-#include "viewer/picture/map_page.h"
+#include "viewer/map/map_page.h"
 
 #include <fmt/core.h>
 

@@ -4,7 +4,7 @@
 // own cell centre falls into it, or, where samples are sparser than pixels, the nearest. The colour bar spans
 // -limit..limit and carries the histogram of the same samples, its counts drawn by their square root so that
 // the tails remain visible.
-#include "viewer/picture/error_map.h"
+#include "viewer/map/error_map.h"
 
 #include <fmt/core.h>
 
@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "viewer/picture/color_ramp.h"
-#include "viewer/picture/map_page.h"
+#include "viewer/map/map_page.h"
 #include "viewer/picture/ticks.h"
 
 namespace arete {

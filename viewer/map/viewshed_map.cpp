@@ -2,7 +2,7 @@
 //
 // A pixel shows the sample nearest to its centre: a viewshed is an answer for samples, and mixed answers have
 // no meaning.
-#include "viewer/picture/viewshed_map.h"
+#include "viewer/map/viewshed_map.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "viewer/picture/hillshade.h"
-#include "viewer/picture/map_page.h"
+#include "viewer/map/map_page.h"
 #include "viewer/picture/ticks.h"
 
 namespace arete {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/picture/viewshed_map.h"
+#include "viewer/map/viewshed_map.h"
 
 #include <gtest/gtest.h>
 

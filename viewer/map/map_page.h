@@ -11,10 +11,6 @@
 
 namespace arete {
 
-inline constexpr Rgb kInk = {34, 38, 46};
-inline constexpr Rgb kQuietInk = {104, 110, 120};
-inline constexpr Rgb kRule = {188, 193, 200};
-
 /// A page with a map: title above, caption below, scale bar and north arrow at the lower right.
 struct MapPage {
   Canvas canvas;

@@ -4,7 +4,7 @@
 // typical edge in pixels: from a dozen pixels up the lines stand by themselves; below, they get lighter with
 // their length, so that dense ground turns into a tone instead of a black patch. Then a detail is cut out
 // where the heights vary most within its size, and put into the corner of the map farthest from it.
-#include "viewer/picture/tin_picture.h"
+#include "viewer/map/tin_picture.h"
 
 #include <fmt/core.h>
 
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "viewer/picture/hillshade.h"
-#include "viewer/picture/map_page.h"
+#include "viewer/map/map_page.h"
 #include "viewer/picture/ticks.h"
 
 namespace arete {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The edges of a TIN over shaded relief.
-#include "viewer/picture/tin_picture.h"
+#include "viewer/map/tin_picture.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "viewer/picture/map_page.h"
+#include "viewer/map/map_page.h"
 #include "viewer/picture_fixture.h"
 
 namespace arete {
