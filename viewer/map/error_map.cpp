@@ -23,8 +23,7 @@ namespace {
 
 constexpr int kSideWidth = 190;
 constexpr double kBarLeft = 28, kBarWidth = 22, kHistogramGap = 62, kHistogramWidth = 90;
-constexpr Rgb kNoErrorColor = {190, 191, 194};  // no colour of the ramp comes near it
-constexpr int kBins = 81;                       // odd: zero has a bin of its own
+constexpr int kBins = 81;  // odd: zero has a bin of its own
 
 struct Statistics {
   std::size_t count = 0;
@@ -74,7 +73,7 @@ std::pair<std::uint32_t, std::uint32_t> samplesOf(int pixel, double origin, doub
 }
 
 Image errorImage(const RasterHeightfield& errors, const MapView& view, double limit) {
-  Image image(view.width, view.height, kNoErrorColor);
+  Image image(view.width, view.height, kNodataColor);
   for (int y = 0; y < view.height; ++y) {
     const auto [firstRow, endRow] = samplesOf(y, view.row0, view.rowsPerPixel, errors.rows);
     for (int x = 0; x < view.width; ++x) {
@@ -127,7 +126,7 @@ void drawColorBar(Canvas& canvas, const Rect& bar, const RasterHeightfield& erro
   drawBeyond(canvas, bar, s, limit);
   if (s.count < errors.size()) {
     const Rect swatch = {bar.left, bar.bottom() + 22, bar.width, 14};
-    canvas.fill(swatch, kNoErrorColor);
+    canvas.fill(swatch, kNodataColor);
     canvas.frame(swatch, {.color = kInk, .width = 1});
     canvas.text("no data", {swatch.right() + 9, swatch.top + 7},
                 {.size = 13, .color = kInk, .vertical = Align::center});

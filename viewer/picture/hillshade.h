@@ -7,9 +7,6 @@
 
 namespace arete {
 
-/// The colour of NODATA in every map.
-inline constexpr Rgb kNodataColor = {221, 230, 236};
-
 struct HillshadeOptions {
   /// Heights are multiplied by it before shading; 0 chooses: 1 in mountains, up to 12 on plains.
   double verticalExaggeration = 0;

@@ -57,13 +57,6 @@ cairo_status_t append(void* closure, const unsigned char* data, unsigned int len
 
 }  // namespace
 
-Rgb mix(Rgb from, Rgb to, double fraction) {
-  const auto between = [&](std::uint8_t a, std::uint8_t b) {
-    return std::uint8_t(std::lround(a + (b - a) * fraction));
-  };
-  return {between(from.r, to.r), between(from.g, to.g), between(from.b, to.b)};
-}
-
 struct Canvas::Drawing {
   cairo_surface_t* surface = nullptr;
   cairo_t* cairo = nullptr;

@@ -12,17 +12,9 @@
 
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
+#include "viewer/color/rgb.h"
 
 namespace arete {
-
-/// An opaque colour, sRGB.
-struct Rgb {
-  std::uint8_t r = 0, g = 0, b = 0;
-  constexpr bool operator==(const Rgb&) const = default;
-};
-
-/// The colour `fraction` of the way from one to another. Precondition: 0 <= fraction <= 1.
-Rgb mix(Rgb from, Rgb to, double fraction);
 
 /// Pixels, row-major from the top left.
 struct Image {
