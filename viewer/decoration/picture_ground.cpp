@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Lengths are geodesics on the CRS's own ellipsoid, whatever the units and the distortions of the map. North is
-// where a short step along the meridian leads in the picture.
+// Lengths are geodesics on the CRS's own ellipsoid, whatever the units and the distortions of the map. North
+// is where a short step along the meridian leads in the picture.
 #include "viewer/decoration/picture_ground.h"
 
 #include <GeographicLib/Geodesic.hpp>
@@ -83,13 +83,15 @@ std::optional<double> PictureGround::length(Vec2 from, Vec2 to) const {
     geodesicOf(parts_.georeference).Inverse(a->y, a->x, b->y, b->x, metres);
     return metres;
   }
-  const double unit = hasCrs() && !parts_.georeference.isGeographic ? parts_.georeference.linearUnitMetres : 1;
+  const double unit =
+      hasCrs() && !parts_.georeference.isGeographic ? parts_.georeference.linearUnitMetres : 1;
   return std::hypot(to.x - from.x, to.y - from.y) * unit;
 }
 
 std::optional<double> PictureGround::lengthPerPixel(Vec2 pixel) const {
   if (parts_.lengthPerPixel) return parts_.lengthPerPixel(pixel);
-  // The step is long enough that rounding leaves six digits, short enough that the scale is that of the place.
+  // The step is long enough that rounding leaves six digits, short enough that the scale is that of the
+  // place.
   const double step = std::max(1.0, parts_.frame.width / 512);
   const auto a = sourceAt({pixel.x - step, pixel.y}), b = sourceAt({pixel.x + step, pixel.y});
   if (!a || !b) return {};
@@ -128,7 +130,8 @@ std::optional<PictureGround::North> PictureGround::northAt(Vec2 pixel) const {
     Vec2 source = {place->x, latitude};
     lonLat_->toCrs({&source, 1});
     if (isFinite(source))
-      if (const auto way = towards(source)) return North{*way * sign, true, -bearingOnMap((source - *here) * sign)};
+      if (const auto way = towards(source))
+        return North{*way * sign, true, -bearingOnMap((source - *here) * sign)};
   }
   if (gridNorth) return North{*gridNorth, false, 0};
   return {};

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "engine/base/vec.h"
 #include "io/geo/crs/lonlat.h"
@@ -22,12 +23,13 @@ class PictureGround {
 
   struct Parts {
     Georeference georeference = {};
-    Rect frame = {};       ///< of the picture on the canvas
+    Rect frame = {};        ///< of the picture on the canvas
     Mapping toSource = {};  ///< of a pixel; nothing where it shows no ground
     Mapping toPixel = {};   ///< of a source position; nothing where it is behind the eye, or hidden
     /// Of a source position on the level plane through the middle of the picture; empty: toPixel.
     Mapping toLevelPixel = {};
     bool isPerspective = false;  ///< the scale differs from place to place
+    std::string unit = "units";  ///< of source coordinates without a CRS, after a number
     /// Lengths on the ground of one pixel at a pixel, across the picture, in metres (source units without a
     /// CRS); empty: of the ground at the pixels beside it.
     std::function<std::optional<double>(Vec2)> lengthPerPixel = {};
@@ -40,10 +42,12 @@ class PictureGround {
 
   const Rect& frame() const { return parts_.frame; }
   bool isPerspective() const { return parts_.isPerspective; }
+  const Georeference& georeference() const { return parts_.georeference; }
+  const std::string& unitName() const { return parts_.unit; }
   bool hasCrs() const { return !parts_.georeference.crsWkt.empty(); }
   /// Whether places have longitude and latitude: of a CRS of the Earth, or of another body.
   bool hasLonLat() const { return lonLat_ != nullptr; }
-  /// Whether longitudes are counted on past half a turn, as a DEM of longitudes from 0 to 360 does.
+  /// Whether longitudes may go on past half a turn, as in a DEM of longitudes from 0 to 360.
   bool hasPlainLongitudes() const { return lonLat_ && lonLat_->isPlain(); }
 
   std::optional<Vec2> sourceAt(Vec2 pixel) const { return parts_.toSource(pixel); }

@@ -9,7 +9,10 @@
 #include <cmath>
 #include <utility>
 
-#include "viewer/picture/ticks.h"
+#include "viewer/decoration/graticule.h"
+#include "viewer/decoration/north_arrow.h"
+#include "viewer/decoration/scale_bar.h"
+#include "viewer/picture/inks.h"
 
 namespace arete {
 namespace {
@@ -18,7 +21,9 @@ constexpr int kSmallestWidth = 640;
 constexpr double kMargin = 40;
 constexpr double kTitleSize = 26, kCaptionSize = 15.5, kLineHeight = 24;
 constexpr double kScaleBarRoom = 230;
-constexpr double kFurnitureWidth = 330, kFurnitureHeight = 64;
+constexpr double kFurnitureText = 13, kFurnitureHeight = 64, kGap = 26;
+constexpr double kLegendGap = 24;
+constexpr LegendStyle kLegendStyle = {.textSize = 13.5, .barHeight = 260};
 constexpr double kTallest = 0.8;  // of the map, in widths of the room it has
 
 /// Smaller, if need be, so that it ends within `room`.
@@ -30,39 +35,32 @@ void writeFitted(Canvas& canvas, const std::string& text, Vec2 anchor, double ro
   canvas.text(text, anchor, style);
 }
 
-void drawNorthArrow(Canvas& canvas, Vec2 center, Vec2 north) {
-  const Vec2 across = {-north.y, north.x};
-  const auto at = [&](double along, double aside) {
-    return Vec2{center.x + north.x * along + across.x * aside, center.y + north.y * along + across.y * aside};
-  };
-  const Vec2 dark[] = {at(13, 0), at(-11, -7), at(-6, 0)};
-  const Vec2 light[] = {at(13, 0), at(-6, 0), at(-11, 7)};
-  const Vec2 outline[] = {at(13, 0), at(-11, -7), at(-6, 0), at(-11, 7), at(13, 0)};
-  canvas.fillPolygon(dark, kInk);
-  canvas.fillPolygon(light, {255, 255, 255});
-  canvas.polyline(outline, {.color = kInk, .width = 1});
-  canvas.text(
-      "N", at(23, 0),
-      {.size = 14, .color = kInk, .bold = true, .horizontal = Align::center, .vertical = Align::center});
+/// Scale bar and north arrow, which stand below the map at its right.
+struct Furniture {
+  std::optional<ScaleBar> bar;
+  std::optional<NorthArrow> north;
+  Vec2 barSize = {}, northSize = {};
+
+  double width() const { return barSize.x + (bar && north ? kGap : 0) + northSize.x; }
+};
+
+Furniture furnitureOf(const PictureGround& ground, const Canvas& ruler) {
+  Furniture f{scaleBarOf(ground, kScaleBarRoom), northArrowOf(ground)};
+  if (f.bar) f.barSize = scaleBarSize(ruler, *f.bar, kFurnitureText);
+  if (f.north) f.northSize = northArrowSize(ruler, *f.north, kFurnitureText);
+  return f;
 }
 
 }  // namespace
 
-void drawScaleBar(Canvas& canvas, Vec2 right, double maxWidth, double groundPerPixel, bool metres) {
-  const double length = roundDownNice(maxWidth * groundPerPixel);
-  const double width = length / groundPerPixel;
-  const Vec2 left = {right.x - width, right.y};
-  const int parts = 4;
-  for (int i = 0; i < parts; ++i) {
-    const Rect part = {left.x + width * i / parts, left.y - 3, width / parts, 6};
-    canvas.fill(part, i % 2 == 0 ? kInk : Rgb{255, 255, 255});
+void MapPage::finish() {
+  if (isDecorated) {
+    const double size = std::clamp(map.width / 100, 10.0, 13.0);
+    const auto lines = graticuleOf(ground, std::max(120.0, map.width / 7));
+    drawGraticuleLines(canvas, ground, lines);
+    drawGraticuleLabels(canvas, ground, lines, {}, size);
   }
-  canvas.frame({left.x, left.y - 3, width, 6}, {.color = kInk, .width = 1});
-  const std::string label = !metres          ? numberText(length) + " units"
-                            : length >= 1000 ? numberText(length / 1000) + " km"
-                                             : numberText(length) + " m";
-  canvas.text("0", {left.x, left.y - 9}, {.size = 13, .color = kInk, .horizontal = Align::center});
-  canvas.text(label, {left.x + width, left.y - 9}, {.size = 13, .color = kInk, .horizontal = Align::center});
+  canvas.frame(map, {.color = kInk, .width = 1});
 }
 
 Result<MapPage> makeMapPage(std::uint32_t columns, std::uint32_t rows, const Georeference& georeference,
@@ -77,23 +75,39 @@ Result<MapPage> makeMapPage(std::uint32_t columns, std::uint32_t rows, const Geo
                    fmt::format("A grid of {} x {} samples has no area to draw.", columns, rows));
   }
   const double above = kMargin + (options.title.empty() ? 0 : 40);
-  const double side = options.sideWidth;
+  const bool hasLegends = options.isDecorated && !options.legends.empty();
+  const double legendWidth =
+      hasLegends ? std::ceil(legendSize(options.legends, kLegendStyle).x + kLegendGap) : 0;
+  const double side = options.sideWidth + legendWidth;
   const int room = options.width - int(2 * kMargin + side);
   const MapView view = fitGrid(columns, rows, georeference, room, int(room * kTallest));
   const Rect map = {kMargin, above, double(view.width), double(view.height)};
   const auto width = std::max(kSmallestWidth, int(view.width + 2 * kMargin + side));
-  // The caption stands beside the furniture where both fit, else below it.
+  PictureGround ground = PictureGround::ofMap(view, georeference, {map.left, map.top});
   ARETE_TRY(auto ruler, Canvas::create(1, 1));
+  const Furniture furniture = options.isDecorated ? furnitureOf(ground, ruler) : Furniture{};
+  // The caption stands beside the furniture where both fit, else below it.
   double longest = 0;
   for (const std::string& text : options.caption) {
     longest = std::max(longest, ruler.textWidth(text, {.size = kCaptionSize}));
   }
-  const double captionTop = longest > view.width - kFurnitureWidth ? kFurnitureHeight : 0;
+  const double furnitureHeight = options.isDecorated ? kFurnitureHeight : 0;
+  const double captionTop = longest > view.width - furniture.width() - kGap ? furnitureHeight : 0;
   const double captionHeight = 30 + kLineHeight * double(options.caption.size());
-  const double footer = std::max(kFurnitureHeight, captionTop + captionHeight);
-  ARETE_TRY(auto canvas, Canvas::create(width, int(map.bottom() + footer + kMargin / 2)));
+  const double footer = std::max(furnitureHeight, captionTop + captionHeight);
+  const double legendBottom = hasLegends ? map.top + legendSize(options.legends, kLegendStyle).y : 0;
+  ARETE_TRY(auto canvas,
+            Canvas::create(width, int(std::max(map.bottom() + footer, legendBottom) + kMargin / 2)));
 
-  MapPage page{std::move(canvas), view, map, {map.right(), map.top, side, map.height}};
+  MapPage page{std::move(canvas),
+               view,
+               map,
+               {map.right(), map.top, double(options.sideWidth), map.height},
+               std::move(ground),
+               options.isDecorated};
+  if (hasLegends)
+    page.scales = drawLegends(page.canvas, options.legends,
+                              {map.right() + options.sideWidth + kLegendGap, map.top}, kLegendStyle);
   const double textRoom = width - 2 * kMargin;
   writeFitted(page.canvas, options.title, {kMargin, kMargin + 18}, textRoom,
               {.size = kTitleSize, .color = kInk, .bold = true});
@@ -102,11 +116,15 @@ Result<MapPage> makeMapPage(std::uint32_t columns, std::uint32_t rows, const Geo
                 {kMargin, map.bottom() + captionTop + 32 + kLineHeight * double(i)}, textRoom,
                 {.size = kCaptionSize, .color = i == 0 ? kInk : kQuietInk});
   }
-  const auto north = northInView(view, georeference);
-  const double right = std::max(map.right(), kMargin + kFurnitureWidth);
-  if (north) drawNorthArrow(page.canvas, {right - 14, map.bottom() + 42}, *north);
-  drawScaleBar(page.canvas, {right - (north ? 62 : 34), map.bottom() + 44}, kScaleBarRoom,
-               view.groundPerPixel, !georeference.crsWkt.empty());
+  double right = std::max(map.right(), kMargin + furniture.width());
+  const double top = map.bottom() + 12;
+  if (furniture.north) {
+    right -= furniture.northSize.x;
+    drawNorthArrow(page.canvas, *furniture.north, {right, top}, kFurnitureText);
+    right -= kGap;
+  }
+  if (furniture.bar)
+    drawScaleBar(page.canvas, *furniture.bar, {right - furniture.barSize.x, top}, kFurnitureText);
   return page;
 }
 

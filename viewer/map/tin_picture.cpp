@@ -15,8 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "viewer/picture/hillshade.h"
 #include "viewer/map/map_page.h"
+#include "viewer/picture/hillshade.h"
+#include "viewer/picture/inks.h"
 #include "viewer/picture/ticks.h"
 
 namespace arete {
@@ -171,7 +172,8 @@ Result<Canvas> drawTin(const RasterHeightfield& ground, const TriangleMesh& tin,
   ARETE_TRY(auto page, makeMapPage(ground.columns, ground.rows, ground.georeference,
                                    {.width = options.width,
                                     .title = options.title,
-                                    .caption = captionOf(ground, tin, options)}));
+                                    .caption = captionOf(ground, tin, options),
+                                    .isDecorated = options.isDecorated}));
 
   const double wash = tin.triangles.empty() ? 0.0 : 0.15;
   page.canvas.image(drawHillshade(ground, page.view, {.tint = 0.85, .wash = wash}), int(page.map.left),
@@ -182,7 +184,7 @@ Result<Canvas> drawTin(const RasterHeightfield& ground, const TriangleMesh& tin,
   const auto edges = uniqueEdges(tin);
   const double edgeLength = typicalEdge(page.view, tin.triangles.size());
   drawEdges(page.canvas, grid, edges, page.view, page.map, edgeStroke(edgeLength));
-  page.canvas.frame(page.map, {.color = kInk, .width = 1});
+  page.finish();
   if (options.detail && !tin.triangles.empty() && edgeLength < kDetailBelowEdge)
     drawDetail(page, ground, grid, edges, edgeLength);
   return std::move(page.canvas);

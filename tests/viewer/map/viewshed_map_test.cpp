@@ -3,51 +3,134 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <limits>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "terrain/viewshed/many.h"
+#include "viewer/color_difference.h"
+#include "viewer/picture_fixture.h"
 
 namespace arete {
 namespace {
 
-RasterHeightfield plain(std::uint32_t columns, std::uint32_t rows) {
-  RasterHeightfield field;
-  field.columns = columns;
-  field.rows = rows;
-  field.heights.assign(std::size_t{columns} * rows, 100);
-  return field;
+using namespace test;
+using enum ViewshedCell;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+using Colors = std::set<std::tuple<int, int, int>>;
+
+/// The colours of the largest part of the page that has no paper: the map.
+Colors colorsIn(const Canvas& canvas, const Rect& area) {
+  Colors colors;
+  for (int y = int(area.top); y < int(area.bottom()); ++y)
+    for (int x = int(area.left); x < int(area.right()); ++x) {
+      const Rgb c = canvas.pixel(x, y);
+      colors.insert({c.r, c.g, c.b});
+    }
+  return colors;
 }
 
-double share(const Canvas& canvas, bool (*isLike)(Rgb)) {
-  double count = 0;
-  for (int y = 0; y < canvas.height(); ++y)
-    for (int x = 0; x < canvas.width(); ++x) count += isLike(canvas.pixel(x, y)) ? 1 : 0;
-  return count / (double(canvas.width()) * canvas.height());
+RasterHeightfield slopes() {
+  return field(40, 40, [](double c, double r) { return 100 + 20 * std::sin(c / 5) * std::cos(r / 7); });
 }
 
-bool isWarm(Rgb c) {
-  return c.r > c.b + 60 && c.g > c.b + 20;
-}
-bool isBlue(Rgb c) {
-  return c.b > c.r + 40;
+/// A page of 900 pixels has its map from 40 to the right; inside of its frame.
+constexpr Rect kInsideTheMap = {44, 84, 400, 400};
+
+TEST(ViewshedMap, HasTheColoursOfItsLegendAndNoOther) {
+  std::vector<ViewshedCell> cells(1600, hidden);
+  for (std::size_t i = 0; i < 400; ++i) cells[i] = seen;
+  for (std::size_t i = 400; i < 800; ++i) cells[i] = unknown;
+  for (std::size_t i = 800; i < 900; ++i) cells[i] = undecided;
+  for (std::size_t i = 900; i < 1000; ++i) cells[i] = outside;
+  const auto canvas = drawViewshedMap(slopes(), cells, {}, {}, {.width = 900, .title = "T"});
+  ASSERT_TRUE(canvas) << canvas.error().describe();
+  Colors shades;
+  for (const ViewshedCell cell : {seen, hidden, unknown, undecided, outside})
+    for (int shade = 0; shade < 16; ++shade) {
+      const Rgb c = viewshedColor(cell, shade);
+      shades.insert({c.r, c.g, c.b});
+    }
+  const Colors map = colorsIn(*canvas, kInsideTheMap);
+  EXPECT_GT(map.size(), 20u) << "the relief is seen";
+  for (const auto& color : map) EXPECT_TRUE(shades.contains(color)) << std::get<0>(color) << " " << std::get<1>(color);
+  const Colors legend = colorsIn(*canvas, {560, 60, 340, 300});
+  for (const auto& color : shades) EXPECT_TRUE(legend.contains(color)) << "a shade is not in the legend";
 }
 
-TEST(ViewshedMap, ColoursWhatIsSeenAndWhatIsUnknown) {
-  const RasterHeightfield field = plain(40, 40);
-  Viewshed viewshed;
-  viewshed.columns = viewshed.rows = 40;
-  viewshed.cells.assign(1600, ViewshedCell::hidden);
-  viewshed.hidden = 1600;
-  const auto dark = drawViewshedMap(field, viewshed, {5, 5}, {.width = 800});
-  ASSERT_TRUE(dark) << dark.error().describe();
-  EXPECT_LT(share(*dark, isWarm), 0.001);
-  for (std::size_t i = 0; i < 800; ++i) viewshed.cells[i] = ViewshedCell::seen;
-  for (std::size_t i = 800; i < 1200; ++i) viewshed.cells[i] = ViewshedCell::unknown;
-  viewshed.seen = 800;
-  viewshed.unknown = viewshed.hidden = 400;
-  const auto light = drawViewshedMap(field, viewshed, {5, 35}, {.width = 800});
-  ASSERT_TRUE(light);
-  const double warm = share(*light, isWarm), blue = share(*light, isBlue);
-  EXPECT_GT(warm, 0.2);
-  EXPECT_NEAR(warm / blue, 2, 0.3);
+TEST(ViewshedMap, HasAnswersThatAreUnlikeEachOtherForAllEyes) {
+  const std::array<ViewshedCell, 5> cells = {seen, hidden, unknown, undecided, outside};
+  for (const ViewshedCell a : cells)
+    for (const ViewshedCell b : cells) {
+      if (a >= b) continue;
+      for (const Vision eyes : {Vision::normal, Vision::protan, Vision::deutan, Vision::tritan})
+        for (const int i : {0, 5, 10, 15})
+          for (const int j : {0, 5, 10, 15})
+            ASSERT_GE(ciede2000(labOf(viewshedColor(a, i), eyes), labOf(viewshedColor(b, j), eyes)), 10)
+                << int(a) << " and " << int(b) << " for eyes " << int(eyes);
+    }
+}
+
+TEST(ViewshedMap, ColoursNumbersHeightsAndTheHorizon) {
+  std::vector<ViewshedCell> cells(1600, seen);
+  std::vector<double> values(1600);
+  for (std::size_t i = 0; i < 1600; ++i) values[i] = double(i / 400);
+  const auto colors = [&](ViewshedMapKind kind) {
+    const auto canvas = drawViewshedMap(slopes(), cells, values, {}, {.width = 900, .title = "T", .kind = kind});
+    EXPECT_TRUE(canvas);
+    return colorsIn(*canvas, kInsideTheMap);
+  };
+  const auto hasUnknown = [](const Colors& all) {
+    for (int i = 0; i < 16; ++i) {
+      const Rgb c = viewshedColor(unknown, i);
+      if (all.contains({c.r, c.g, c.b})) return true;
+    }
+    return false;
+  };
+  for (const auto kind : {ViewshedMapKind::counts, ViewshedMapKind::servers, ViewshedMapKind::heights,
+                          ViewshedMapKind::horizon}) {
+    SCOPED_TRACE(int(kind));
+    EXPECT_FALSE(hasUnknown(colors(kind)));
+  }
+  for (std::size_t i = 0; i < 300; ++i) values[i] = ViewshedOfMany::kUnknown;
+  EXPECT_TRUE(hasUnknown(colors(ViewshedMapKind::counts)));
+  EXPECT_TRUE(hasUnknown(colors(ViewshedMapKind::servers)));
+  for (std::size_t i = 0; i < 300; ++i) values[i] = kNone, cells[i] = unknown;
+  for (std::size_t i = 300; i < 600; ++i) values[i] = kInfinite, cells[i] = hidden;
+  EXPECT_TRUE(hasUnknown(colors(ViewshedMapKind::heights)));
+  EXPECT_TRUE(hasUnknown(colors(ViewshedMapKind::horizon)));
+}
+
+TEST(ViewshedMap, ShowsThePartWithAnswers) {
+  std::vector<ViewshedCell> cells(1600, outside);
+  for (std::size_t r = 18; r < 22; ++r)
+    for (std::size_t c = 18; c < 22; ++c) cells[r * 40 + c] = seen;
+  const std::vector<Vec2> observer = {{20, 20}};
+  const auto canvas = drawViewshedMap(slopes(), cells, {}, observer, {.width = 900, .title = "T"});
+  ASSERT_TRUE(canvas);
+  int warm = 0, red = 0;
+  for (int y = 84; y < 484; ++y)
+    for (int x = 44; x < 444; ++x) {
+      const Rgb c = canvas->pixel(x, y);
+      warm += c.r > c.b + 100 && c.g > 120 ? 1 : 0;
+      red += c == Rgb{200, 30, 40} ? 1 : 0;
+    }
+  EXPECT_GT(warm, 400 * 400 / 3) << "a window about the answers fills the map";
+  EXPECT_GT(red, 60) << "the observer";
+  const auto plain = drawViewshedMap(slopes(), cells, {}, observer, {.width = 900, .isDecorated = false});
+  ASSERT_TRUE(plain);
+  EXPECT_LT(plain->height(), canvas->height() + 200);
+}
+
+TEST(ViewshedMap, SaysOnWhatEarthItWasComputed) {
+  EXPECT_EQ(earthWords({}, false, 0), "over a plane Earth, without refraction");
+  EXPECT_EQ(earthWords({}, true, 0), "over the ellipsoid of radius 6378 km, without refraction");
+  EXPECT_EQ(earthWords({}, true, 0.25), "over the ellipsoid of radius 6378 km, refraction 0.25: as over 8504 km");
 }
 
 }  // namespace
