@@ -25,7 +25,7 @@
 #include "io/store/amt/surface_file.h"
 #include "measure/mesh_distance.h"
 #include "surface/front/front.h"
-#include "viewer/picture/color_ramp.h"
+#include "viewer/color/color_tables.h"
 
 namespace arete {
 namespace {
@@ -112,7 +112,7 @@ Status writeDistances(const std::string& path, const MeshFile& mesh, const std::
   for (const double distance : distances) {
     qualities.push_back(static_cast<float>(distance));
     const double fraction = largest > 0 ? distance / largest : 0;
-    const Rgb color = rampColor(divergingRamp(), 0.5 + 0.5 * fraction);  // its upper half: zero is near-white
+    const Rgba color = colorTable("difference").at(fraction);  // its upper half: zero is near-white
     colors.push_back({color.r, color.g, color.b});
   }
   MeshWriteOptions options;

@@ -15,8 +15,8 @@ namespace arete {
 namespace {
 
 // NOLINTBEGIN(modernize-use-designated-initializers)
-constexpr Rgb kHeightStops[] = {{110, 102, 120}, {138, 115, 119}, {163, 128, 118},
-                                {180, 145, 120}, {197, 162, 122}, {212, 180, 134},
+constexpr Rgb kHeightStops[] = {{110, 102, 116}, {137, 115, 117}, {162, 128, 118},
+                                {179, 145, 120}, {197, 162, 122}, {211, 180, 134},
                                 {225, 198, 149}, {237, 217, 170}, {247, 236, 196}};
 constexpr Rgb kDepthStops[] = {{14, 40, 84},   {19, 56, 104},   {24, 73, 124},
                                {33, 90, 143},  {48, 107, 159},  {63, 125, 174},
@@ -89,7 +89,8 @@ ColorMap withSea(const ColorMap& land, double seaLevel, double low) {
 
 ColorMap heightColors(double low, double high, std::optional<double> seaLevel) {
   const ColorMap& table = colorTable("height");
-  if (!seaLevel) return table.over(low, high);
+  // Level ground has the colour in the middle.
+  if (!seaLevel) return low < high ? table.over(low, high) : table.over(low - 0.5, low + 0.5);
   const double shore = std::max(low, *seaLevel);
   return withSea(table.over(shore, std::max(shore, high)), *seaLevel, low);
 }

@@ -296,7 +296,7 @@ void drawGraticuleLines(Canvas& canvas, const PictureGround& ground,
                         const std::vector<GraticuleLine>& lines) {
   canvas.clip(ground.frame());
   // Light under dark: the line is seen on any ground.
-  for (const Stroke& stroke : {Stroke{.color = {255, 255, 255}, .width = 2.4, .alpha = 0.4},
+  for (const Stroke& stroke : {Stroke{.color = {255, 255, 255}, .width = 2.2, .alpha = 0.25},
                                Stroke{.color = kInk, .width = 0.9, .alpha = 0.6}})
     for (const GraticuleLine& line : lines)
       for (const auto& part : line.parts) canvas.polyline(part, stroke);

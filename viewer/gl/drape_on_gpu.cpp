@@ -8,6 +8,9 @@
 // The first level is read and uploaded tile by tile, row by row; the others are made of it on the device,
 // each texel the mean of the four below it, and all of them beyond the picture's edges repeat the last one.
 //
+// A picture with classes has the nearest texel of one level, and each texel of a coarse level is the class of
+// most pixels below it: all of them up to the third level, the 64 texels three levels finer from there on.
+//
 // Large pictures: the uniforms say where the eye stands in whole pixels and the rest, so that positions near
 // the eye are exact to a small part of a pixel however many pixels there are.
 #include "viewer/gl/drape_on_gpu.h"
@@ -26,7 +29,7 @@ namespace {
 
 constexpr std::int32_t kSmallestPicture = 32;  // of the last level, in pixels along its longer side
 constexpr std::size_t kMostLevels = 16;        // shaders/terrain.frag.glsl
-constexpr GLint kPicture = 2, kEye = 3, kStep = 4, kLevels = 5;
+constexpr GLint kPicture = 2, kEye = 3, kStep = 4, kLevels = 5, kClasses = 92;
 
 /// Half of what is free, as far as the driver tells; a quarter of the machine's memory where it does not.
 std::uint64_t roomInBytes() {
@@ -79,6 +82,7 @@ Result<DrapeOnGpu> DrapeOnGpu::load(const std::string& path, const TerrainModel&
     drape.scale_ = reader.scale();
     drape.shift_ = reader.shift();
     drape.warnings_ = reader.warnings();
+    drape.hasClasses_ = reader.hasClasses();
     if (options.tileSide != 0) {
       drape.side_ = std::clamp<std::uint32_t>(options.tileSide, 4, std::uint32_t(mostSide));
       drape.planLevels(reader.columns(), reader.rows());
@@ -109,8 +113,9 @@ Result<DrapeOnGpu> DrapeOnGpu::load(const std::string& path, const TerrainModel&
       read.maxPixels = pixels * 3 / 4;
       continue;
     }
-    for (const auto& [name, value] : {std::pair(GL_TEXTURE_MIN_FILTER, GL_LINEAR),
-                                      {GL_TEXTURE_MAG_FILTER, GL_LINEAR},
+    const GLint filter = drape.hasClasses_ ? GL_NEAREST : GL_LINEAR;
+    for (const auto& [name, value] : {std::pair(GL_TEXTURE_MIN_FILTER, filter),
+                                      {GL_TEXTURE_MAG_FILTER, filter},
                                       {GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE},
                                       {GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE}})
       glTextureParameteri(drape.texture_, GLenum(name), value);
@@ -159,7 +164,9 @@ Status DrapeOnGpu::makeLevels() const {
   glProgramUniform1i(program, 2, GLint(side_) - 2);
   const GLuint groups = (side_ + 7) / 8;
   for (std::size_t k = 1; k < grid_.size(); ++k) {
-    const Level &from = grid_[k - 1], &to = grid_[k];
+    const std::size_t below = hasClasses_ ? std::min<std::size_t>(k, 3) : 1;
+    const Level &from = grid_[k - below], &to = grid_[k];
+    glProgramUniform1i(program, 3, hasClasses_ ? GLint(below) : 0);
     glProgramUniform4i(program, 0, from.firstLayer, from.tilesAcross, from.columns, from.rows);
     glProgramUniform4i(program, 1, to.firstLayer, to.tilesAcross, to.columns, to.rows);
     glDispatchCompute(groups, groups, GLuint(to.tilesAcross * to.tilesDown));
@@ -177,6 +184,7 @@ void DrapeOnGpu::bind(GLuint program, GLuint unit, Vec2 eyePlan, Vec2 metricScal
   glProgramUniform2i(program, kEye, GLint(x), GLint(y));
   glProgramUniform4f(program, kStep, float(scale_.x / metricScale.x), float(scale_.y / metricScale.y),
                      float(eye.x - x), float(eye.y - y));
+  glProgramUniform1i(program, kClasses, hasClasses_ ? 1 : 0);
   for (std::size_t k = 0; k < grid_.size(); ++k)
     glProgramUniform2i(program, kLevels + GLint(k), grid_[k].firstLayer, grid_[k].tilesAcross);
 }

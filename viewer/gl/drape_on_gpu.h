@@ -40,6 +40,9 @@ class DrapeOnGpu {
   Vec2 shift() const { return shift_; }
   /// Differences from the file as sentences: read coarser, bands chosen.
   const Warnings& warnings() const { return warnings_; }
+  /// The picture has classes: their colours are never mixed, and coarse levels show the class of the most
+  /// pixels.
+  bool hasClasses() const { return hasClasses_; }
 
   /// The texture and the uniforms of shaders/terrain.frag.glsl, for an eye over a plan position and so many
   /// units of metric space a unit of the plan.
@@ -58,6 +61,7 @@ class DrapeOnGpu {
   std::uint32_t columns_ = 0, rows_ = 0, side_ = 0, layers_ = 0;
   std::vector<Level> grid_;
   Vec2 scale_, shift_;
+  bool hasClasses_ = false;
   Warnings warnings_;
 };
 

@@ -13,9 +13,9 @@
 
 #include "engine/parallel/parallel_loops.h"
 #include "terrain/model/camera.h"
+#include "viewer/color/color_tables.h"
 #include "viewer/gl/drape_on_gpu.h"
 #include "viewer/gl/gl_program.h"
-#include "viewer/picture/color_ramp.h"
 
 namespace arete {
 
@@ -27,6 +27,7 @@ struct TerrainPainter::Look {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
+constexpr GLint kColorMapPlaces = 91;  // shaders/terrain.frag.glsl
 
 /// dz/dx and dz/dy of the samples in metric space: central differences, one-sided beside what has no data.
 std::vector<float> slopesOf(const RasterHeightfield& f, const MetricFrame& metric) {
@@ -83,10 +84,10 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
     into = std::move(made);
     return {};
   };
-  for (const Status& ok :
-       {program(p.terrain_, {"frame.glsl", "terrain.vert.glsl"}, {"frame.glsl", "terrain.frag.glsl"}),
-        program(p.sky_, {"sky.vert.glsl"}, {"frame.glsl", "sky.frag.glsl"}),
-        program(p.lines_, {"frame.glsl", "lines.vert.glsl"}, {"lines.frag.glsl"})})
+  for (const Status& ok : {program(p.terrain_, {"frame.glsl", "terrain.vert.glsl"},
+                                   {"frame.glsl", "color_map.glsl", "light.glsl", "terrain.frag.glsl"}),
+                           program(p.sky_, {"sky.vert.glsl"}, {"frame.glsl", "sky.frag.glsl"}),
+                           program(p.lines_, {"frame.glsl", "lines.vert.glsl"}, {"lines.frag.glsl"})})
     if (!ok) return tl::unexpected(ok.error());
 
   const MultiTriangulation& mt = model.mt;
@@ -117,15 +118,7 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
   p.east_ = axis(90, {1, 0});
   p.north_ = axis(0, {0, 1});
 
-  std::array<std::array<std::uint8_t, 4>, 256> tints;
-  for (std::size_t i = 0; i < tints.size(); ++i) {
-    const Rgb c = rampColor(hypsometricRamp(), double(i) / 255);
-    tints[i] = {c.r, c.g, c.b, 255};
-  }
-  p.tints_ = makeTexture(GL_TEXTURE_1D);
-  glTextureStorage1D(p.tints_, 1, GL_RGBA8, 256);
-  glTextureSubImage1D(p.tints_, 0, 0, 256, GL_RGBA, GL_UNSIGNED_BYTE, tints.data());
-  setSampling(p.tints_, GL_LINEAR, GL_LINEAR);
+  p.setHeightColors(heightColors(low, high));
 
   // A raster larger than a texture has no slopes of its own; the shader then computes them from the
   // triangles.
@@ -149,6 +142,11 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
     p.hasSlopes_ = true;
   }
   return p;
+}
+
+void TerrainPainter::setHeightColors(const ColorMap& colors) {
+  const std::array maps = {colors, colorTable("slope"), colorTable("aspect"), colorTable("error")};
+  colorMaps_ = ColorMapsOnGpu(maps);
 }
 
 void TerrainPainter::setFrame(const FrameView& frame) {
@@ -224,7 +222,9 @@ void TerrainPainter::drawWith(const TerrainOnGpu& terrain, const DrawnFront& fro
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, look_);
   glUseProgram(terrain_);
   glBindTextureUnit(0, slopes_);
-  glBindTextureUnit(1, tints_);
+  colorMaps_.bind();
+  glProgramUniform4ui(terrain_, kColorMapPlaces, colorMaps_.place(0), colorMaps_.place(1),
+                      colorMaps_.place(2), colorMaps_.place(3));
   glBindTextureUnit(3, overlay_);
   // Codes follow each other as the bits of the floats that they stand for do.
   const auto bitsOf = [&](OutwardScale::Code code) {

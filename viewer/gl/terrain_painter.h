@@ -6,6 +6,7 @@
 
 #include "engine/base/result.h"
 #include "terrain/model/terrain_model.h"
+#include "viewer/gl/color_maps_on_gpu.h"
 #include "viewer/gl/drawn_front.h"
 #include "viewer/gl/frame_block.h"
 #include "viewer/gl/gl_objects.h"
@@ -34,6 +35,10 @@ class TerrainPainter {
   /// Precondition: it outlives the painter or the next call. Null to remove it.
   void setDrape(const DrapeOnGpu* drape) { drape_ = drape; }
 
+  /// The colours of heights, in the unit of heights. Before the first call: "height" from the lowest vertex
+  /// to the highest. What it leaves transparent is plain ground.
+  void setHeightColors(const ColorMap& colors);
+
   /// Preconditions: the frame is set; colouring by error: terrain.triangleErrors are there.
   void draw(const TerrainOnGpu& terrain, const DrawnFront& front, const ViewLook& look);
   void drawSky(const ViewLook& look);
@@ -55,7 +60,8 @@ class TerrainPainter {
   GlProgram terrain_, sky_, lines_;
   GlBuffer frame_, look_, noIds_;
   GlVertexArray terrainArray_, emptyArray_, linesArray_;
-  GlTexture slopes_, tints_, overlay_;
+  GlTexture slopes_, overlay_;
+  ColorMapsOnGpu colorMaps_;  // of heights, slopes, aspects, errors
   glm::vec4 overlayFrame_{};
   bool hasSlopes_ = false, hasOverlay_ = false;
   const DrapeOnGpu* drape_ = nullptr;

@@ -14,8 +14,8 @@
 #include <limits>
 #include <utility>
 
+#include "viewer/color/color_tables.h"
 #include "viewer/map/map_page.h"
-#include "viewer/picture/color_ramp.h"
 #include "viewer/picture/inks.h"
 #include "viewer/picture/ticks.h"
 
@@ -59,7 +59,7 @@ double roundUpNice(double value) {
 }
 
 Rgb errorColor(double error, double limit) {
-  return rampColor(divergingRamp(), (error / limit + 1) / 2);
+  return colorTable("difference").at(error / limit).opaque();
 }
 
 /// First and one past the last sample whose centre falls into a pixel; the nearest where none does.

@@ -4,7 +4,8 @@
 // that shading a reduced picture is the shading of averaged ground, and an enlarged one is smooth. The light
 // is a weighted sum of Lambert terms from several azimuths (after Mark, "Multidirectional, oblique-weighted,
 // shaded-relief image of the Island of Hawaii", USGS Open-File Report 92-422, 1992, with fixed weights) and a
-// sky term; it is divided by the light on level ground, so that level ground keeps its tint.
+// sky term; it is divided by the light on level ground, so that level ground keeps its tint,
+// and multiplies linear intensities (viewer/color/light.h).
 #include "viewer/picture/hillshade.h"
 
 #include <algorithm>
@@ -14,7 +15,8 @@
 #include <numbers>
 #include <vector>
 
-#include "viewer/picture/color_ramp.h"
+#include "viewer/color/color_tables.h"
+#include "viewer/color/light.h"
 #include "viewer/picture/resample.h"
 
 namespace arete {
@@ -25,7 +27,7 @@ struct Light {
 };
 // Clockwise from the top of the picture.
 constexpr std::array<Light, 4> kLights = {{{315, 40, 0.60}, {270, 45, 0.14}, {0, 45, 0.14}, {225, 55, 0.12}}};
-constexpr double kSkyShare = 0.30;
+constexpr std::array<double, 3> kSkyShare = {0.14, 0.16, 0.20};  // red, green, blue
 constexpr std::size_t kSampledForStatistics = 1u << 20;
 
 /// What a whole heightfield looks like, so that a detail is drawn like the map it is from.
@@ -98,7 +100,8 @@ Relief reliefOf(const RasterHeightfield& heightfield, const Slopes& slopes) {
   return relief;
 }
 
-double lightOn(double slopeRight, double slopeUp) {
+/// The light on a slope, as multiples of the light on level ground: the lamps are warm, the sky is cool.
+std::array<double, 3> lightOn(double slopeRight, double slopeUp) {
   const double length = std::sqrt(1 + slopeRight * slopeRight + slopeUp * slopeUp);
   double direct = 0, level = 0;
   for (const Light& light : kLights) {
@@ -110,14 +113,9 @@ double lightOn(double slopeRight, double slopeUp) {
     level += light.weight * z;
   }
   const double sky = (1 + 1 / length) / 2;
-  return (1 - kSkyShare) * direct / level + kSkyShare * sky;
-}
-
-/// Darkens by multiplication and towards a cool shadow, lightens towards white.
-Rgb lit(Rgb color, double light) {
-  constexpr Rgb kShadow = {42, 46, 66}, kSun = {255, 253, 246};
-  if (light >= 1) return mix(color, kSun, std::min(0.75, (light - 1) * 1.5));
-  return mix(color, kShadow, std::min(1.0, (1 - light) * 1.08));
+  std::array<double, 3> sum{};
+  for (std::size_t i = 0; i < 3; ++i) sum[i] = (1 - kSkyShare[i]) * direct / level + kSkyShare[i] * sky;
+  return sum;
 }
 
 }  // namespace
@@ -137,19 +135,16 @@ Image drawHillshade(const RasterHeightfield& heightfield, const MapView& view,
   const ViewField down =
       resampled([&](std::uint32_t c, std::uint32_t r) { return slopes.alongColumn(c, r); });
   const double up = view.rowsPerPixel > 0 ? -exaggeration : exaggeration;
-  // Half covered is where the border of the data runs; it is softened over one pixel.
-  const double sharpness = std::max(1.0, 1 / view.columnsPerPixel);
+  const ColorMap tints = heightColors(relief.low, relief.high);
 
   Image image(view.width, view.height, kNodataColor);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    if (heights.coverage[i] == 0) continue;
-    const double range = relief.high - relief.low;
-    const double fraction = range > 0 ? (heights.values[i] - relief.low) / range : 0.5;
-    const Rgb tint = mix({236, 234, 230}, rampColor(hypsometricRamp(), fraction), options.tint);
-    Rgb color = lit(tint, lightOn(right.values[i] * exaggeration, down.values[i] * up));
-    color = mix(color, {255, 255, 255}, options.wash);
-    const double covered = std::clamp((heights.coverage[i] - 0.5) * sharpness + 0.5, 0.0, 1.0);
-    image.pixels[i] = mix(kNodataColor, color, covered);
+    // Half covered is where the border of the data runs. Colours of data and NODATA are not mixed there: a
+    // mixture would be the colour of another height.
+    if (heights.coverage[i] < 0.5f) continue;
+    const Rgb tint = mix({236, 234, 230}, tints.at(heights.values[i]).opaque(), options.tint);
+    const Rgb color = lit(tint, lightOn(right.values[i] * exaggeration, down.values[i] * up));
+    image.pixels[i] = mix(color, {255, 255, 255}, options.wash);
   }
   return image;
 }

@@ -17,9 +17,9 @@ struct HillshadeOptions {
 };
 
 /// Shaded relief of the part of a heightfield that a view shows: light from the upper left and less from its
-/// sides, a sky above, over a hypsometric tint between the heightfield's lowest and highest heights. Heights
-/// are scaled by georeference.verticalUnitMetres where the CRS gives metres on the ground. Precondition: the
-/// heightfield is valid and has at least 2 x 2 samples. O(samples in view + pixels).
+/// sides, a sky above, over the tints of heightColors() between the heightfield's lowest and highest heights.
+/// Heights are scaled by georeference.verticalUnitMetres where the CRS gives metres on the ground.
+/// Precondition: the heightfield is valid and has at least 2 x 2 samples. O(samples in view + pixels).
 Image drawHillshade(const RasterHeightfield& heightfield, const MapView& view,
                     const HillshadeOptions& options = {});
 

@@ -8,7 +8,6 @@
 #include <cairo.h>
 #include <fmt/core.h>
 
-#include <cmath>
 #include <numbers>
 #include <utility>
 

@@ -88,7 +88,10 @@ GdalDatasetPtr warped(const DrapeSource& source, TransformerPtr transformer, con
   GDALSetGenImgProjTransformerDstGeoTransform(way, transform.data());
 
   const std::unique_ptr<GDALWarpOptions, WarpOptionsCloser> w(GDALCreateWarpOptions());
-  w->eResampleAlg = p.isExact ? GRA_NearestNeighbour : GRA_Bilinear;
+  w->eResampleAlg = p.isExact              ? GRA_NearestNeighbour
+                    : !source.readsNumbers ? GRA_Bilinear
+                    : p.coarser > 1        ? GRA_Mode
+                                           : GRA_NearestNeighbour;
   w->hSrcDS = GDALDataset::ToHandle(&dataset);
   const int bands = int(source.colors.size());
   w->nBandCount = bands;
@@ -169,6 +172,7 @@ Result<DrapeReader> DrapeReader::open(const std::string& path, const TerrainMode
   Result<DrapeSource> source = openDrapeSource(path, options.bands, s.warnings);
   if (!source) return named(source.error());
   s.source = std::move(*source);
+  if (!s.source.classes.empty()) s.source.readNumbers();
   s.source.turned = turnedOnto(s.source.dataset(), model, s.warnings);
   Result<TransformerPtr> way = drapeTransformer(s.source.dataset(), model, s.warnings);
   if (!way) return named(way.error());
@@ -179,7 +183,7 @@ Result<DrapeReader> DrapeReader::open(const std::string& path, const TerrainMode
   if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped", path);
 
   // A stretched picture takes its range from the window over the terrain, not from all of its values.
-  if (s.source.isStretched)
+  if (s.source.isStretched && !s.source.readsNumbers)
     for (const int b : s.source.colors) {
       const auto range = stretchOf(*s.source.dataset().GetRasterBand(b), s.placement.window);
       if (!range) return named(range.error());
@@ -225,6 +229,9 @@ Vec2 DrapeReader::scale() const {
 Vec2 DrapeReader::shift() const {
   return state_->placement.shift;
 }
+bool DrapeReader::hasClasses() const {
+  return state_->source.readsNumbers;
+}
 const Warnings& DrapeReader::warnings() const {
   return state_->warnings;
 }
@@ -242,6 +249,18 @@ Status DrapeReader::read(std::uint32_t column, std::uint32_t row, std::uint32_t 
       return {};
     return failure(ErrorCode::unreadable, fmt::format("cannot be read: {}", errors.firstFailure()), s.path);
   };
+  if (s.source.readsNumbers) {
+    s.values.resize(count);
+    ARETE_CHECK(transfer(0, s.values.data(), GDT_Float32, sizeof(float)));
+    ARETE_CHECK(transfer(1, &pixels[0][3], GDT_Byte, sizeof(Pixel)));
+    for (std::size_t i = 0; i < count; ++i) {
+      const float number = s.values[i];
+      const bool isClass = pixels[i][3] >= 128 && number >= 0 && number < float(s.source.classes.size());
+      Pixel& p = pixels[i] = isClass ? s.source.classes[std::size_t(number)] : Pixel{};
+      for (std::size_t c = 0; c < 3; ++c) p[c] = static_cast<std::uint8_t>((p[c] * p[3] + 127) / 255);
+    }
+    return {};
+  }
   for (std::size_t b = 0; b < colors; ++b) {
     if (!s.source.isStretched) {
       ARETE_CHECK(transfer(b, &pixels[0][b], GDT_Byte, sizeof(Pixel)));

@@ -27,10 +27,12 @@ struct DrapeReadOptions {
 /// terrain's plan coordinates, at the resolution of the image. It is read window by window and never held in
 /// memory as a whole.
 ///
-/// The image is any raster that GDAL opens: grey or three colours of 8 bits, a colour table, or other
-/// numbers, whose range from the 2nd to the 98th percentile is mapped to 8 bits, band by band. Pixels that
-/// are NODATA, masked or outside the image are transparent. If the rows of the image are parallel to those of
-/// the terrain in the same CRS, pixels are copied from the file; otherwise they are interpolated bilinearly.
+/// The image is any raster that GDAL opens: grey or three colours of 8 bits, classes with a colour table (or
+/// the colours of an attribute table), or other numbers, whose range from the 2nd to the 98th percentile is
+/// mapped to 8 bits, band by band. Pixels that are NODATA, masked or outside the image are transparent. If
+/// the rows of the image are parallel to those of the terrain in the same CRS, pixels are copied from the
+/// file; otherwise they are interpolated bilinearly. The colours of classes are never mixed: the nearest
+/// pixel is taken, and the class of most pixels where the image is read coarser.
 class DrapeReader {
  public:
   /// Red, green, blue, alpha; premultiplied.
@@ -52,6 +54,8 @@ class DrapeReader {
   /// Plan position p is at p * scale() + shift(), in pixels from the first corner of the image.
   Vec2 scale() const;
   Vec2 shift() const;
+  /// The image has classes: every pixel has a colour of their table, or is transparent.
+  bool hasClasses() const;
   const Warnings& warnings() const;
 
   /// Reads a window. Precondition: it lies in the image.

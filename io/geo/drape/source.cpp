@@ -7,9 +7,11 @@
 
 #include <cpl_string.h>
 #include <fmt/format.h>
+#include <gdal_rat.h>
 #include <gdal_utils.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -29,6 +31,31 @@ GdalDatasetPtr translate(GDALDataset& dataset, std::initializer_list<const char*
   GDALDatasetH made = GDALTranslate("", GDALDataset::ToHandle(&dataset), options, nullptr);
   GDALTranslateOptionsFree(options);
   return GdalDatasetPtr(GDALDataset::FromHandle(made));
+}
+
+/// The colours of the classes, with that of NODATA made transparent.
+void takeClasses(DrapeSource& source, int band, const GDALColorTable& table) {
+  int isDeclared = 0;
+  const double nodata = source.opened.first()->GetRasterBand(band)->GetNoDataValue(&isDeclared);
+  for (int i = 0; i < table.GetColorEntryCount(); ++i) {
+    GDALColorEntry entry{};
+    table.GetColorEntryAsRGB(i, &entry);
+    const auto byte = [](short part) { return static_cast<std::uint8_t>(std::clamp<short>(part, 0, 255)); };
+    const bool isSeen = !(isDeclared && nodata == i);
+    source.classes.push_back(
+        {byte(entry.c1), byte(entry.c2), byte(entry.c3), isSeen ? byte(entry.c4) : std::uint8_t{0}});
+  }
+  source.classBand = band;
+}
+
+/// The colour table that an attribute table describes; null if it has no colours.
+std::unique_ptr<GDALColorTable> tableOfAttributes(GDALRasterBand& band) {
+  const GDALRasterAttributeTable* attributes = band.GetDefaultRAT();
+  if (!attributes || attributes->GetColOfUsage(GFU_Red) < 0 || attributes->GetColOfUsage(GFU_Green) < 0 ||
+      attributes->GetColOfUsage(GFU_Blue) < 0)
+    return nullptr;
+  return std::unique_ptr<GDALColorTable>(
+      const_cast<GDALRasterAttributeTable*>(attributes)->TranslateToColorTable());
 }
 
 Status expandColorTable(DrapeSource& source, int band) {
@@ -103,8 +130,14 @@ Status chooseColors(DrapeSource& source, const std::vector<int>& stated, Warning
   for (const int b : source.colors)
     if (GDALDataTypeIsComplex(dataset.GetRasterBand(b)->GetRasterDataType()))
       return failure(ErrorCode::unsupported, fmt::format("band {} holds complex numbers, not colours", b));
-  if (source.colors.size() == 1 && dataset.GetRasterBand(source.colors[0])->GetColorTable())
-    return expandColorTable(source, source.colors[0]);
+  if (source.colors.size() == 1) {
+    GDALRasterBand& band = *dataset.GetRasterBand(source.colors[0]);
+    if (const GDALColorTable* table = band.GetColorTable()) {
+      takeClasses(source, source.colors[0], *table);
+      return expandColorTable(source, source.colors[0]);
+    }
+    if (const auto table = tableOfAttributes(band)) takeClasses(source, source.colors[0], *table);
+  }
   source.isStretched = std::ranges::any_of(
       source.colors, [&](int b) { return dataset.GetRasterBand(b)->GetRasterDataType() != GDT_Byte; });
   return {};
@@ -141,6 +174,7 @@ Result<DrapeSource> openDrapeSource(const std::string& path, const std::vector<i
 }
 
 Result<DrapeSource> openDrapeOverview(const std::string& path, DrapeSource source, double coarser) {
+  if (!source.classes.empty()) return source;
   GDALDataset& file = *source.opened.first();
   GDALRasterBand& band = *file.GetRasterBand(1);
   std::optional<int> best;

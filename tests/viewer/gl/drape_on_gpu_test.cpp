@@ -3,6 +3,7 @@
 // What a picture over a terrain looks like, against a look-up of the place on the map of every pixel drawn.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <numbers>
@@ -292,6 +293,68 @@ TEST(Drape, HalfHiddenPixelsLetHalfOfTheColourBelowThrough) {
       }
     }
   EXPECT_GT(std::min(clear, covered), 10000u);
+}
+
+TEST(Drape, ClassesKeepTheirColoursNearAndAreTheMajorityFarAway) {
+  ARETE_NEEDS_OPENGL(context);
+  const TemporaryFolder folder;
+  const TerrainModel model = terrainAt(folder, kUtm, kDem);
+  const Transform t = {500000, 1.5, 0, 4000000, 0, -1.5};
+  const Rgb colors[] = {{20, 90, 40}, {230, 200, 60}, {190, 30, 30}, {40, 80, 200}};
+  // In the west class 1 has 55 of 100 pixels, in the east class 2 has; single pixels of all classes between
+  // them.
+  const auto classAt = [](int c, int r, int) {
+    return Random::at(3, c, r) % 100 < 40 ? double(c < 400 ? 1 : 2) : double(Random::at(4, c, r) % 4);
+  };
+  Laid laid(model,
+            writePicture(folder.file("cover.tif"),
+                         {.columns = 800,
+                          .rows = 640,
+                          .transform = t,
+                          .crs = kUtm,
+                          .bands = 1,
+                          .value = classAt,
+                          .adjust =
+                              [&](GDALDataset& d) {
+                                GDALColorTable table;
+                                for (int i = 0; i < 4; ++i) {
+                                  const GDALColorEntry e{colors[i].r, colors[i].g, colors[i].b, 255};
+                                  table.SetColorEntry(i, &e);
+                                }
+                                d.GetRasterBand(1)->SetColorTable(&table);
+                              }}),
+            66);
+  EXPECT_TRUE(laid.drape().hasClasses());
+  std::size_t nearby = 0, nearbyRight = 0, far = 0, farRight = 0;
+  for (const Camera& camera :
+       {above(model, {20, 16}, 140), above(model, {22, 14}, 190, 30, -60), above(model, {20, 16}, 2600),
+        above(model, {20, 16}, 9000, 70), above(model, {20, 60}, 3000, 5, -55)}) {
+    const Scene scene = laid.draw(camera);
+    for (int y = 1; y + 1 < kHeight; ++y)
+      for (int x = 1; x + 1 < kWidth; ++x) {
+        const auto reach = reachOf(scene, t, x, y);
+        if (!reach) continue;
+        const Vec2 p = inPicture(t, scene.placeAt(x, y));
+        const double beside = 2 + 2 * *reach;
+        if (p.x < beside || p.y < beside || p.x > 800 - beside || p.y > 640 - beside) continue;
+        const Rgb got = scene.image.at(x, y);
+        ASSERT_NE(std::ranges::find(colors, got), std::end(colors))
+            << "no class has the colour at " << x << ", " << y;
+        const auto isInside = [](double at) { return std::abs(at - std::round(at)) > 0.1; };
+        if (*reach < 0.9 && isInside(p.x) && isInside(p.y)) {
+          ++nearby;
+          nearbyRight += got == colors[int(classAt(int(p.x), int(p.y), 0))] ? 1 : 0;
+        } else if (*reach > 6 && std::abs(p.x - 400) > 2 * *reach) {
+          ++far;
+          farRight += got == colors[p.x < 400 ? 1 : 2] ? 1 : 0;
+        }
+      }
+  }
+  std::cout << nearbyRight << " of " << nearby << " near, " << farRight << " of " << far << " far away\n";
+  EXPECT_GT(nearby, 5000u);
+  EXPECT_EQ(nearbyRight, nearby);
+  EXPECT_GT(far, 1000u);
+  EXPECT_GE(double(farRight), 0.97 * double(far));
 }
 
 TEST(Drape, APictureTooLargeForTheDeviceIsToldToBeCoarser) {

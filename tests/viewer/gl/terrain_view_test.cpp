@@ -16,9 +16,9 @@
 #include "engine/cut/cut.h"
 #include "engine/morph/geomorph.h"
 #include "terrain/builder/build.h"
+#include "viewer/color/color_tables.h"
 #include "viewer/drawn_mesh.h"
 #include "viewer/gl/frame_target.h"
-#include "viewer/picture/color_ramp.h"
 #include "viewer/reference_rasteriser.h"
 
 namespace arete {
@@ -172,7 +172,7 @@ TEST(TerrainView, PicturesAgreeWithARasteriserOfAnotherKind) {
           wrong += hasNeighbour ? 0 : 1;
         } else if (reference.isCovered(x, y)) {
           const double part = (map.heightAt(x, y, reference.at(x, y)) - low) / (high - low);
-          const Rgb expected = rampColor(hypsometricRamp(), std::clamp(part, 0.0, 1.0)), got = image.at(x, y);
+          const Rgb expected = colorTable("height").at(part).opaque(), got = image.at(x, y);
           const int off = std::max(
               {std::abs(expected.r - got.r), std::abs(expected.g - got.g), std::abs(expected.b - got.b)});
           wrongColor += off > 3 ? 1 : 0;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "viewer/picture/color_ramp.h"
+#include "viewer/color/color_tables.h"
 #include "viewer/picture_fixture.h"
 
 namespace arete {
@@ -33,10 +33,11 @@ TEST(ErrorMap, PaintsZeroExtremesAndNodata) {
     return canvas->pixel(int(layout->map.left + layout->map.width * x),
                          int(layout->map.top + layout->map.height * y));
   };
-  const auto ramp = divergingRamp();
-  EXPECT_EQ(at(0.25, 0.25), ramp.front());
-  EXPECT_EQ(at(0.75, 0.25), ramp.back());
-  EXPECT_EQ(at(0.25, 0.75), ramp[ramp.size() / 2]);
+  const ColorMap& colors = colorTable("difference");
+  const Rgb lowest = colors.at(-1).opaque(), highest = colors.at(1).opaque();
+  EXPECT_EQ(at(0.25, 0.25), lowest);
+  EXPECT_EQ(at(0.75, 0.25), highest);
+  EXPECT_EQ(at(0.25, 0.75), colors.at(0).opaque());
   const Rgb none = at(0.75, 0.75);
   EXPECT_TRUE(none.r == 190 && none.g == 191 && none.b == 194);
 
@@ -46,8 +47,8 @@ TEST(ErrorMap, PaintsZeroExtremesAndNodata) {
   const auto near = [](Rgb a, Rgb b) {
     return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b) <= 16;
   };
-  EXPECT_TRUE(near(canvas->pixel(middle, int(bar.top) + 2), ramp.back()));
-  EXPECT_TRUE(near(canvas->pixel(middle, int(bar.bottom()) - 3), ramp.front()));
+  EXPECT_TRUE(near(canvas->pixel(middle, int(bar.top) + 2), highest));
+  EXPECT_TRUE(near(canvas->pixel(middle, int(bar.bottom()) - 3), lowest));
 }
 
 TEST(ErrorMap, ShowsALoneExtremeHoweverFarReduced) {
@@ -62,7 +63,7 @@ TEST(ErrorMap, ShowsALoneExtremeHoweverFarReduced) {
   int found = 0;
   for (int y = int(layout->map.top) + 1; y < int(layout->map.bottom()) - 1; ++y) {
     for (int x = int(layout->map.left) + 1; x < int(layout->map.right()) - 1; ++x)
-      found += canvas->pixel(x, y) == divergingRamp().back();
+      found += canvas->pixel(x, y) == colorTable("difference").at(1).opaque();
   }
   EXPECT_EQ(found, 1);
 }

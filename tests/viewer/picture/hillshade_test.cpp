@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/color/color_tables.h"
 #include "viewer/picture/map_view.h"
 #include "viewer/picture_fixture.h"
 
@@ -40,6 +41,44 @@ TEST(Hillshade, LeavesNodataAlone) {
   const Image none =
       drawHillshade(located(field(4, 4, [](double, double) { return kNone; }), 1), fitGrid(4, 4, {}, 20, 20));
   for (const Rgb& pixel : none.pixels) ASSERT_EQ(pixel, kNodataColor);
+}
+
+TEST(Hillshade, HasNoFringeBetweenDataAndNodataAtAnySize) {
+  const auto h = located(
+      field(300, 200, [](double c, double r) { return std::hypot(c - 150, r - 100) > 70 ? kNone : 1200.0; }),
+      30);
+  const Rgb ground = heightColors(1200, 1200).at(1200).opaque();
+  for (const int size : {7, 23, 60, 150, 299, 640}) {
+    const MapView view = fitGrid(300, 200, h.georeference, size, size);
+    const Image image = drawHillshade(h, view);
+    std::size_t data = 0;
+    for (const Rgb& pixel : image.pixels) {
+      ASSERT_TRUE(pixel == ground || pixel == kNodataColor) << "at " << size;
+      data += pixel == ground ? 1 : 0;
+    }
+    const double share = 3.14159 * 70 * 70 / (299.0 * 199.0);
+    EXPECT_NEAR(double(data) / double(image.pixels.size()), share, 0.5 / size + 0.01) << "at " << size;
+  }
+}
+
+TEST(Hillshade, KeepsTheTintOfLevelGroundAndClipsNoCliff) {
+  // A plain, and a wall of 60 m that faces the light.
+  const auto h = located(field(60, 60,
+                               [](double c, double r) {
+                                 return c + r > 60 ? 60.0 : c + r < 58 ? 0.0 : 30 * (c + r - 58);
+                               }),
+                         1);
+  const Image image =
+      drawHillshade(h, fitGrid(60, 60, h.georeference, 120, 120), {.verticalExaggeration = 1});
+  EXPECT_EQ(image.at(10, 10), heightColors(0, 60).at(0).opaque());
+  EXPECT_EQ(image.at(110, 110), heightColors(0, 60).at(60).opaque());
+  int brightest = 0;
+  for (const Rgb& pixel : image.pixels)
+    brightest = std::max({brightest, int(pixel.r), int(pixel.g), int(pixel.b)});
+  EXPECT_LT(brightest, 255);
+  // White paper stays below white, too.
+  const Image paper = drawHillshade(h, fitGrid(60, 60, h.georeference, 120, 120), {.tint = 0});
+  for (const Rgb& pixel : paper.pixels) EXPECT_LT(pixel.r, 255);
 }
 
 TEST(Hillshade, AveragesAllSamplesWhenReduced) {

@@ -13,7 +13,6 @@ layout(std140, binding = 1) uniform Look {
   vec4 heat;         // error of the largest heat; 0 = the cut's pixels
 };
 layout(binding = 0) uniform sampler2D slopes;     // dz/dx, dz/dy of the samples, metric
-layout(binding = 1) uniform sampler1D tints;
 layout(binding = 2) uniform sampler2DArray drapeTiles;
 layout(binding = 3) uniform sampler2D overlay;
 layout(std430, binding = 8) readonly buffer TriangleIds { uint drawnId[]; };
@@ -25,12 +24,8 @@ layout(location = 2) uniform ivec4 drapePicture;    // pixels across and down, s
 layout(location = 3) uniform ivec2 drapeEye;        // the pixel under the eye
 layout(location = 4) uniform vec4 drapeStep;        // pixels a unit of metric space; where in its pixel the eye is
 layout(location = 5) uniform ivec2 drapeLevel[16];  // first layer, tiles across
-
-vec3 ramp3(float t, vec3 a, vec3 b, vec3 c) { return t < 0.5 ? mix(a, b, 2.0 * t) : mix(b, c, 2.0 * t - 1.0); }
-
-vec3 hue(float turns) {
-  return clamp(abs(fract(turns + vec3(0.0, 2.0 / 3.0, 1.0 / 3.0)) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
-}
+layout(location = 92) uniform int drapeClasses;     // 1: colours of classes, which are not mixed
+layout(location = 91) uniform uvec4 colorMaps;      // of heights, slopes, aspects, errors (color_map.glsl)
 
 float errorOf(uint t) {
   uint code = triangleError[t >> 1] >> (16u * (t & 1u)) & 0xFFFFu;
@@ -55,6 +50,9 @@ vec4 drapeSeen() {
   float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
   float middle = 0.5 * (xx + yy), apart = 0.5 * (xx - yy), around = sqrt(apart * apart + xy * xy);
   float longer = sqrt(middle + around), shorter = sqrt(max(middle - around, 0.0));
+  // One texel of one level, about as wide as the pixel.
+  if (drapeClasses != 0)
+    return drapeTexel(int(clamp(0.5 * log2(max(longer * max(shorter, 1.0), 1.0)) + 0.5, 0.0, float(drapePicture.w - 1))), at);
   vec2 axis = apart >= 0.0 ? vec2(apart + around, xy) : vec2(xy, around - apart);
   axis *= longer / max(length(axis), 1e-30);
   int count = int(clamp(ceil(longer / max(shorter, 1.0) - 0.01), 1.0, 8.0));
@@ -88,20 +86,24 @@ void main() {
 
   int mode = int(modes.x);
   float height = place.z * heightUnits.x + heightUnits.y;
-  float part = clamp((place.z - range.x) / max(range.y - range.x, 1e-6), 0.0, 1.0);
   vec3 base = vec3(0.78);
-  if (mode == 0) base = texture(tints, part).rgb;
-  if (mode == 1) base = ramp3(clamp(atan(length(slope / earth.x)) / 1.0472, 0.0, 1.0), vec3(0.95, 0.95, 0.88), vec3(0.93, 0.6, 0.25), vec3(0.45, 0.08, 0.2));
+  if (mode == 0) {
+    vec4 tint = colorOf(colorMaps.x, height);
+    base = mix(base, tint.rgb, tint.a);
+  }
+  if (mode == 1) base = colorOf(colorMaps.y, degrees(atan(length(slope / earth.x)))).rgb;
   if (mode == 2) {
     vec2 down = -slope;
     float turns = atan(dot(down, eastNorth.xy), dot(down, eastNorth.zw)) / 6.2831853;
-    base = mix(vec3(0.8), hue(turns), min(1.0, length(slope / earth.x) * 8.0) * 0.75);
+    // Level ground faces nowhere: the grey of the same lightness.
+    vec3 facing = colorOf(colorMaps.z, 360.0 * fract(turns)).rgb;
+    base = mix(vec3(166.0 / 255.0), facing, min(1.0, length(slope / earth.x) * 8.0));
   }
   if (mode == 4) {
     float e = errorOf(drawnId[drawFirst / 3u + uint(gl_PrimitiveID)]);
     float depth = dot(fromEye, forward.xyz);
     e = heat.x > 0.0 ? e / heat.x : e * morph.z * length(fromEye) / (depth * depth * morph.x);
-    base = ramp3(clamp(e, 0.0, 1.0), vec3(0.13, 0.3, 0.55), vec3(0.95, 0.93, 0.8), vec3(0.75, 0.1, 0.1));
+    base = colorOf(colorMaps.w, e).rgb;
   }
   if (modes.z > 0.0) {
     vec4 photo = drapeSeen();
@@ -120,14 +122,10 @@ void main() {
                 (1.0 - smoothstep(0.12, 0.35, width));  // too close together to be told apart
     base = mix(base, vec3(0.32, 0.2, 0.1), 0.75 * ink);
   }
-  if (sun.w > 0.0) {
-    // The sun, the sky above, and what the ground throws back.
-    float lit = max(dot(normal, sun.xyz), 0.0), sky = 0.5 + 0.5 * normal.z;
-    base *= 0.9 * lit * vec3(1.0, 0.96, 0.88) + 0.42 * sky * vec3(0.78, 0.88, 1.0) + 0.06;
-  }
+  if (sun.w > 0.0) base = srgbOf(litLinear(linearOf(base), lightOnGround(normal, sun.xyz)));
   if (heightUnits.z > 0.0) {
     float haze = 1.0 - exp(-pow(length(fromEye) / heightUnits.z, 1.5));
-    base = mix(base, vec3(0.74, 0.81, 0.88), haze);
+    base = srgbOf(mix(linearOf(base), linearOf(vec3(0.74, 0.81, 0.88)), haze));
   }
   color = vec4(base, 1.0);
 }

@@ -3,12 +3,15 @@
 // Pictures brought onto a terrain, against a look-up of each pixel's place on the map.
 #include "io/geo/drape/reader.h"
 
+#include <gdal_rat.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "datasets/random.h"
 #include "io/drape_fixture.h"
@@ -276,6 +279,111 @@ TEST(DrapeReader, WhatIsNoDataOrMaskedIsTransparent) {
         ASSERT_EQ(all.at(col, r), c.expected(int(p.x), int(p.y))) << col << ", " << r;
       }
   }
+}
+
+constexpr Pixel kLandCover[] = {
+    {20, 90, 40, 255}, {230, 200, 60, 255}, {190, 30, 30, 255}, {40, 80, 200, 255}};
+
+void addLandCover(GDALDataset& d) {
+  GDALColorTable table;
+  for (int i = 0; i < 4; ++i) {
+    const Pixel& p = kLandCover[i];
+    const GDALColorEntry entry{p[0], p[1], p[2], 255};
+    table.SetColorEntry(i, &entry);
+  }
+  d.GetRasterBand(1)->SetColorTable(&table);
+  d.GetRasterBand(1)->SetNoDataValue(9);
+}
+
+/// 60 of 100 pixels are of class 1, however they are grouped; some are NODATA.
+int landCover(int c, int r) {
+  if (c > 150 && r > 110) return 9;
+  return Random::at(7, c, r) % 100 < 60 ? 1 : int(Random::at(8, c, r) % 4);
+}
+
+TEST(DrapeReader, MixesNoColoursOfClassesInWhateverCrsAndResolution) {
+  const TemporaryFolder folder;
+  const TerrainModel model = terrainAt(folder, kUtmCode, kGround);
+  const Transform turned = {500100, 6, 2, 3999900, 2, -6},
+                  degrees = {-117.0005, 0.00007, 0, 36.146, 0, -0.00006};
+  for (const auto& [transform, crs, most] : {std::tuple{turned, kUtmCode, std::uint64_t(1) << 28},
+                                             {degrees, "EPSG:4326", std::uint64_t(1) << 28},
+                                             {turned, kUtmCode, std::uint64_t(900)},
+                                             {degrees, "EPSG:4326", std::uint64_t(1200)}}) {
+    SCOPED_TRACE(std::string(crs) + ", at most " + std::to_string(most));
+    const std::string path =
+        writePicture(folder.file("cover.tif"), {.columns = 180,
+                                                .rows = 140,
+                                                .transform = transform,
+                                                .crs = crs,
+                                                .bands = 1,
+                                                .value = [](int c, int r, int) { return landCover(c, r); },
+                                                .adjust = addLandCover});
+    {
+      // Means of the numbers of classes are no classes.
+      const GdalDatasetPtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
+      const int levels[] = {2, 4};
+      ASSERT_EQ(dataset->BuildOverviews("AVERAGE", 2, const_cast<int*>(levels), 0, nullptr, nullptr, nullptr),
+                CE_None);
+    }
+    Result<DrapeReader> reader = DrapeReader::open(path, model, {.bands = {}, .maxPixels = most});
+    ASSERT_TRUE(reader) << reader.error().describe();
+    EXPECT_TRUE(reader->hasClasses());
+    const Whole all = readAll(*reader);
+    std::size_t ofMost = 0, seen = 0;
+    for (const Pixel& p : all.pixels) {
+      if (p == Pixel{}) continue;
+      ASSERT_NE(std::ranges::find(kLandCover, p), std::end(kLandCover))
+          << int(p[0]) << " " << int(p[1]) << " " << int(p[2]) << " " << int(p[3]);
+      ++seen;
+      ofMost += p == kLandCover[1] ? 1 : 0;
+    }
+    EXPECT_GT(seen, 300u);
+    // Nearest keeps the shares of 70 %; the majority of many pixels is nearly always class 1.
+    if (most > 10000) {
+      EXPECT_NEAR(double(ofMost) / double(seen), 0.7, 0.05);
+    } else {
+      EXPECT_GT(double(ofMost) / double(seen), 0.97);
+    }
+  }
+}
+
+TEST(DrapeReader, TakesTheColoursOfAnAttributeTableAndOfNumbersOfMoreThanAByte) {
+  const TemporaryFolder folder;
+  const TerrainModel model = terrainAt(folder, kUtmCode, kGround);
+  const Transform t = {500000, 10, 0, 4000000, 0, -10};
+  const std::string path = folder.file("attributes.tif");
+  writePicture(path, {.columns = 90,
+                      .rows = 90,
+                      .transform = t,
+                      .crs = kUtmCode,
+                      .bands = 1,
+                      .type = GDT_Int16,
+                      .value = [](int c, int, int) { return c % 3 == 0   ? 300
+                                                            : c % 3 == 1 ? 2
+                                                                         : -7; },
+                      .adjust =
+                          [](GDALDataset& d) {
+                            GDALDefaultRasterAttributeTable table;
+                            table.CreateColumn("Value", GFT_Integer, GFU_MinMax);
+                            table.CreateColumn("Red", GFT_Integer, GFU_Red);
+                            table.CreateColumn("Green", GFT_Integer, GFU_Green);
+                            table.CreateColumn("Blue", GFT_Integer, GFU_Blue);
+                            int row = 0;
+                            for (const auto& [value, red] : {std::pair{2, 10}, {300, 250}}) {
+                              const int cells[] = {value, red, 20, 30};
+                              for (int i = 0; i < 4; ++i) table.SetValue(row, i, cells[i]);
+                              ++row;
+                            }
+                            d.GetRasterBand(1)->SetDefaultRAT(&table);
+                          }});
+  Result<DrapeReader> reader = DrapeReader::open(path, model);
+  ASSERT_TRUE(reader) << reader.error().describe();
+  EXPECT_TRUE(reader->hasClasses());
+  const Whole all = readAll(*reader);
+  EXPECT_EQ(all.at(0, 5), (Pixel{250, 20, 30, 255}));
+  EXPECT_EQ(all.at(1, 5), (Pixel{10, 20, 30, 255}));
+  EXPECT_EQ(all.at(2, 5), (Pixel{0, 0, 0, 0})) << "a class without a colour";
 }
 
 TEST(DrapeReader, OtherNumbersAreStretchedBetweenTheirPercentiles) {
