@@ -29,7 +29,7 @@ double decorationTextSize(const Rect& frame) {
   return std::clamp(std::min(frame.width, frame.height) / 46, 9.5, 20.0);
 }
 
-void decorate(Canvas& canvas, const PictureGround& ground, std::span<const Legend> legends,
+void decorate(Canvas& canvas, const PictureGround& ground, std::span<const ColorLegend> legends,
               const Decorations& decorations) {
   const Rect& frame = ground.frame();
   if (std::min(frame.width, frame.height) < kLeastSide) return;

@@ -19,7 +19,7 @@ struct Decorations {
 
 /// Draws graticule, scale bar and north arrow (lower left) and legends (lower right) over a picture. A part
 /// that would take more than half of a small picture is left out.
-void decorate(Canvas& canvas, const PictureGround& ground, std::span<const Legend> legends,
+void decorate(Canvas& canvas, const PictureGround& ground, std::span<const ColorLegend> legends,
               const Decorations& decorations = {});
 
 /// The size of the texts on a picture of that size, in pixels.

@@ -24,7 +24,7 @@ class LegendPen {
   LegendPen(Canvas* canvas, Canvas& ruler, Vec2 corner, const LegendStyle& style)
       : canvas_(canvas), ruler_(ruler), style_(style), left_(corner.x), top_(corner.y), y_(corner.y) {}
 
-  void legend(const Legend& legend) {
+  void legend(const ColorLegend& legend) {
     if (y_ > top_) y_ += kGap * size();
     heading(legend);
     if (legend.scale) scale(*legend.scale);
@@ -53,7 +53,7 @@ class LegendPen {
     if (canvas_) canvas_->text(words, {x, y_ + kLine * size() / 2}, style);
   }
 
-  void heading(const Legend& legend) {
+  void heading(const ColorLegend& legend) {
     std::string words = legend.title;
     if (!legend.unit.empty()) words += words.empty() ? legend.unit : ", " + legend.unit;
     if (words.empty()) return;
@@ -136,9 +136,9 @@ class LegendPen {
 
 }  // namespace
 
-Legend legendOf(const ColorMap& map, std::string title, std::string unit,
+ColorLegend legendOf(const ColorMap& map, std::string title, std::string unit,
                 std::optional<std::pair<double, double>> range) {
-  Legend legend{.title = std::move(title), .unit = std::move(unit)};
+  ColorLegend legend{.title = std::move(title), .unit = std::move(unit)};
   const auto [low, high] = range.value_or(std::pair{map.low(), map.high()});
   if (map.between() == ColorsBetween::linear) {
     legend.scale = LegendScale{map, low, high};
@@ -169,18 +169,18 @@ Legend legendOf(const ColorMap& map, std::string title, std::string unit,
   return legend;
 }
 
-Vec2 legendSize(std::span<const Legend> legends, const LegendStyle& style) {
+Vec2 legendSize(std::span<const ColorLegend> legends, const LegendStyle& style) {
   auto ruler = Canvas::create(1, 1);
   if (!ruler) return {};
   LegendPen pen(nullptr, *ruler, {0, 0}, style);
-  for (const Legend& legend : legends) pen.legend(legend);
+  for (const ColorLegend& legend : legends) pen.legend(legend);
   return pen.reach();
 }
 
-std::vector<DrawnScale> drawLegends(Canvas& canvas, std::span<const Legend> legends, Vec2 corner,
+std::vector<DrawnScale> drawLegends(Canvas& canvas, std::span<const ColorLegend> legends, Vec2 corner,
                                     const LegendStyle& style) {
   LegendPen pen(&canvas, canvas, corner, style);
-  for (const Legend& legend : legends) pen.legend(legend);
+  for (const ColorLegend& legend : legends) pen.legend(legend);
   return pen.scales;
 }
 

@@ -34,7 +34,7 @@ struct LegendScale {
 };
 
 /// What the colours of a picture, or of one of its layers, mean.
-struct Legend {
+struct ColorLegend {
   std::string title;
   std::string unit = {};
   std::optional<LegendScale> scale = {};
@@ -43,7 +43,7 @@ struct Legend {
 
 /// The legend of a map of colours: a scale of its finite values where they are mixed, a class for each of its
 /// colours where they are not. A range replaces the ends of the scale.
-Legend legendOf(const ColorMap& map, std::string title, std::string unit = {},
+ColorLegend legendOf(const ColorMap& map, std::string title, std::string unit = {},
                 std::optional<std::pair<double, double>> range = {});
 
 struct LegendStyle {
@@ -53,7 +53,7 @@ struct LegendStyle {
 };
 
 /// The room that legends need, one below the other, with their margins.
-Vec2 legendSize(std::span<const Legend> legends, const LegendStyle& style = {});
+Vec2 legendSize(std::span<const ColorLegend> legends, const LegendStyle& style = {});
 
 /// Where the scale of a legend was drawn: its topmost row of pixels has the colour of the highest value, the
 /// lowest row that of the lowest one.
@@ -64,7 +64,7 @@ struct DrawnScale {
 
 /// Draws legends with the left top corner at `corner`. Colours are exactly those of the map. O(pixels drawn).
 /// @return the scales, in the order of the legends that have one.
-std::vector<DrawnScale> drawLegends(Canvas& canvas, std::span<const Legend> legends, Vec2 corner,
+std::vector<DrawnScale> drawLegends(Canvas& canvas, std::span<const ColorLegend> legends, Vec2 corner,
                                     const LegendStyle& style = {});
 
 }  // namespace arete

@@ -164,19 +164,28 @@ std::vector<std::string> captionOf(const RasterHeightfield& ground, const Triang
   return lines;
 }
 
+/// The colours of level ground, and the lines.
+ColorLegend legendFor(const RasterHeightfield& ground, const TriangleMesh& tin, const HillshadeOptions& relief) {
+  ColorLegend legend = legendOf(hillshadeTints(ground), "height", ground.georeference.verticalUnit);
+  if (legend.scale) legend.scale->shade = [relief](Rgb tint, double) { return onLevelGround(tint, relief); };
+  if (!tin.triangles.empty()) legend.classes.push_back({{kEdgeColor}, "edges of triangles", true});
+  return legend;
+}
+
 }  // namespace
 
 Result<Canvas> drawTin(const RasterHeightfield& ground, const TriangleMesh& tin,
                        const TinPictureOptions& options) {
   ARETE_CHECK(tin.validate());
+  const HillshadeOptions relief = {.tint = 0.85, .wash = tin.triangles.empty() ? 0.0 : 0.15};
   ARETE_TRY(auto page, makeMapPage(ground.columns, ground.rows, ground.georeference,
                                    {.width = options.width,
                                     .title = options.title,
                                     .caption = captionOf(ground, tin, options),
+                                    .legends = {legendFor(ground, tin, relief)},
                                     .isDecorated = options.isDecorated}));
 
-  const double wash = tin.triangles.empty() ? 0.0 : 0.15;
-  page.canvas.image(drawHillshade(ground, page.view, {.tint = 0.85, .wash = wash}), int(page.map.left),
+  page.canvas.image(drawHillshade(ground, page.view, relief), int(page.map.left),
                     int(page.map.top));
   std::vector<Vec2> grid;
   grid.reserve(tin.positions.size());

@@ -132,8 +132,8 @@ class Look {
     return kind_ == Kind::servers ? serverColor(values_[i]) : map_.at(values_[i]).opaque();
   }
 
-  Legend legend() const {
-    Legend legend;
+  ColorLegend legend() const {
+    ColorLegend legend;
     const auto add = [&](Rgb color, std::string label) {
       LegendClass entry{{}, std::move(label)};
       for (int i = 0; i < kShades; ++i) entry.colors.push_back(inShade(color, i));
@@ -173,7 +173,7 @@ class Look {
   }
 
   template <class Add>
-  void addNumbers(Legend& legend, const Add& add) const {
+  void addNumbers(ColorLegend& legend, const Add& add) const {
     const bool isCount = kind_ == Kind::counts;
     const auto most = std::size_t(std::max(0.0, highest_));
     if (isCount && most > kMostClasses) {

@@ -31,7 +31,7 @@ int changed(const Canvas& canvas) {
 }
 
 TEST(Decorations, AreDrawnOneByOne) {
-  const Legend legend = legendOf(colorTable("height").over(4321.2, 4321.8), "height", "m");
+  const ColorLegend legend = legendOf(colorTable("height").over(4321.2, 4321.8), "height", "m");
   const auto drawn = [&](Decorations which) {
     Canvas canvas = *Canvas::create(800, 500, kGround);
     decorate(canvas, frameOf(800, 500), std::span(&legend, 1), which);
@@ -50,7 +50,7 @@ TEST(Decorations, AreDrawnOneByOne) {
 }
 
 TEST(Decorations, LeaveRoomInPicturesOfAnySize) {
-  const Legend legend = legendOf(colorTable("height").over(0, 3000), "height", "m");
+  const ColorLegend legend = legendOf(colorTable("height").over(0, 3000), "height", "m");
   for (const auto& [width, height] :
        {std::pair{1, 1}, {3, 200}, {200, 3}, {64, 64}, {160, 120}, {480, 270}, {1920, 1080}, {300, 2000}}) {
     Canvas canvas = *Canvas::create(width, height, kGround);
@@ -60,7 +60,7 @@ TEST(Decorations, LeaveRoomInPicturesOfAnySize) {
 }
 
 TEST(Decorations, MayBeDrawnOnNothingAndLaidOverAPicture) {
-  const Legend legend = legendOf(colorTable("height").over(0, 3000), "height", "m");
+  const ColorLegend legend = legendOf(colorTable("height").over(0, 3000), "height", "m");
   Canvas clear = *Canvas::createClear(640, 480), opaque = *Canvas::create(640, 480, kGround);
   decorate(clear, frameOf(640, 480), std::span(&legend, 1));
   decorate(opaque, frameOf(640, 480), std::span(&legend, 1));

@@ -22,7 +22,7 @@ Canvas paper() {
 TEST(Legend, HasTheColoursOfItsMap) {
   for (const ColorTable& table : colorTables()) {
     SCOPED_TRACE(table.name);
-    const Legend legend = legendOf(table.map, "what", "m");
+    const ColorLegend legend = legendOf(table.map, "what", "m");
     ASSERT_TRUE(legend.scale);
     Canvas canvas = paper();
     const auto scales = drawLegends(canvas, std::span(&legend, 1), {20, 20});
@@ -39,7 +39,7 @@ TEST(Legend, HasTheColoursOfItsMap) {
 }
 
 TEST(Legend, ShowsEveryShadeOfAShadedMap) {
-  Legend legend = legendOf(colorTable("height").over(0, 100), "height", "m");
+  ColorLegend legend = legendOf(colorTable("height").over(0, 100), "height", "m");
   legend.scale->shade = [](Rgb color, double across) { return mix({0, 0, 0}, color, across); };
   Canvas canvas = paper();
   const Rect bar = drawLegends(canvas, std::span(&legend, 1), {20, 20})[0].bar;
@@ -52,14 +52,14 @@ TEST(Legend, NamesTheClassesOfAMapOfClasses) {
   const ColorMap exact =
       *ColorMap::make({{1, {10, 20, 30}, "water"}, {2, {40, 50, 60}}, {3, {70, 80, 90}, "rock"}},
                       {.between = ColorsBetween::exact});
-  const Legend classes = legendOf(exact, "cover");
+  const ColorLegend classes = legendOf(exact, "cover");
   ASSERT_EQ(classes.classes.size(), 3u);
   EXPECT_EQ(classes.classes[0].label, "rock");
   EXPECT_EQ(classes.classes[1].label, "2");
   EXPECT_EQ(classes.classes[2].colors, (std::vector<Rgb>{{10, 20, 30}}));
   const ColorMap discrete = *ColorMap::make({{10, {1, 1, 1}}, {20, {2, 2, 2}}, {inf, {3, 3, 3}}},
                                             {.between = ColorsBetween::discrete});
-  const Legend steps = legendOf(discrete, "slope", "degrees");
+  const ColorLegend steps = legendOf(discrete, "slope", "degrees");
   ASSERT_EQ(steps.classes.size(), 3u);
   EXPECT_EQ(steps.classes[0].label, "above 20");
   EXPECT_EQ(steps.classes[1].label, "10 to 20");
@@ -75,7 +75,7 @@ TEST(Legend, NamesTheClassesOfAMapOfClasses) {
 }
 
 TEST(Legend, TakesTheRoomThatItSaysAndCountsWhatHasNone) {
-  Legend legend{.title = "many"};
+  ColorLegend legend{.title = "many"};
   for (int i = 0; i < 100; ++i) legend.classes.push_back({{Rgb{0, 0, 0}}, "class"});
   const LegendStyle style = {.maxHeight = 200};
   const Vec2 size = legendSize(std::span(&legend, 1), style);
@@ -91,10 +91,10 @@ TEST(Legend, TakesTheRoomThatItSaysAndCountsWhatHasNone) {
 }
 
 TEST(Legend, OfFlatGroundHasOneNumber) {
-  const Legend legend = legendOf(colorTable("height").over(7, 7), "height", "m");
+  const ColorLegend legend = legendOf(colorTable("height").over(7, 7), "height", "m");
   Canvas canvas = paper();
   EXPECT_EQ(drawLegends(canvas, std::span(&legend, 1), {20, 20}).size(), 1u);
-  const Legend none;
+  const ColorLegend none;
   EXPECT_TRUE(drawLegends(canvas, std::span(&none, 1), {20, 20}).empty());
 }
 
