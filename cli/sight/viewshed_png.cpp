@@ -12,6 +12,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "io/geo/crs/transform.h"
+#include "viewer/decoration/scale_bar.h"
 #include "viewer/map/viewshed_map.h"
 
 namespace arete {
@@ -82,8 +83,7 @@ std::vector<std::string> captionOf(const ViewshedMapQuestion& q) {
   if (a.mode != ViewshedMode::height && a.mode != ViewshedMode::horizon)
     first += "   \u00b7   target " + above(q.options.targetHeight);
   if (std::isfinite(a.fieldOfView.greatestMetres))
-    first += fmt::format("   \u00b7   within {:.6g} {}", a.fieldOfView.greatestMetres,
-                         dem.crsWkt.empty() ? "units" : "m");
+    first += "   \u00b7   within " + lengthText(a.fieldOfView.greatestMetres, !dem.crsWkt.empty(), "units");
   std::string second = earthWords(dem, a.sight.earthName(q.model) == "ellipsoid", a.sight.refraction);
   if (a.sight.nodata != NodataSight::unknown)
     second += fmt::format("   \u00b7   places without data: {}", toString(a.sight.nodata));

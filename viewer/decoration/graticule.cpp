@@ -304,8 +304,12 @@ void drawGraticuleLines(Canvas& canvas, const PictureGround& ground,
 }
 
 void drawGraticuleLabels(Canvas& canvas, const PictureGround& ground, const std::vector<GraticuleLine>& lines,
-                         std::vector<Rect> taken, double textSize) {
+                         std::span<const Rect> panels, double textSize) {
   const Rect& frame = ground.frame();
+  std::vector<Rect> labels;
+  const auto isTaken = [](std::span<const Rect> others, const Rect& room) {
+    return std::ranges::any_of(others, [&](const Rect& other) { return overlap(room, other); });
+  };
   const TextStyle style = {.size = textSize, .color = kInk, .halo = textSize * 0.22};
   for (const GraticuleLine& line : lines) {
     std::vector<Vec2> points = pointsInside(frame, line);
@@ -318,9 +322,11 @@ void drawGraticuleLabels(Canvas& canvas, const PictureGround& ground, const std:
       room.left = std::clamp(room.left, frame.left + 3, std::max(frame.left + 3, frame.right() - width - 3));
       room.top = std::clamp(room.top, frame.top + 3, std::max(frame.top + 3, frame.bottom() - height - 3));
       if (room.right() > frame.right() || room.bottom() > frame.bottom()) break;
-      if (std::ranges::any_of(taken, [&](const Rect& other) { return overlap(room, other); })) continue;
+      // Behind a panel the other end is labelled; beside another label none is missed.
+      if (isTaken(panels, room)) continue;
+      if (isTaken(labels, room)) break;
       canvas.text(line.label, {room.left, room.bottom() - textSize * 0.2}, style);
-      taken.push_back(room);
+      labels.push_back(room);
       break;
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,8 @@ double roundAngleDown(double degrees);
 /// Draws the lines, thin, within the frame.
 void drawGraticuleLines(Canvas& canvas, const PictureGround& ground, const std::vector<GraticuleLine>& lines);
 /// Writes a label on each line, near the lower end of a meridian and the left end of a parallel, where it
-/// covers no other and nothing in `taken`.
+/// covers no other and none of the panels; behind a panel, near the other end.
 void drawGraticuleLabels(Canvas& canvas, const PictureGround& ground, const std::vector<GraticuleLine>& lines,
-                         std::vector<Rect> taken, double textSize);
+                         std::span<const Rect> panels, double textSize);
 
 }  // namespace arete

@@ -90,6 +90,10 @@ std::optional<double> PictureGround::length(Vec2 from, Vec2 to) const {
 
 std::optional<double> PictureGround::lengthPerPixel(Vec2 pixel) const {
   if (parts_.lengthPerPixel) return parts_.lengthPerPixel(pixel);
+  if (parts_.acrossPixel) {
+    const auto ends = parts_.acrossPixel(pixel);
+    return ends ? length(ends->first, ends->second) : std::nullopt;
+  }
   // The step is long enough that rounding leaves six digits, short enough that the scale is that of the
   // place.
   const double step = std::max(1.0, parts_.frame.width / 512);

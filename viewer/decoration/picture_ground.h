@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "engine/base/vec.h"
 #include "io/geo/crs/lonlat.h"
@@ -33,6 +34,8 @@ class PictureGround {
     /// Lengths on the ground of one pixel at a pixel, across the picture, in metres (source units without a
     /// CRS); empty: of the ground at the pixels beside it.
     std::function<std::optional<double>(Vec2)> lengthPerPixel = {};
+    /// Instead of it: two source positions, the width of a pixel apart across the picture.
+    std::function<std::optional<std::pair<Vec2, Vec2>>(Vec2)> acrossPixel = {};
   };
 
   explicit PictureGround(Parts parts);

@@ -145,7 +145,7 @@ class Look {
       legend.scale = LegendScale{map_, lowest_, highest_, {}, [](Rgb color, double across) {
                                    return inShade(color, int(std::lround(across * (kShades - 1))));
                                  }};
-      add(kHidden, "at no height");
+      add(kHidden, kind_ == Kind::heights ? "at no height" : "nothing would be seen");
     } else if (kind_ == Kind::answers) {
       add(kSeen, "seen");
       add(kHidden, "hidden");

@@ -170,7 +170,7 @@ TEST(Graticule, LabelsStayInThePictureAndCoverNothing) {
   ASSERT_TRUE(canvas);
   const PictureGround ground = pictureOf(mapAbout("EPSG:32633", {500000, 5000000}, 30));
   const Rect taken = {30, 420, 800, 400};
-  drawGraticuleLabels(*canvas, ground, graticuleOf(ground, 120), {taken}, 13);
+  drawGraticuleLabels(*canvas, ground, graticuleOf(ground, 120), {{taken}}, 13);
   int marked = 0;
   for (int y = 0; y < 860; ++y)
     for (int x = 0; x < 860; ++x) {
