@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -77,21 +79,27 @@ bool ColorArguments::isStated() const {
   return !ramp.empty() || !mode.empty() || !range.empty() || (seaOption && seaOption->count() > 0);
 }
 
-Result<TerrainColors> ColorArguments::colors(const std::string& coloring, double lowest, double highest,
-                                             Warnings& warnings) const {
+Result<TerrainColors> ColorArguments::of(const std::string& coloring, const TerrainModel& model,
+                                         Warnings& warnings) const {
+  double lowest = INFINITY, highest = -INFINITY;
+  for (std::uint32_t v = 0; v < model.mt.vertexCount(); ++v) {
+    const double height = model.mt.vertices().height(VertexId(v));
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  }
   TerrainColors colors = TerrainColors::over(lowest, highest);
   if (!isStated()) return colors;
-  const std::string of = coloring.empty() ? "height" : coloring;
+  const std::string what = coloring.empty() ? "height" : coloring;
   const bool hasSea = seaOption && seaOption->count() > 0;
   const std::string first = !ramp.empty()    ? "--ramp " + ramp
                             : !range.empty() ? "--range " + range
                             : !mode.empty()  ? "--ramp-mode " + mode
                                              : "--sea-level";
-  if (of != "height" && of != "slope" && of != "aspect")
+  if (what != "height" && what != "slope" && what != "aspect")
     return refusal(first,
-                   fmt::format("is for colours of height, slope or aspect, and --color {} shows none", of));
-  if (hasSea && of != "height")
-    return refusal("--sea-level", fmt::format("is for heights, not for --color {}", of));
+                   fmt::format("is for colours of height, slope or aspect, and --color {} shows none", what));
+  if (hasSea && what != "height")
+    return refusal("--sea-level", fmt::format("is for heights, not for --color {}", what));
 
   std::optional<ColoredRange> stated;
   if (!range.empty()) {
@@ -100,15 +108,15 @@ Result<TerrainColors> ColorArguments::colors(const std::string& coloring, double
       return refusal("--range " + range, "must be LOW,HIGH, the lower value first");
     stated = ColoredRange{ends.first, ends.second};
   }
-  const ColoredRange ofData = of == "height"  ? ColoredRange{lowest, highest}
-                              : of == "slope" ? ColoredRange{0, 90}
-                                              : ColoredRange{0, 360};
-  ColorMap& map = of == "height" ? colors.heights : of == "slope" ? colors.slopes : colors.aspects;
+  const ColoredRange ofData = what == "height"  ? ColoredRange{lowest, highest}
+                              : what == "slope" ? ColoredRange{0, 90}
+                                                : ColoredRange{0, 360};
+  ColorMap& map = what == "height" ? colors.heights : what == "slope" ? colors.slopes : colors.aspects;
   const auto between = betweenNamed(mode);
-  const ColorTable* table = findColorTable(ramp.empty() ? of : ramp);
+  const ColorTable* table = findColorTable(ramp.empty() ? what : ramp);
   if (!table) {
     Result<RampFile> file = readRampFile(ramp);
-    // A word that is no file is taken for a name that is wrong.
+    // A word without a file is taken for a misspelt name.
     if (!file && file.error().code == ErrorCode::notFound && ramp.find_first_of("./\\") == ramp.npos)
       return refusal("--ramp " + ramp, fmt::format("is neither a file nor one of {}", namesOfTables()));
     if (!file) return tl::unexpected(file.error());
@@ -126,11 +134,11 @@ Result<TerrainColors> ColorArguments::colors(const std::string& coloring, double
     return refusal("--ramp-mode exact", "requires --ramp FILE, whose values have a meaning");
   if (hasSea && between.value_or(ColorsBetween::linear) != ColorsBetween::linear)
     return refusal("--sea-level", fmt::format("does not go with --ramp-mode {}", mode));
-  if (of == "aspect" && stated)
+  if (what == "aspect" && stated)
     return refusal("--range " + range, "is not for aspects, which run from 0 to 360");
   // Slopes have the range of their own table, whatever table colours them.
-  const ColoredRange over = stated ? *stated : of == "slope" ? ColoredRange{0, 60} : ofData;
-  if (of == "height") {
+  const ColoredRange over = stated ? *stated : what == "slope" ? ColoredRange{0, 60} : ofData;
+  if (what == "height") {
     const bool hasExtent = over.low < over.high;
     const ColorMap stretched =
         table->map.over(hasExtent ? over.low : over.low - 0.5, hasExtent ? over.high : over.low + 0.5);

@@ -7,6 +7,7 @@
 #include "cli/arguments/option_kinds.h"
 #include "engine/base/result.h"
 #include "engine/base/warning.h"
+#include "terrain/model/terrain_model.h"
 #include "viewer/color/ramp_file.h"
 #include "viewer/color/terrain_colors.h"
 
@@ -23,13 +24,12 @@ struct ColorArguments {
   void addTo(CLI::App& command, const std::string& group, OptionKinds& kinds);
   bool isStated() const;
 
-  /// The colours of a terrain whose heights run from `lowest` to `highest`.
+  /// The colours of a terrain.
   ///
   /// @param coloring what is coloured: "height", "slope", "aspect"; empty: height.
-  /// Errors: usage: options that do not go together or with `coloring`, or that say nothing; those of
+  /// Errors: usage: options that do not go together or with `coloring`, or that say nothing; the errors of
   /// readRampFile() and RampFile::map().
-  Result<TerrainColors> colors(const std::string& coloring, double lowest, double highest,
-                               Warnings& warnings) const;
+  Result<TerrainColors> of(const std::string& coloring, const TerrainModel& model, Warnings& warnings) const;
 };
 
 }  // namespace arete

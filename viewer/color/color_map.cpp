@@ -42,7 +42,7 @@ Rgb laidOver(Rgba front, Rgb behind) {
   return mix(behind, front.opaque(), front.a / 255.0);
 }
 
-ColorMap::ColorMap() : stops_{{0, Rgba{}, {}}} {}
+ColorMap::ColorMap() : stops_{{0, Rgba{0, 0, 0}, {}}} {}
 
 Result<ColorMap> ColorMap::make(std::vector<ColorStop> stops, const ColorMapOptions& options) {
   if (stops.empty()) return failure(ErrorCode::invalidData, "a colour map needs at least one colour");

@@ -7,7 +7,7 @@
 
 namespace arete {
 
-/// A colour under a light of so many times the light that shows it as it is, channel by channel. Light is
+/// A colour under a multiple of the light that shows it as it is, channel by channel. Light is
 /// added up and multiplied in linear intensities; above 1 it approaches full intensity without ever reaching
 /// it, so that no slope that faces the sun is clipped: x becomes k x / (1 + (k - 1) x).
 /// viewer/gl/shaders/light.glsl does the same. Precondition: no light is negative.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // All formats are lines of a value and a colour, so one reader takes them; only what follows the colour
-// differs. A label is told from a number too many by its first letter, or by QGIS's header. Whatever would be
-// read as something else by one of these programs is refused: a wrong colour is not seen to be wrong.
+// differs. A label differs from a number too many in its first letter, or QGIS's header says so. Whatever
+// would be read as something else by one of these programs is refused: a wrong colour is not seen to be
+// wrong.
 #include "viewer/color/ramp_file.h"
 
 #include <fmt/format.h>
@@ -229,7 +230,7 @@ class RampParser {
 /// Adjacent colours that a person can hardly tell apart: all of them where values have classes; in a linear
 /// map only across a twentieth of its extent, since a ramp of many colours has neighbours alike, and not
 /// where a step begins or ends, which classes in a linear map have ("10 red", "10.001 green").
-void warnOfLikeNeighbours(const RampFile& file, const ColorMap& map, Warnings& warnings) {
+void warnOfLikeNeighbours(const ColorMap& map, Warnings& warnings) {
   const bool isLinear = map.between() == ColorsBetween::linear;
   const double leastDifference = isLinear ? 1 : 5, extent = map.high() - map.low();
   const auto& stops = map.stops();
@@ -249,8 +250,8 @@ void warnOfLikeNeighbours(const RampFile& file, const ColorMap& map, Warnings& w
   if (alike == 0) return;
   warnings.push_back(
       {WarningCode::display,
-       fmt::format("{}: the colours of {:g} and {:g} can hardly be told apart{}", file.source,
-                   stops[first].value, stops[first + 1].value,
+       fmt::format("the colours of {:g} and {:g} can hardly be told apart{}", stops[first].value,
+                   stops[first + 1].value,
                    alike == 1 ? "" : fmt::format(", and {} more pairs of neighbours", alike - 1))});
 }
 
@@ -280,9 +281,8 @@ Result<ColorMap> RampFile::map(double low, double high, std::optional<ColorsBetw
       const auto named =
           fmt::format("lines {} and {} state different colours for {:g}", before.line, line->line, value);
       if (between != ColorsBetween::linear) return failure(ErrorCode::invalidData, named, source);
-      warnings.push_back(
-          {WarningCode::display,
-           fmt::format("{}: {}: the first one holds below it, the second one from it on", source, named)});
+      warnings.push_back({WarningCode::display,
+                          fmt::format("{}: the first one holds below it, the second one from it on", named)});
     }
     stops.push_back({double(value), line->color, line->label});
   }
@@ -291,7 +291,7 @@ Result<ColorMap> RampFile::map(double low, double high, std::optional<ColorsBetw
   options.outside = outside;
   if (nodata) options.nodata = *nodata;
   ARETE_TRY(ColorMap map, ColorMap::make(std::move(stops), options));
-  warnOfLikeNeighbours(*this, map, warnings);
+  warnOfLikeNeighbours(map, warnings);
   return map;
 }
 

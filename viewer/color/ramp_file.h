@@ -33,6 +33,7 @@ struct RampFile {
   /// word is said where neighbours are hardly distinct, and where two colours of one value make a step.
   ///
   /// @param between Replaces what the file says.
+  /// @param warnings Sentences about the file, which they do not name.
   /// Errors: invalidData: two colours for one value, where colours are not linear. Precondition: low <= high.
   Result<ColorMap> map(double low, double high, std::optional<ColorsBetween> between,
                        Warnings& warnings) const;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "viewer/color/color_tables.h"
 #include "viewer/gl/gl_program.h"
 
 namespace arete {
@@ -20,7 +21,7 @@ struct SurfacePainter::Look {
 
 namespace {
 
-Vec3 towardsSun(const FrameView& frame, const SurfaceLook& look) {
+Vec3 towardsSun(const FrameView& frame, const ViewLook& look) {
   if (look.sun) {
     const double azimuth = look.sun->azimuthDegrees * std::numbers::pi / 180,
                  elevation = look.sun->elevationDegrees * std::numbers::pi / 180;
@@ -31,22 +32,25 @@ Vec3 towardsSun(const FrameView& frame, const SurfaceLook& look) {
   return unit(-0.62 * axes.right + 0.62 * axes.up - 0.48 * axes.forward);
 }
 
-float coloringNumber(SurfaceColoring coloring) {
-  return coloring == SurfaceColoring::materials ? 0.0f : coloring == SurfaceColoring::plain ? 1.0f : 2.0f;
+float coloringNumber(Coloring coloring) {
+  return coloring == Coloring::material ? 0.0f : coloring == Coloring::plain ? 1.0f : 2.0f;
 }
 
 }  // namespace
 
 Result<SurfacePainter> SurfacePainter::create() {
   SurfacePainter p;
-  ARETE_TRY(GlProgram surface, makeProgram({{GL_VERTEX_SHADER, {"frame.glsl", "surface.vert.glsl"}},
-                                            {GL_FRAGMENT_SHADER, {"frame.glsl", "surface.frag.glsl"}}}));
+  ARETE_TRY(GlProgram surface,
+            makeProgram(
+                {{GL_VERTEX_SHADER, {"frame.glsl", "surface.vert.glsl"}},
+                 {GL_FRAGMENT_SHADER, {"frame.glsl", "color_map.glsl", "light.glsl", "surface.frag.glsl"}}}));
   ARETE_TRY(GlProgram background, makeProgram({{GL_VERTEX_SHADER, {"sky.vert.glsl"}},
                                                {GL_FRAGMENT_SHADER, {"surface_background.frag.glsl"}}}));
   p.surface_ = std::move(surface);
   p.background_ = std::move(background);
   p.frame_ = makeBuffer(sizeof(FrameBlock));
   p.look_ = makeBuffer(sizeof(Look));
+  p.errorColors_ = ColorMapsOnGpu({&colorTable("error"), 1});
   p.nothing_ = makeBuffer(16);
   p.surfaceArray_ = makeVertexArray();
   p.emptyArray_ = makeVertexArray();
@@ -61,13 +65,15 @@ void SurfacePainter::drawRange(const DrawnSurface::Range& range, const Look& loo
 }
 
 void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials,
-                          const DrawnSurface& front, const FrameView& frame, const SurfaceLook& look) {
+                          const DrawnSurface& front, const FrameView& frame, const ViewLook& look) {
   const FrameBlock block = frameBlock(frame, MetricFrame{});
   glNamedBufferSubData(frame_, 0, sizeof block, &block);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, look_);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, front.errors != 0 ? front.errors : nothing_);
   glUseProgram(surface_);
+  errorColors_.bind();
+  glProgramUniform1ui(surface_, 0, errorColors_.place(0));
   const GLuint array = surfaceArray_;
   // An attribute that the surface lacks is disabled, and a constant takes its place: no coordinates, white.
   const auto attribute = [&](GLuint index, GLuint buffer, GLint size, GLenum type) {
@@ -92,7 +98,7 @@ void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& mat
   glDepthFunc(GL_GEQUAL);
 
   const Vec3 sun = towardsSun(frame, look);
-  const bool hasMaterials = look.coloring == SurfaceColoring::materials;
+  const bool hasMaterials = look.coloring == Coloring::material;
   // Blended materials are drawn after the others, over them, and do not write depth, so that what lies behind
   // them stays visible. Only the colouring by materials has any.
   for (const bool isBlended : {false, true}) {

@@ -30,7 +30,7 @@ struct DrapeReadOptions {
 /// The image is any raster that GDAL opens: grey or three colours of 8 bits, classes with a colour table (or
 /// the colours of an attribute table), or other numbers, whose range from the 2nd to the 98th percentile is
 /// mapped to 8 bits, band by band. Pixels that are NODATA, masked or outside the image are transparent. If
-/// the rows of the image are parallel to those of the terrain in the same CRS, pixels are copied from the
+/// the rows of the image are parallel to the terrain's in the same CRS, pixels are copied from the
 /// file; otherwise they are interpolated bilinearly. The colours of classes are never mixed: the nearest
 /// pixel is taken, and the class of most pixels where the image is read coarser.
 class DrapeReader {

@@ -33,7 +33,7 @@ GdalDatasetPtr translate(GDALDataset& dataset, std::initializer_list<const char*
   return GdalDatasetPtr(GDALDataset::FromHandle(made));
 }
 
-/// The colours of the classes, with that of NODATA made transparent.
+/// The colours of the classes; the class of NODATA becomes transparent.
 void takeClasses(DrapeSource& source, int band, const GDALColorTable& table) {
   int isDeclared = 0;
   const double nodata = source.opened.first()->GetRasterBand(band)->GetNoDataValue(&isDeclared);

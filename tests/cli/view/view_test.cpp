@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // arete view as a user without a screen meets it.
+#include <array>
+#include <set>
+
 #include "cli/cli_fixture.h"
+#include "io/geo/gdal/support.h"
 
 namespace arete::cli_test {
 namespace {
@@ -45,6 +49,46 @@ TEST_F(ViewCommand, ContoursAndHazeTakeUnits) {
       run({"view", "feet.amt", "--headless", "--screenshot", "x.png", "--contours", "5M"});
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("mm, cm, m, km"), std::string::npos) << refused.err;
+}
+
+TEST_F(ViewCommand, DrawsHeightsInTheColoursOfARampToTheByte) {
+  // Classes a hundred metres wide, seen from above without light: the picture has their colours and the
+  // sky's.
+  write("classes.txt",
+        "INTERPOLATION:DISCRETE\n100,250,10,20,255,low\n200,20,240,30,255,\ninf,30,40,230,255,high\n");
+  const auto shoot = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {"view",     "dem.amt",    "--headless", "--screenshot",
+                                      "ramp.png", "--size",     "120x100",    "--home",
+                                      "above",    "--unshaded", "--samples",  "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  const Outcome shot = shoot({"--ramp", "classes.txt"});
+  if (isWithoutOpenGl(shot)) GTEST_SKIP() << shot.err;
+  ASSERT_EQ(shot.code, 0) << shot.err;
+  const GdalDatasetPtr png = openGdal(path("ramp.png"), GDAL_OF_RASTER);
+  ASSERT_TRUE(png);
+  std::vector<std::uint8_t> rgb(3 * 120 * 100);
+  ASSERT_EQ(
+      png->RasterIO(GF_Read, 0, 0, 120, 100, rgb.data(), 120, 100, GDT_Byte, 3, nullptr, 3, 360, 1, nullptr),
+      CE_None);
+  std::set<std::array<int, 3>> colors;
+  for (int y = 30; y < 70; ++y)
+    for (int x = 45; x < 75; ++x) {
+      const std::uint8_t* p = &rgb[std::size_t(3 * (y * 120 + x))];
+      colors.insert({p[0], p[1], p[2]});
+    }
+  for (const auto& c : colors)
+    EXPECT_TRUE((c == std::array{250, 10, 20}) || (c == std::array{20, 240, 30}) ||
+                (c == std::array{30, 40, 230}))
+        << c[0] << " " << c[1] << " " << c[2];
+  const Outcome refused = shoot({"--ramp", "classes.txt", "--sea-level", "0"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("--sea-level"), std::string::npos) << refused.err;
+  write("bad.txt", "0 red\n100 rot\n");
+  const Outcome bad = shoot({"--ramp", "bad.txt"});
+  EXPECT_EQ(bad.code, 4) << bad.err;
+  EXPECT_NE(bad.err.find("bad.txt: line 2"), std::string::npos) << bad.err;
 }
 
 TEST_F(ViewCommand, APictureOfTheSkyAloneIsWarnedOf) {

@@ -108,7 +108,7 @@ TEST(ColorTables, HaveNoHeightThatLooksLikeForestSnowWaterOrNoData) {
       EXPECT_GT(colorDifference(c, sampled(colorTable("depth"), k)), 10) << "no water at " << i;
   }
   for (int k = 0; k <= kSamples; k += 10)
-    EXPECT_GT(colorDifference(kNodataColor, sampled(colorTable("depth"), k)), 10) << "a void is no lake";
+    EXPECT_GT(colorDifference(kNodataColor, sampled(colorTable("depth"), k)), 10) << "a void is unlike a lake";
 }
 
 TEST(ColorTables, ShowASeaAtItsLevelAsSeaAndTheNextFloatAsLand) {

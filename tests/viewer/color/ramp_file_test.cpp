@@ -171,7 +171,7 @@ TEST(RampFile, OfTwoColoursForOneValueIsAStepOrRefused) {
 TEST(RampFile, WithNeighboursAlikeIsDrawnWithAWord) {
   const auto alike = mapOf("INTERPOLATION:DISCRETE\n1,10,10,10,255,a\n2,12,12,12,255,b\n3,250,0,0,255,c\n");
   ASSERT_EQ(alike.warnings.size(), 1u);
-  EXPECT_EQ(alike.warnings[0].sentence, "ramp.txt: the colours of 1 and 2 can hardly be told apart");
+  EXPECT_EQ(alike.warnings[0].sentence, "the colours of 1 and 2 can hardly be told apart");
   EXPECT_EQ(alike.map.at(2), (Rgba{12, 12, 12})) << "as it is";
   EXPECT_EQ(mapOf("0 100 100 100\n50 100 100 100\n100 0 0 0\n").warnings.size(), 1u);
   std::string many;  // 256 greys: neighbours are alike, and a height is not

@@ -10,11 +10,8 @@ layout(std140, binding = 1) uniform Look {
   vec4 more;       // 1 = both sides alike; 1 = flat colour; first triangle
 };
 layout(binding = 0) uniform sampler2D picture;
+layout(location = 0) uniform uint errorColors;  // color_map.glsl
 layout(std430, binding = 8) readonly buffer Errors { float error[]; };
-
-vec3 linearOf(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045))); }
-vec3 srgbOf(vec3 c) { return mix(c * 12.92, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308))); }
-vec3 ramp3(float t, vec3 a, vec3 b, vec3 c) { return t < 0.5 ? mix(a, b, 2.0 * t) : mix(b, c, 2.0 * t - 1.0); }
 
 void main() {
   if (more.y > 0.0) { color = baseColor; return; }
@@ -39,14 +36,14 @@ void main() {
     // As many pixels as the cut allows are the hottest colour.
     float e = error[int(more.z) + gl_PrimitiveID], depth = dot(fromEye, forward.xyz);
     e = e * morph.z * length(fromEye) / (depth * depth * morph.x);
-    base = vec4(linearOf(ramp3(clamp(e, 0.0, 1.0), vec3(0.13, 0.3, 0.55), vec3(0.95, 0.93, 0.8), vec3(0.75, 0.1, 0.1))), 1.0);
+    base = vec4(linearOf(colorOf(errorColors, e).rgb), 1.0);
   }
   if (modes.z != 2.0) base.a = 1.0;
   // The inside of what has one side only.
   if (!gl_FrontFacing && more.x == 0.0 && mode != 2) base.rgb = mix(base.rgb, vec3(0.10, 0.14, 0.22), 0.7);
   if (sun.w > 0.0) {
     float lit = max(dot(normal, sun.xyz), 0.0), sky = 0.5 + 0.5 * normal.z, ahead = max(dot(normal, toEye), 0.0);
-    base.rgb *= 0.74 * lit + 0.14 * sky * vec3(0.92, 0.97, 1.0) + 0.09 * ahead + 0.03;
+    base.rgb = litLinear(base.rgb, 0.74 * lit + 0.14 * sky * vec3(0.92, 0.97, 1.0) + 0.09 * ahead + 0.03);
   }
   color = vec4(srgbOf(clamp(base.rgb, 0.0, 1.0)), base.a);
 }
