@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How different colours look: CIEDE2000 [Sharma2005], to eyes that lack one kind of cones as well [Machado2009].
+// How different colours look: CIEDE2000 [Sharma2005], to eyes that lack one kind of cones as well
+// [Machado2009].
 #pragma once
 
 #include <array>
@@ -23,10 +24,10 @@ inline Lab labOf(Rgb color, Vision vision = Vision::normal) {
       {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
        {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}},
        {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}},
-       {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}}}};
-  const auto linear = [](double v) {
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-  };
+       {{{1.255528, -0.076749, -0.178779},
+         {-0.078411, 0.930809, 0.147602},
+         {0.004733, 0.691367, 0.303900}}}}};
+  const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
   const Row seen = {linear(color.r / 255.0), linear(color.g / 255.0), linear(color.b / 255.0)};
   const auto times = [](const std::array<Row, 3>& m, const Row& v) {
     Row result{};
@@ -37,16 +38,16 @@ inline Lab labOf(Rgb color, Vision vision = Vision::normal) {
                                                  {0.2126729, 0.7151522, 0.0721750},
                                                  {0.0193339, 0.1191920, 0.9503041}}};
   const Row xyz = times(kToXyz, times(kEyes[std::size_t(vision)], seen));
-  const auto f = [](double t) {
-    return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116;
-  };
+  const auto f = [](double t) { return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116; };
   const double x = f(xyz[0] / 0.95047), y = f(xyz[1]), z = f(xyz[2] / 1.08883);
   return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
 }
 
 inline double ciede2000(const Lab& p, const Lab& q) {
   constexpr double kDegree = std::numbers::pi / 180;
-  const auto seventh = [](double c) { return std::sqrt(std::pow(c, 7) / (std::pow(c, 7) + std::pow(25.0, 7))); };
+  const auto seventh = [](double c) {
+    return std::sqrt(std::pow(c, 7) / (std::pow(c, 7) + std::pow(25.0, 7)));
+  };
   const double g = 0.5 * (1 - seventh((std::hypot(p.a, p.b) + std::hypot(q.a, q.b)) / 2));
   const double a1 = (1 + g) * p.a, a2 = (1 + g) * q.a;
   const double c1 = std::hypot(a1, p.b), c2 = std::hypot(a2, q.b);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kPanelAlpha = 0.82;
 constexpr double kLeastSide = 60;  // of a picture that has room for anything, pixels
-constexpr double kSpacing = 9;  // of the lines of a graticule, in sizes of the text
+constexpr double kSpacing = 9;     // of the lines of a graticule, in sizes of the text
 
 void drawPanel(Canvas& canvas, const Rect& panel) {
   canvas.fill(panel, {255, 255, 255}, kPanelAlpha);

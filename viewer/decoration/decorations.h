@@ -13,6 +13,7 @@ namespace arete {
 struct Decorations {
   bool legend = true, scaleBar = true, north = true, graticule = true;
 
+  static Decorations none() { return {false, false, false, false}; }
   bool any() const { return legend || scaleBar || north || graticule; }
   bool operator==(const Decorations&) const = default;
 };

@@ -137,7 +137,7 @@ class LegendPen {
 }  // namespace
 
 ColorLegend legendOf(const ColorMap& map, std::string title, std::string unit,
-                std::optional<std::pair<double, double>> range) {
+                     std::optional<std::pair<double, double>> range) {
   ColorLegend legend{.title = std::move(title), .unit = std::move(unit)};
   const auto [low, high] = range.value_or(std::pair{map.low(), map.high()});
   if (map.between() == ColorsBetween::linear) {

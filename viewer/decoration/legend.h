@@ -44,7 +44,7 @@ struct ColorLegend {
 /// The legend of a map of colours: a scale of its finite values where they are mixed, a class for each of its
 /// colours where they are not. A range replaces the ends of the scale.
 ColorLegend legendOf(const ColorMap& map, std::string title, std::string unit = {},
-                std::optional<std::pair<double, double>> range = {});
+                     std::optional<std::pair<double, double>> range = {});
 
 struct LegendStyle {
   double textSize = 13;    ///< pixels

@@ -339,13 +339,15 @@ class Demo {
     options.widthPixels = options_.pictureWidth;
     options.heightPixels = options_.pictureWidth * 9 / 16;
     options.settings.look.hazeKilometres = box.diagonal() / 1000;
+    if (options_.isDecorated) options.decorations = Decorations();
     Result<HeadlessView> view = HeadlessView::create(model_, options, quiet());
     if (!view) {
       report_.warnings.push_back({WarningCode::display, "no view.png: " + view.error().describe()});
       return {};
     }
     ARETE_CHECK(view->draw(camera));
-    return savePng(view->image(), written("view.png"));
+    ARETE_TRY(const Image picture, view->picture());
+    return savePng(picture, written("view.png"));
   }
 
   const DemoOptions& options_;

@@ -22,6 +22,7 @@
 #include "viewer/gl/frame_target.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/gl/terrain_drawable.h"
+#include "viewer/overlay/picture_of_scene.h"
 
 extern char** environ;
 
@@ -130,6 +131,14 @@ const Warnings& HeadlessView::warnings() const {
   return state_->warnings;
 }
 
+Result<Image> HeadlessView::picture() {
+  Image image = target_.image();
+  if (!decorations_.any()) return image;
+  ARETE_TRY(const PictureGround ground, groundOfPicture(scene_, target_, camera_, settings_));
+  if (!legends_) legends_.emplace(scene_.subject());
+  return decorated(image, ground, legends_->of(settings_, scene_.layers.list()), decorations_);
+}
+
 /// A flight of too many frames is refused before the first one is drawn.
 Result<std::uint64_t> filmFrames(const Flight& flight, double framesPerSecond) {
   const std::uint64_t count = flight.frameCount(framesPerSecond);
@@ -164,7 +173,8 @@ Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight
       return failure(figures.error().code, figures.error().message,
                      fmt::format("{}, {}", path.string(), figures.error().culprit));
     frame.figures = *figures;
-    ARETE_CHECK(savePng(view.image(), path));
+    ARETE_TRY(const Image image, view.picture());
+    ARETE_CHECK(savePng(image, path));
     frame.file = path.string();
     frames.push_back(std::move(frame));
     context.report("draw frames", double(i + 1) / double(count));

@@ -12,6 +12,8 @@
 #include "engine/parallel/run_context.h"
 #include "terrain/model/camera.h"
 #include "viewer/camera/flight.h"
+#include "viewer/decoration/decorations.h"
+#include "viewer/decoration/scene_legends.h"
 #include "viewer/gl/scene.h"
 #include "viewer/picture/picture.h"
 
@@ -21,6 +23,7 @@ struct HeadlessOptions {
   int widthPixels = 1280, heightPixels = 720;
   int samples = 4;  ///< of each pixel, to smooth edges
   ViewSettings settings;
+  Decorations decorations = Decorations::none();  ///< of picture(), and so of films
 };
 
 /// Draws pictures of a scene without a screen, in an off-screen OpenGL context that is current on the thread

@@ -38,7 +38,7 @@ struct MapPageOptions {
   int sideWidth = 0;  ///< kept free at the right of the map
   std::string title = {};
   std::vector<std::string> caption = {};  ///< lines
-  std::vector<ColorLegend> legends = {};       ///< drawn at the right of the map, in room of their own
+  std::vector<ColorLegend> legends = {};  ///< drawn at the right of the map, in room of their own
   bool isDecorated = true;                ///< false: no legend, scale bar, north arrow or graticule
 };
 

@@ -165,7 +165,8 @@ std::vector<std::string> captionOf(const RasterHeightfield& ground, const Triang
 }
 
 /// The colours of level ground, and the lines.
-ColorLegend legendFor(const RasterHeightfield& ground, const TriangleMesh& tin, const HillshadeOptions& relief) {
+ColorLegend legendFor(const RasterHeightfield& ground, const TriangleMesh& tin,
+                      const HillshadeOptions& relief) {
   ColorLegend legend = legendOf(hillshadeTints(ground), "height", ground.georeference.verticalUnit);
   if (legend.scale) legend.scale->shade = [relief](Rgb tint, double) { return onLevelGround(tint, relief); };
   if (!tin.triangles.empty()) legend.classes.push_back({{kEdgeColor}, "edges of triangles", true});
@@ -185,8 +186,7 @@ Result<Canvas> drawTin(const RasterHeightfield& ground, const TriangleMesh& tin,
                                     .legends = {legendFor(ground, tin, relief)},
                                     .isDecorated = options.isDecorated}));
 
-  page.canvas.image(drawHillshade(ground, page.view, relief), int(page.map.left),
-                    int(page.map.top));
+  page.canvas.image(drawHillshade(ground, page.view, relief), int(page.map.left), int(page.map.top));
   std::vector<Vec2> grid;
   grid.reserve(tin.positions.size());
   for (const Vec3& p : tin.positions) grid.push_back(ground.georeference.toGrid(p.x, p.y));

@@ -40,7 +40,8 @@ TEST_F(ViewshedPng, IsDrawnAloneAndWithTheRaster) {
   EXPECT_EQ(alone.json()["picture"], "seen.png");
   EXPECT_FALSE(alone.json().contains("file"));
   EXPECT_GT(sizeOf("seen.png").first, 600u);
-  const Outcome both = run(with({"--png", "again.png", "-o", "seen.tif", "--polygons", "seen.gpkg", "--json"}));
+  const Outcome both =
+      run(with({"--png", "again.png", "-o", "seen.tif", "--polygons", "seen.gpkg", "--json"}));
   ASSERT_EQ(both.code, 0) << both.err;
   EXPECT_EQ(read("again.png"), read("seen.png"));
   for (const char* key : {"seen", "hidden", "unknown", "outside"})

@@ -37,7 +37,7 @@ TEST(Decorations, AreDrawnOneByOne) {
     decorate(canvas, frameOf(800, 500), std::span(&legend, 1), which);
     return changed(canvas);
   };
-  const Decorations none = {false, false, false, false};
+  const Decorations none = Decorations::none();
   EXPECT_FALSE(none.any());
   EXPECT_EQ(drawn(none), 0);
   for (bool Decorations::*part :

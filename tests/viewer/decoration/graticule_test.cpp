@@ -59,7 +59,8 @@ void check(const PictureGround& ground, const std::string& what) {
         if (p.x < f.left || p.x > f.right() || p.y < f.top || p.y > f.bottom()) continue;
         const auto place = ground.lonLatAt(p);
         ASSERT_TRUE(place) << line.label;
-        const double off = line.isMeridian ? turned(place->x - line.degrees) : std::abs(place->y - line.degrees);
+        const double off =
+            line.isMeridian ? turned(place->x - line.degrees) : std::abs(place->y - line.degrees);
         // Near a pole a hair's breadth is many degrees.
         if (std::abs(place->y) < 89.9) {
           EXPECT_LT(off, 1e-6) << line.label;
@@ -139,7 +140,8 @@ TEST(Graticule, WritesAnglesForPeople) {
   EXPECT_EQ(angleText(0, 10, true), "0\u00b0");
   EXPECT_EQ(angleText(0, 10, false), "0\u00b0");
   EXPECT_EQ(angleText(-34.5, 0.5, false), "34\u00b0 30\u2032 S");
-  EXPECT_EQ(angleText(34 + 59.0 / 60 + 59.99999999 / 3600, 5.0 / 3600, false), "35\u00b0 00\u2032 00\u2033 N");
+  EXPECT_EQ(angleText(34 + 59.0 / 60 + 59.99999999 / 3600, 5.0 / 3600, false),
+            "35\u00b0 00\u2032 00\u2033 N");
   EXPECT_EQ(angleText(1.0 / 3600 * 0.5, 0.5 / 3600, false), "0\u00b0 00\u2032 00.5\u2033 N");
   EXPECT_NEAR(roundAngleDown(0.3), 0.25, 1e-9 + 0.05) << "20 minutes are a third of a degree";
   EXPECT_EQ(roundAngleDown(100), 90);
@@ -148,7 +150,8 @@ TEST(Graticule, WritesAnglesForPeople) {
 
 TEST(Graticule, IsNotDrawnWithoutPlaces) {
   EXPECT_TRUE(graticuleOf(pictureOf(mapAbout("", {0, 0}, 30)), 120).empty());
-  EXPECT_TRUE(graticuleOf(pictureOf(mapAbout("LOCAL_CS[\"site\",UNIT[\"metre\",1]]", {0, 0}, 30)), 120).empty());
+  EXPECT_TRUE(
+      graticuleOf(pictureOf(mapAbout("LOCAL_CS[\"site\",UNIT[\"metre\",1]]", {0, 0}, 30)), 120).empty());
 }
 
 TEST(Graticule, StaysOnTheGroundOfAView) {

@@ -29,8 +29,7 @@ TEST(Legend, HasTheColoursOfItsMap) {
     ASSERT_EQ(scales.size(), 1u);
     const Rect bar = scales[0].bar;
     for (int row = 0; row < int(bar.height); ++row) {
-      const double value =
-          scales[0].high - (scales[0].high - scales[0].low) * row / (bar.height - 1);
+      const double value = scales[0].high - (scales[0].high - scales[0].low) * row / (bar.height - 1);
       for (const int x : {0, int(bar.width) - 1})
         ASSERT_EQ(canvas.pixel(int(bar.left) + x, int(bar.top) + row), table.map.at(value).opaque()) << row;
     }

@@ -26,8 +26,7 @@ TEST(NorthArrow, PointsToTrueNorthAndSaysHowTheGridIsTurned) {
       bool isNorth = true;
       double x = 0, y = 0, gamma = 0, scale = 0;
       GeographicLib::UTMUPS::Forward(latitude, longitude, zone, isNorth, x, y, gamma, scale, 33);
-      const PictureGround ground =
-          pictureOf(mapAbout(isNorth ? "EPSG:32633" : "EPSG:32733", {x, y}, 30));
+      const PictureGround ground = pictureOf(mapAbout(isNorth ? "EPSG:32633" : "EPSG:32733", {x, y}, 30));
       const auto north = ground.northAt(middleOf(ground));
       ASSERT_TRUE(north);
       EXPECT_TRUE(north->isTrue);

@@ -32,7 +32,8 @@ TEST(ScaleBar, IsOfGroundMetresInWebMercator) {
     const double y = kA * std::log(std::tan(std::numbers::pi / 4 + latitude * std::numbers::pi / 360));
     const PictureGround ground = pictureOf(mapAbout("EPSG:3857", {1e6, y}, 30));
     const double mapMetres = 30 * 100 / ground.frame().width;
-    EXPECT_NEAR(metresPerPixel(ground), mapMetres * alongParallel(latitude) / kA, 2e-4 * mapMetres) << latitude;
+    EXPECT_NEAR(metresPerPixel(ground), mapMetres * alongParallel(latitude) / kA, 2e-4 * mapMetres)
+        << latitude;
   }
 }
 
@@ -59,7 +60,8 @@ TEST(ScaleBar, HasARoundLengthThatFits) {
     EXPECT_LE(bar->pixels, 200.001);
     EXPECT_GE(bar->pixels, 79.999);
     const double mantissa = bar->length / std::pow(10, std::floor(std::log10(bar->length) + 1e-9));
-    EXPECT_TRUE(std::abs(mantissa - 1) < 1e-6 || std::abs(mantissa - 2) < 1e-6 || std::abs(mantissa - 5) < 1e-6)
+    EXPECT_TRUE(std::abs(mantissa - 1) < 1e-6 || std::abs(mantissa - 2) < 1e-6 ||
+                std::abs(mantissa - 5) < 1e-6)
         << bar->length;
     EXPECT_NE(bar->label.find("units"), std::string::npos) << "without a CRS no metres are claimed";
     EXPECT_EQ(bar->where, "");

@@ -58,9 +58,12 @@ TEST(ViewshedMap, HasTheColoursOfItsLegendAndNoOther) {
     }
   const Colors map = colorsIn(*canvas, kInsideTheMap);
   EXPECT_GT(map.size(), 20u) << "the relief is seen";
-  for (const auto& color : map) EXPECT_TRUE(shades.contains(color)) << std::get<0>(color) << " " << std::get<1>(color);
+  for (const auto& color : map)
+    EXPECT_TRUE(shades.contains(color)) << std::get<0>(color) << " " << std::get<1>(color);
   const Colors legend = colorsIn(*canvas, {520, 60, canvas->width() - 522.0, 300});
-  for (const auto& color : shades) EXPECT_TRUE(legend.contains(color)) << std::get<0>(color) << " " << std::get<1>(color) << " " << std::get<2>(color);
+  for (const auto& color : shades)
+    EXPECT_TRUE(legend.contains(color))
+        << std::get<0>(color) << " " << std::get<1>(color) << " " << std::get<2>(color);
 }
 
 TEST(ViewshedMap, HasAnswersThatAreUnlikeEachOtherForAllEyes) {
@@ -81,7 +84,8 @@ TEST(ViewshedMap, ColoursNumbersHeightsAndTheHorizon) {
   std::vector<double> values(1600);
   for (std::size_t i = 0; i < 1600; ++i) values[i] = double(i / 400);
   const auto colors = [&](ViewshedMapKind kind) {
-    const auto canvas = drawViewshedMap(slopes(), cells, values, {}, {.width = 900, .title = "T", .kind = kind});
+    const auto canvas =
+        drawViewshedMap(slopes(), cells, values, {}, {.width = 900, .title = "T", .kind = kind});
     EXPECT_TRUE(canvas);
     return colorsIn(*canvas, kInsideTheMap);
   };
@@ -130,7 +134,8 @@ TEST(ViewshedMap, ShowsThePartWithAnswers) {
 TEST(ViewshedMap, SaysOnWhatEarthItWasComputed) {
   EXPECT_EQ(earthWords({}, false, 0), "over a plane Earth, without refraction");
   EXPECT_EQ(earthWords({}, true, 0), "over the ellipsoid of radius 6378 km, without refraction");
-  EXPECT_EQ(earthWords({}, true, 0.25), "over the ellipsoid of radius 6378 km, refraction 0.25: as over 8504 km");
+  EXPECT_EQ(earthWords({}, true, 0.25),
+            "over the ellipsoid of radius 6378 km, refraction 0.25: as over 8504 km");
 }
 
 }  // namespace

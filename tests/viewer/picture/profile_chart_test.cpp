@@ -76,8 +76,8 @@ TEST(ProfileChart, DrawsExtremeShapesWithTheirLegends) {
     return made;
   };
   const std::vector<Profile> shapes = {
-      profile(4000, {at(0, 0, false), at(4000, 0)}),                                        // flat
-      profile(4000, {at(0, 4321.2, false), at(2000, 4321.8), at(4000, 4321.2)}),            // slight, and high
+      profile(4000, {at(0, 0, false), at(4000, 0)}),                              // flat
+      profile(4000, {at(0, 4321.2, false), at(2000, 4321.8), at(4000, 4321.2)}),  // slight, and high
       profile(4000, {at(0, 0, false), at(1999, 0), at(2000, 9000), at(2001, 0), at(4000, 0)}),  // a spike
       profile(1e-3, {at(0, 5, false), at(1e-3, 5.1)}),
       profile(2e7, {at(0, -9000, false), at(2e7, 8000)}),
@@ -87,7 +87,8 @@ TEST(ProfileChart, DrawsExtremeShapesWithTheirLegends) {
   for (std::size_t i = 0; i < shapes.size(); ++i)
     for (const auto& [width, height] : {std::pair{1400, 700}, {640, 400}, {320, 240}}) {
       SCOPED_TRACE(i);
-      const auto plain = drawProfile(shapes[i], std::nullopt, {.width = width, .height = height, .unit = "m"});
+      const auto plain =
+          drawProfile(shapes[i], std::nullopt, {.width = width, .height = height, .unit = "m"});
       ASSERT_TRUE(plain) << plain.error().describe();
       SightTrack track;
       track.points = {{{0, 0}, 0}, {{shapes[i].length, 0}, shapes[i].length}};

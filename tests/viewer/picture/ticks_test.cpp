@@ -85,8 +85,8 @@ double numberOf(std::string text) {
 
 TEST(Ticks, HaveTextsThatTellThemApart) {
   const std::vector<double> relief = linearTicks(4321.2, 4321.8, 6);
-  EXPECT_EQ(tickTexts(relief), (std::vector<std::string>{"4321.2", "4321.3", "4321.4", "4321.5", "4321.6",
-                                                         "4321.7", "4321.8"}));
+  EXPECT_EQ(tickTexts(relief),
+            (std::vector<std::string>{"4321.2", "4321.3", "4321.4", "4321.5", "4321.6", "4321.7", "4321.8"}));
   EXPECT_EQ(tickTexts(std::vector<double>{-20, 0, 20}), (std::vector<std::string>{"\u221220", "0", "20"}));
   EXPECT_EQ(tickTexts(std::vector<double>{7}), std::vector<std::string>{"7"});
   const unsigned seed = 60;
