@@ -3,8 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -14,6 +15,8 @@
 #include "viewer/camera/flight.h"
 #include "viewer/decoration/decorations.h"
 #include "viewer/decoration/scene_legends.h"
+#include "viewer/gl/frame_target.h"
+#include "viewer/gl/offscreen.h"
 #include "viewer/gl/scene.h"
 #include "viewer/picture/picture.h"
 
@@ -37,26 +40,37 @@ class HeadlessView {
   /// the device.
   static Result<HeadlessView> create(const TerrainModel& model, const HeadlessOptions& options,
                                      const RunContext& context = {});
-  HeadlessView(HeadlessView&&) noexcept;
-  HeadlessView& operator=(HeadlessView&&) noexcept;
-  ~HeadlessView();
-
   /// The scene as the camera sees it. The size of the picture is that of the options, not of the camera. With
-  /// a budget, the tolerance grows until the cut fits. Errors: those of Scene.
+  /// a budget, the tolerance grows until the cut fits. Errors: as Scene.
   Result<FrameFigures> draw(const Camera& camera, const RunContext& context = {});
   /// The picture that was drawn last.
-  Image image() const;
+  Image image() const { return target_.image(); }
+  /// The same with legends, scale bar, north arrow and graticule, as the options say. Precondition: draw() for
+  /// the scene as it is. Errors: those of Canvas::create().
+  Result<Image> picture();
 
-  Scene& scene();
+  Scene& scene() { return scene_; }
   /// The renderer's name and the version of OpenGL.
-  const std::string& description() const;
+  const std::string& description() const { return context_.description(); }
   /// What is not shown, and settings that the device does not support, as sentences.
-  const Warnings& warnings() const;
+  const Warnings& warnings() const { return warnings_; }
 
  private:
-  struct State;
-  explicit HeadlessView(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  HeadlessView(OffscreenContext context, FrameTarget target, Scene scene, const HeadlessOptions& options)
+      : context_(std::move(context)),
+        target_(std::move(target)),
+        scene_(std::move(scene)),
+        settings_(options.settings),
+        decorations_(options.decorations) {}
+
+  OffscreenContext context_;  // the last to go
+  FrameTarget target_;
+  Scene scene_;
+  ViewSettings settings_;
+  Decorations decorations_;
+  Camera camera_;  // of the last picture
+  std::optional<SceneLegends> legends_;
+  Warnings warnings_;
 };
 
 struct FilmOptions {
