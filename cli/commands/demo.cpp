@@ -20,6 +20,7 @@ struct DemoArguments {
   DemArguments dem;
   DemoOptions options;
   std::string maxErrors;
+  bool isPlain = false;
 };
 
 // The JSON has the numbers of the table and of the curve, so that both can be drawn again.
@@ -71,6 +72,7 @@ std::string textOf(const DemoReport& report) {
 // shares when it knows the relief.
 Status demonstrate(DemoArguments& arguments, Session& session) {
   arguments.options.reading = arguments.dem.reading;
+  arguments.options.isDecorated = !arguments.isPlain;
   if (!arguments.maxErrors.empty()) {
     ARETE_TRY(const auto errors, parseStatedSizes(arguments.maxErrors, "--max-error"));
     for (const StatedSize& stated : errors)
@@ -109,6 +111,8 @@ void addDemoCommand(CLI::App& app, Session& session) {
       ->transform(
           oneOf<HoleShape>({{"delaunay", HoleShape::delaunay}, {"fidelity", HoleShape::dataDependent}}))
       ->type_name("NAME");
+  command->add_flag("--no-decorations", arguments->isPlain,
+                    "Draw no legend, scale bar, north arrow and graticule on the maps");
   arguments->dem.addTo(*command);
 }
 

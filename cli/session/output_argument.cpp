@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kOutputArgument = "OUTPUT";
 /// Options that write the answer as well, so that a command may do without its output.
-constexpr std::array kOtherOutputs = {"--polygons"};
+constexpr std::array kOtherOutputs = {"--polygons", "--png"};
 
 std::string lowered(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) {
@@ -84,11 +84,17 @@ void requireOneOutput(const CLI::App& command) {
   const CLI::Option& argument = *command.get_option(kOutputArgument);
   const CLI::Option& option = *command.get_option("--output");
   if (argument.count() == 0 && option.count() == 0) {
-    const auto other = std::ranges::find_if(
-        kOtherOutputs, [&](const char* name) { return command.get_option_no_throw(name) != nullptr; });
-    if (other == kOtherOutputs.end()) throw CLI::RequiredError("--output");
-    if (command.get_option(*other)->count() == 0)
-      throw CLI::ValidationError(fmt::format("--output is required, or {}", *other));
+    std::vector<std::string> others;
+    bool hasOther = false;
+    for (const char* name : kOtherOutputs) {
+      const CLI::Option* other = command.get_option_no_throw(name);
+      if (other == nullptr) continue;
+      others.emplace_back(name);
+      hasOther = hasOther || other->count() > 0;
+    }
+    if (others.empty()) throw CLI::RequiredError("--output");
+    if (!hasOther)
+      throw CLI::ValidationError(fmt::format("--output is required, or {}", fmt::join(others, " or ")));
   }
   if (argument.count() > 0 && option.count() > 0)
     throw CLI::ValidationError(fmt::format("there are two outputs, {} and --output {}",

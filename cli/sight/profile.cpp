@@ -298,6 +298,7 @@ Status drawPng(const ProfileArguments& a, const Answer& answer, const TerrainMod
                double wavelength) {
   ProfileChartOptions options;
   options.unit = model.georeference.verticalUnit;
+  if (!model.georeference.crsWkt.empty()) options.unitMetres = model.georeference.verticalUnitMetres;
   std::optional<ProfileSight> sight;
   options.title = fmt::format("{}, {:.6g} km", std::filesystem::path(a.model).filename().string(),
                               answer.profile.length / 1000);

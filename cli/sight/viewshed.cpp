@@ -23,6 +23,7 @@
 #include "cli/sight/arguments.h"
 #include "cli/sight/viewshed_arguments.h"
 #include "cli/sight/viewshed_picture.h"
+#include "cli/sight/viewshed_png.h"
 #include "io/files/output_file.h"
 #include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/longitude_turns.h"
@@ -255,6 +256,7 @@ void reportCounts(const Question& q, const std::vector<ViewshedCell>& cells, con
   if (undecided > 0) text += fmt::format(", {} undecided", grouped(undecided));
   text += q.maxError.shareText(q.model.georeference.verticalUnit);
   text += "\n";
+  if (json.contains("picture")) text += a.png + ": the same as a map\n";
   if (json.contains("polygons"))
     text += fmt::format("{}: {}\n", a.polygons,
                         grouped(json["polygons"]["count"].get<std::uint64_t>(), "polygon", "polygons"));
@@ -262,11 +264,17 @@ void reportCounts(const Question& q, const std::vector<ViewshedCell>& cells, con
   session.answer(json);
 }
 
-/// Writes the raster, the polygons or both: all of them appear or none does.
-Status writeAnswer(const Question& q, ViewshedPicture& picture, const PlacedGrid& grid, Json& json,
-                   Session& session) {
+/// Writes the raster, the picture and the polygons that are asked for: all of them appear or none does.
+Status writeAnswer(const Question& q, const ViewshedMaker& maker, ViewshedAnswer& answer,
+                   const PlacedGrid& grid, Json& json, Session& session) {
   const ViewshedArguments& a = q.arguments;
+  ViewshedPicture& picture = answer.picture;
   OutputGroup group;
+  if (!a.png.empty()) {
+    ARETE_CHECK(writeViewshedPng(
+        {a, q.model, maker, q.options, q.observers, grid, answer.cells, picture.values, q.maxError}));
+    json["picture"] = a.png;
+  }
   if (!a.output.empty())
     ARETE_CHECK(writeGeoTiff(a.output, grid.columns, grid.rows, picture.values, grid.georeference,
                              picture.options, session.context()));
@@ -311,9 +319,8 @@ Status answer(const Question& q, Session& session) {
     session.warn(fmt::format("{} passes a pole or a seam of the CRS, and is no line on the map",
                              grouped(made->withoutLine, "sample is unknown: the shortest way to it",
                                      "samples are unknown: the shortest way to them")));
-  ViewshedPicture& picture = made->picture;
-  grid.georeference.verticalUnit = picture.isHeight ? q.model.georeference.verticalUnit : "";
-  ARETE_CHECK(writeAnswer(q, picture, grid, json, session));
+  grid.georeference.verticalUnit = made->picture.isHeight ? q.model.georeference.verticalUnit : "";
+  ARETE_CHECK(writeAnswer(q, maker, *made, grid, json, session));
   reportCounts(q, made->cells, grid, std::move(json), session);
   return {};
 }
@@ -329,6 +336,7 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
   const std::vector<std::string> inputs = {a.model, a.observers.file, a.like, outline.source};
   if (!a.output.empty()) ARETE_CHECK(checkOutput("--output", a.output, inputs));
   if (!a.polygons.empty()) ARETE_CHECK(checkOutput("--polygons", a.polygons, inputs, {a.output}));
+  if (!a.png.empty()) ARETE_CHECK(checkOutput("--png", a.png, inputs, {a.output, a.polygons}));
   ARETE_TRY(const TerrainError maxError, terrainErrorOf(a.maxError, file, session));
   options.maxError = maxError.value;
   ARETE_TRY(const auto placed, placeObservers(a, options.field, outline, session));
@@ -352,6 +360,7 @@ void addViewshedCommand(CLI::App& app, Session& session) {
       "  arete viewshed dem.amt --observer 409050,3801450,10 --mode height -o least_height.tif\n"
       "  arete viewshed dem.amt --observers masts.gpkg --observer-height 30 --mode count -o count.tif\n"
       "  arete viewshed dem.amt --observer 409050,3801450,10 --polygons seen.gpkg\n"
+      "  arete viewshed dem.amt --observer 409050,3801450,10 --radius 8000 --png seen.png\n"
       "\n"
       "A raster on the grid of the DEM, or of another raster (--like). seen: 255 seen, 0 hidden, 100 "
       "unknown\n"

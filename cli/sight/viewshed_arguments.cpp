@@ -116,6 +116,12 @@ void ViewshedArguments::addTo(CLI::App& command) {
                   "their area in square metres on the ground (seen, count, server)")
       ->type_name("FILE.gpkg");
   addOverwriteTo(command, existing);
+  CLI::Option* picture =
+      command.add_option("--png", png, "Draw the answer as a map over the shaded relief too, or instead")
+          ->type_name("FILE.png");
+  command
+      .add_flag("--no-decorations", isPlainPicture, "Draw no legend, scale bar, north arrow and graticule")
+      ->needs(picture);
   observers.addTo(command);
   command.add_option("--like", like, "Raster whose grid and CRS the answer has, instead of the DEM's")
       ->type_name("RASTER");
@@ -152,17 +158,20 @@ Status ViewshedArguments::check() const {
   // Observers may be typed, come from a file, or both, so neither option is required by itself.
   if (observers.typed.empty() && observers.file.empty())
     return failure(ErrorCode::usage, "--observer or --observers is required");
-  if (output.empty() && polygons.empty())
-    return failure(ErrorCode::usage, "--output is required, or --polygons");
+  if (output.empty() && polygons.empty() && png.empty())
+    return failure(ErrorCode::usage, "--output is required, or --polygons or --png");
+  if (!png.empty() && text::lowerExtension(png) != "png")
+    return failure(ErrorCode::usage, "a picture ends in .png", "--png " + png);
   if (!polygons.empty() && text::lowerExtension(polygons) != "gpkg")
     return failure(ErrorCode::usage, "polygons are a GeoPackage and end in .gpkg", "--polygons " + polygons);
   if (!polygons.empty() && (mode == ViewshedMode::height || mode == ViewshedMode::horizon))
     return failure(ErrorCode::usage, "requires answers or numbers of observers: --mode seen, count or server",
                    "--polygons " + polygons);
   if (!output.empty() && !isGeoTiffName(output))
-    return failure(ErrorCode::usage,
-                   "a viewshed is a GeoTIFF and ends in .tif or .tiff; --polygons writes a GeoPackage",
-                   "--output " + output);
+    return failure(
+        ErrorCode::usage,
+        "a viewshed is a GeoTIFF and ends in .tif or .tiff; --polygons writes a GeoPackage, --png a picture",
+        "--output " + output);
   if (method == ViewshedMethod::sweep && isAboveZero(maxError))
     return failure(ErrorCode::usage, "cannot be combined with --max-error", "--method sweep");
   return {};

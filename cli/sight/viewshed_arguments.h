@@ -46,7 +46,8 @@ struct FieldOfViewArguments {
 };
 
 struct ViewshedArguments {
-  std::string model, output, polygons, like;
+  std::string model, output, polygons, png, like;
+  bool isPlainPicture = false;  ///< without legend, scale bar, north arrow and graticule
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   ObserverArguments observers;
   FieldOfViewArguments fieldOfView;

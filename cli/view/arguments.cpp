@@ -184,6 +184,10 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
           ->group(group));
   command.add_flag("--wireframe", hasWireframe, "Draw the edges of the triangles")->group(group);
   command.add_flag("--unshaded", isUnshaded, "Draw without sunlight")->group(group);
+  command
+      .add_flag("--no-decorations", isPlainPicture,
+                "Draw no legend, scale bar, north arrow and graticule over the picture")
+      ->group(group);
 }
 
 Result<DrapeOptions> AppearanceArguments::drapeOptions() const {

@@ -57,6 +57,7 @@ struct AppearanceArguments {
   double contours = 0, hazeKilometres = 0, exaggeration = 1;
   std::string contoursWithUnit, hazeWithUnit;  // "OPTION TEXT"; then contours are in metres
   bool hasWireframe = false, isUnshaded = false, isCurved = false;
+  bool isPlainPicture = false;  ///< without legend, scale bar, north arrow and graticule
   ColorArguments colors;
 
   void addTo(CLI::App& command, OptionKinds& kinds);

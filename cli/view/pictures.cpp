@@ -119,7 +119,8 @@ Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView
   const Subject& subject = view.scene().subject();
   const Result<FrameFigures> figures = view.draw(camera, session.context());
   if (!figures) return namedByOption(figures.error(), a);
-  ARETE_CHECK(savePng(view.image(), a.pictures.screenshot));
+  ARETE_TRY(const Image picture, view.picture());
+  ARETE_CHECK(savePng(picture, a.pictures.screenshot));
   if (!figures->isShown) session.warn(fmt::format("the picture shows nothing of the {}", subject.kind()));
   if (!figures->isComplete)
     session.warn(fmt::format("the {} ended the cut: the {} is {}", a.detail.whatEndsTheCut(), subject.kind(),

@@ -190,13 +190,16 @@ Status runView(ViewArguments a, Session& session) {
     if (!a.viewpoint.path.empty()) window.start.flightPath = a.viewpoint.path;
     if (!a.pictures.sizeText.empty()) std::tie(window.width, window.height) = size;
     window.samples = a.pictures.samples;
+    window.start.showsDecorations = !a.appearance.isPlainPicture;
     window.lastPicture = a.pictures.windowScreenshot;
     window.frames = a.pictures.windowFrames;
     return runWindow(viewed.addModel, window, session.context());
   }
 
   ARETE_TRY(HeadlessView view,
-            HeadlessView::create({size.first, size.second, a.pictures.samples, settings}, viewed.addModel));
+            HeadlessView::create({size.first, size.second, a.pictures.samples, settings,
+                                  a.appearance.isPlainPicture ? Decorations::none() : Decorations()},
+                                 viewed.addModel));
   session.warn(view.warnings(), a.model);
   Json json = {{"model", a.model}, {"kind", subject.kind()}, {"renderer", view.description()}};
   a.detail.addBudgetTo(json, viewed.finestTriangles);

@@ -48,8 +48,10 @@ Result<FrameTarget> FrameTarget::create(int width, int height, int samples) {
   glNamedFramebufferTexture(t.framebuffer_, GL_DEPTH_ATTACHMENT, t.depth_, 0);
   if (t.samples_ > 1) {
     t.resolved_ = storage(GL_RGBA8, width, height, 1);
+    t.resolvedDepth_ = storage(GL_DEPTH_COMPONENT32F, width, height, 1);
     t.resolvedFramebuffer_ = makeFramebuffer();
     glNamedFramebufferTexture(t.resolvedFramebuffer_, GL_COLOR_ATTACHMENT0, t.resolved_, 0);
+    glNamedFramebufferTexture(t.resolvedFramebuffer_, GL_DEPTH_ATTACHMENT, t.resolvedDepth_, 0);
   }
   if (glCheckNamedFramebufferStatus(t.framebuffer_, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
     return failure(ErrorCode::unsupported, "the device has no framebuffer of 8-bit colours and float depths",
@@ -97,7 +99,11 @@ Image imageFromBottomUp(int width, int height, std::span<const std::uint8_t> rgb
 std::vector<float> FrameTarget::depths(double drawnNear) const {
   const auto w = std::size_t(width_), h = std::size_t(height_);
   std::vector<float> read(w * h), depths(w * h);
-  glGetTextureImage(depth_, 0, GL_DEPTH_COMPONENT, GL_FLOAT, GLsizei(4 * read.size()), read.data());
+  if (samples_ > 1)
+    glBlitNamedFramebuffer(framebuffer_, resolvedFramebuffer_, 0, 0, width_, height_, 0, 0, width_, height_,
+                           GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  glGetTextureImage(samples_ > 1 ? resolvedDepth_ : depth_, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+                    GLsizei(4 * read.size()), read.data());
   for (std::size_t y = 0; y < h; ++y)
     for (std::size_t x = 0; x < w; ++x) {
       // The far plane is infinitely far: depth is near / distance, and 0 where nothing is drawn.

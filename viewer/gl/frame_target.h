@@ -21,8 +21,8 @@ class FrameTarget {
   void begin() const;
   /// The colours. Waits for the drawing.
   Image image() const;
-  /// Depths along forward in metric units, row by row from the top, infinity where nothing is drawn. With one
-  /// sample only. `drawnNear`: of the frame that was drawn.
+  /// Depths along forward in metric units, row by row from the top, infinity where nothing is drawn; of one
+  /// of the samples of each pixel. `drawnNear`: of the frame that was drawn. Waits for the drawing.
   std::vector<float> depths(double drawnNear) const;
   /// Copies the colours into another framebuffer (0 = the window's), of the same size.
   void copyTo(GLuint framebuffer) const;
@@ -33,7 +33,7 @@ class FrameTarget {
  private:
   FrameTarget() = default;
   int width_ = 0, height_ = 0, samples_ = 1;
-  GlTexture color_, depth_, resolved_;
+  GlTexture color_, depth_, resolved_, resolvedDepth_;
   GlFramebuffer framebuffer_, resolvedFramebuffer_;
 };
 

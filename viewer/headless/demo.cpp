@@ -35,11 +35,11 @@
 #include "viewer/camera/home_view.h"
 #include "viewer/camera/round_flight.h"
 #include "viewer/headless/headless.h"
+#include "viewer/map/error_map.h"
+#include "viewer/map/tin_picture.h"
+#include "viewer/map/viewshed_map.h"
 #include "viewer/picture/chart.h"
-#include "viewer/picture/error_map.h"
 #include "viewer/picture/ticks.h"
-#include "viewer/picture/tin_picture.h"
-#include "viewer/picture/viewshed_map.h"
 
 namespace arete {
 namespace {
@@ -275,7 +275,8 @@ class Demo {
                                                   " triangles   \u00b7   height of the TIN minus height of "
                                                   "the DEM, at every sample"},
                                       .unit = report_.unit,
-                                      .limit = middle.maxError}),
+                                      .limit = middle.maxError,
+                                      .isDecorated = options_.isDecorated}),
                 fmt::format("error-{:g}.png", middle.maxError));
   }
 
@@ -289,7 +290,8 @@ class Demo {
                                     .title = title("TIN within " + withUnit(s.maxError, report_.unit)),
                                     .tolerance = s.maxError,
                                     .measuredError = s.measured.maxAbsError,
-                                    .finestTriangles = report_.finestTriangles}),
+                                    .finestTriangles = report_.finestTriangles,
+                                    .isDecorated = options_.isDecorated}),
                            fmt::format("tin-{:g}.png", s.maxError));
       if (!status) return status;
     }
@@ -314,12 +316,13 @@ class Demo {
     ARETE_TRY(const Viewshed viewshed, maker.from({place, z[highest] + up}, {}, quiet()));
     return save(
         drawViewshedMap(
-            field_, viewshed, place,
+            field_, viewshed.cells, {}, {{place}},
             {.width = options_.pictureWidth,
              .title = title("what is seen from the highest place, " + withUnit(z[highest], report_.unit)),
-             .caption = {fmt::format("2 m above the ground   \u00b7   on {}   \u00b7   every "
-                                     "sample has the answer of full resolution",
-                                     isCurved ? "the ellipsoid, with refraction" : "a plane Earth")}}),
+             .caption = {fmt::format("observer {} above the ground, target on the ground   \u00b7   {}",
+                                     withUnit(up, report_.unit),
+                                     earthWords(field_.georeference, isCurved, kUsualRefraction))},
+             .isDecorated = options_.isDecorated}),
         "viewshed.png");
   }
 
@@ -336,13 +339,15 @@ class Demo {
     options.widthPixels = options_.pictureWidth;
     options.heightPixels = options_.pictureWidth * 9 / 16;
     options.settings.look.hazeKilometres = box.diagonal() / 1000;
+    if (options_.isDecorated) options.decorations = Decorations();
     Result<HeadlessView> view = HeadlessView::create(model_, options, quiet());
     if (!view) {
       report_.warnings.push_back({WarningCode::display, "no view.png: " + view.error().describe()});
       return {};
     }
     ARETE_CHECK(view->draw(camera));
-    return savePng(view->image(), written("view.png"));
+    ARETE_TRY(const Image picture, view->picture());
+    return savePng(picture, written("view.png"));
   }
 
   const DemoOptions& options_;

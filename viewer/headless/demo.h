@@ -23,6 +23,7 @@ struct DemoOptions {
       reliefShares{};  ///< more tolerances, in % of the relief; without both: chosen from the data
   std::size_t mostTolerances = 5;  ///< of those chosen, at least 1
   int pictureWidth = 1600;         ///< pixels
+  bool isDecorated = true;         ///< pictures have legend, scale bar, north arrow and graticule
 };
 
 /// One tolerance, the TIN that keeps it, and what an independent measurement says of it.

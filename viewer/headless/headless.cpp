@@ -20,6 +20,7 @@
 #include "engine/base/stopwatch.h"
 #include "io/files/text_scan.h"
 #include "viewer/gl/terrain_drawable.h"
+#include "viewer/overlay/picture_of_scene.h"
 
 extern char** environ;
 
@@ -37,7 +38,7 @@ Result<HeadlessView> HeadlessView::create(const HeadlessOptions& options, const 
   ARETE_TRY(FrameTarget target,
             FrameTarget::create(options.widthPixels, options.heightPixels, options.samples));
   ARETE_TRY(Scene scene, Scene::create());
-  HeadlessView view(std::move(gl), std::move(target), std::move(scene), options.settings);
+  HeadlessView view(std::move(gl), std::move(target), std::move(scene), options);
   ARETE_CHECK(fill(view.scene_));
   view.warnings_ = view.scene_.warnings();
   const std::string refusal = view.scene_.deviceRefusal();
@@ -95,11 +96,20 @@ Result<FrameFigures> HeadlessView::draw(const Camera& stated, const RunContext& 
   // The time of drawing ends when the device has finished, and not when the last call returns.
   const Stopwatch watch;
   target_.begin();
+  camera_ = camera;
   ARETE_CHECK(scene_.draw(camera, settings));
   glFinish();
   figures->isShown = scene_.isShown();
   figures->drawMilliseconds = watch.milliseconds();
   return figures;
+}
+
+Result<Image> HeadlessView::picture() {
+  Image image = target_.image();
+  if (!decorations_.any()) return image;
+  ARETE_TRY(const PictureGround ground, groundOfPicture(scene_, target_, camera_, settings_));
+  if (!legends_) legends_.emplace(scene_.subject());
+  return decorated(image, ground, legends_->of(settings_, scene_.layers.list()), decorations_);
 }
 
 /// A flight of too many frames is refused before the first one is drawn.
@@ -136,7 +146,8 @@ Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight
       return failure(figures.error().code, figures.error().message,
                      fmt::format("{}, {}", path.string(), figures.error().culprit));
     frame.figures = *figures;
-    ARETE_CHECK(savePng(view.image(), path));
+    ARETE_TRY(const Image image, view.picture());
+    ARETE_CHECK(savePng(image, path));
     frame.file = path.string();
     frames.push_back(std::move(frame));
     context.report("draw frames", double(i + 1) / double(count));

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "engine/parallel/run_context.h"
 #include "terrain/model/camera.h"
 #include "viewer/camera/flight.h"
+#include "viewer/decoration/decorations.h"
+#include "viewer/decoration/scene_legends.h"
 #include "viewer/gl/frame_target.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/gl/scene.h"
@@ -23,6 +26,7 @@ struct HeadlessOptions {
   int widthPixels = 1280, heightPixels = 720;
   int samples = 4;  ///< of each pixel, to smooth edges
   ViewSettings settings;
+  Decorations decorations = Decorations::none();  ///< of picture(), and so of films
 };
 
 /// Draws pictures of a scene without a screen, in an off-screen OpenGL context that is current on the thread
@@ -41,6 +45,9 @@ class HeadlessView {
   Result<FrameFigures> draw(const Camera& camera, const RunContext& context = {});
   /// The picture that was drawn last.
   Image image() const { return target_.image(); }
+  /// The same with legends, scale bar, north arrow and graticule, as the options say. Precondition: draw() for
+  /// the scene as it is. Errors: those of Canvas::create().
+  Result<Image> picture();
 
   Scene& scene() { return scene_; }
   /// The renderer's name and the version of OpenGL.
@@ -49,16 +56,20 @@ class HeadlessView {
   const Warnings& warnings() const { return warnings_; }
 
  private:
-  HeadlessView(OffscreenContext context, FrameTarget target, Scene scene, const ViewSettings& settings)
+  HeadlessView(OffscreenContext context, FrameTarget target, Scene scene, const HeadlessOptions& options)
       : context_(std::move(context)),
         target_(std::move(target)),
         scene_(std::move(scene)),
-        settings_(settings) {}
+        settings_(options.settings),
+        decorations_(options.decorations) {}
 
   OffscreenContext context_;  // the last to go
   FrameTarget target_;
   Scene scene_;
   ViewSettings settings_;
+  Decorations decorations_;
+  Camera camera_;  // of the last picture
+  std::optional<SceneLegends> legends_;
   Warnings warnings_;
 };
 

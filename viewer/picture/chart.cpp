@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-#include "viewer/picture/map_page.h"
+#include "viewer/picture/inks.h"
 #include "viewer/picture/ticks.h"
 
 namespace arete {

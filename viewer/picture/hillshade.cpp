@@ -118,7 +118,18 @@ std::array<double, 3> lightOn(double slopeRight, double slopeUp) {
   return sum;
 }
 
+constexpr Rgb kPaper = {236, 234, 230};
+
 }  // namespace
+
+ColorMap hillshadeTints(const RasterHeightfield& heightfield) {
+  const Relief relief = reliefOf(heightfield, Slopes(heightfield));
+  return heightColors(relief.low, relief.high);
+}
+
+Rgb onLevelGround(Rgb tint, const HillshadeOptions& options) {
+  return mix(mix(kPaper, tint, options.tint), {255, 255, 255}, options.wash);
+}
 
 Image drawHillshade(const RasterHeightfield& heightfield, const MapView& view,
                     const HillshadeOptions& options) {
@@ -142,7 +153,7 @@ Image drawHillshade(const RasterHeightfield& heightfield, const MapView& view,
     // Half covered is where the border of the data runs. Colours of data and NODATA are not mixed there: a
     // mixture would be the colour of another height.
     if (heights.coverage[i] < 0.5f) continue;
-    const Rgb tint = mix({236, 234, 230}, tints.at(heights.values[i]).opaque(), options.tint);
+    const Rgb tint = mix(kPaper, tints.at(heights.values[i]).opaque(), options.tint);
     const Rgb color = lit(tint, lightOn(right.values[i] * exaggeration, down.values[i] * up));
     image.pixels[i] = mix(color, {255, 255, 255}, options.wash);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "terrain/model/heightfield.h"
+#include "viewer/color/color_map.h"
 #include "viewer/picture/map_view.h"
 #include "viewer/picture/picture.h"
 
@@ -22,5 +23,10 @@ struct HillshadeOptions {
 /// Precondition: the heightfield is valid and has at least 2 x 2 samples. O(samples in view + pixels).
 Image drawHillshade(const RasterHeightfield& heightfield, const MapView& view,
                     const HillshadeOptions& options = {});
+
+/// The colours of heights that drawHillshade() shades, for a legend.
+ColorMap hillshadeTints(const RasterHeightfield& heightfield);
+/// What it makes of one of them on level ground.
+Rgb onLevelGround(Rgb tint, const HillshadeOptions& options);
 
 }  // namespace arete

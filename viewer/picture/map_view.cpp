@@ -40,17 +40,4 @@ MapView fitGrid(std::uint32_t columns, std::uint32_t rows, const Georeference& g
   return view;
 }
 
-std::optional<Vec2> northInView(const MapView& view, const Georeference& georeference) {
-  if (georeference.crsWkt.empty() || !georeference.hasGeoTransform || georeference.determinant() == 0)
-    return {};
-  const Vec2 middle = view.toGrid(view.width / 2.0, view.height / 2.0);
-  const Vec2 here = georeference.toSource(middle.x, middle.y);
-  const double step = std::hypot(georeference.geoTransform[2], georeference.geoTransform[5]);
-  const Vec2 north = georeference.toGrid(here.x, here.y + step);
-  const Vec2 pixel = view.toPixel(north.x, north.y);
-  const double dx = pixel.x - view.width / 2.0, dy = pixel.y - view.height / 2.0, length = std::hypot(dx, dy);
-  if (!(length > 0)) return {};
-  return Vec2{dx / length, dy / length};
-}
-
 }  // namespace arete

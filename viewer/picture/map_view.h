@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "engine/base/vec.h"
 #include "terrain/model/georeference.h"
@@ -34,8 +33,5 @@ struct MapView {
 /// The whole grid, as large as fits in `maxWidth` x `maxHeight` pixels. Precondition: 2 x 2 samples or more.
 MapView fitGrid(std::uint32_t columns, std::uint32_t rows, const Georeference& georeference, int maxWidth,
                 int maxHeight);
-
-/// Unit vector to grid north in the picture (y points down); nothing if no CRS says where north is.
-std::optional<Vec2> northInView(const MapView& view, const Georeference& georeference);
 
 }  // namespace arete

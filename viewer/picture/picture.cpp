@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A thin coat over cairo: an RGB24 image surface and its context, both released with the canvas. Text goes
+// A thin coat over cairo: an image surface and its context, both released with the canvas. Text goes
 // through cairo's toy interface, which finds DejaVu Sans by fontconfig; hinting is off, so that metrics scale
 // evenly.
 #include "viewer/picture/picture.h"
@@ -60,8 +60,8 @@ struct Canvas::Drawing {
   cairo_surface_t* surface = nullptr;
   cairo_t* cairo = nullptr;
 
-  Drawing(int width, int height)
-      : surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)), cairo(cairo_create(surface)) {
+  Drawing(int width, int height, cairo_format_t format)
+      : surface(cairo_image_surface_create(format, width, height)), cairo(cairo_create(surface)) {
     // Without hinting, the extents of a text grow in proportion to its size.
     cairo_font_options_t* options = cairo_font_options_create();
     cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
@@ -89,22 +89,31 @@ Canvas::Canvas(Canvas&&) noexcept = default;
 Canvas& Canvas::operator=(Canvas&&) noexcept = default;
 Canvas::~Canvas() = default;
 
-Result<Canvas> Canvas::create(int widthPixels, int heightPixels, Rgb background) {
+Result<Canvas> Canvas::make(int widthPixels, int heightPixels, bool isClear) {
   if (widthPixels < 1 || heightPixels < 1 || widthPixels > kLargestSide || heightPixels > kLargestSide) {
     return failure(ErrorCode::usage,
                    fmt::format("A picture of {} x {} pixels cannot be drawn; a side is 1 to {} pixels.",
                                widthPixels, heightPixels, kLargestSide));
   }
-  auto drawing = std::make_unique<Drawing>(widthPixels, heightPixels);
+  auto drawing = std::make_unique<Drawing>(widthPixels, heightPixels,
+                                           isClear ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24);
   // cairo never returns null: an object that could not be made is in a state of error.
   if (cairo_status(drawing->cairo) != CAIRO_STATUS_SUCCESS) {
     return failure(ErrorCode::unreadable,
                    fmt::format("A picture of {} x {} pixels cannot be made: {}.", widthPixels, heightPixels,
                                cairo_status_to_string(cairo_status(drawing->cairo))));
   }
-  Canvas canvas(std::move(drawing));
+  return Canvas(std::move(drawing));
+}
+
+Result<Canvas> Canvas::create(int widthPixels, int heightPixels, Rgb background) {
+  ARETE_TRY(auto canvas, make(widthPixels, heightPixels, false));
   canvas.fill({0, 0, double(widthPixels), double(heightPixels)}, background);
   return canvas;
+}
+
+Result<Canvas> Canvas::createClear(int widthPixels, int heightPixels) {
+  return make(widthPixels, heightPixels, true);
 }
 
 int Canvas::width() const {
@@ -119,6 +128,29 @@ Rgb Canvas::pixel(int x, int y) const {
   cairo_surface_flush(drawing_->surface);
   const std::uint32_t value = drawing_->row(y)[x];
   return {std::uint8_t(value >> 16), std::uint8_t(value >> 8), std::uint8_t(value)};
+}
+
+Image Canvas::picture() const {
+  cairo_surface_flush(drawing_->surface);
+  Image image(width(), height());
+  for (int y = 0; y < image.height; ++y) {
+    const std::uint32_t* row = drawing_->row(y);
+    for (int x = 0; x < image.width; ++x)
+      image.at(x, y) = {std::uint8_t(row[x] >> 16), std::uint8_t(row[x] >> 8), std::uint8_t(row[x])};
+  }
+  return image;
+}
+
+std::vector<std::uint8_t> Canvas::premultipliedRgba() const {
+  cairo_surface_flush(drawing_->surface);
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(std::size_t(width()) * std::size_t(height()) * 4);
+  for (int y = 0; y < height(); ++y) {
+    const std::uint32_t* row = drawing_->row(y);
+    for (int x = 0; x < width(); ++x)
+      for (const int shift : {16, 8, 0, 24}) bytes.push_back(std::uint8_t(row[x] >> shift));
+  }
+  return bytes;
 }
 
 void Canvas::fill(const Rect& area, Rgb color, double alpha) {
@@ -207,6 +239,12 @@ void Canvas::text(std::string_view utf8, Vec2 anchor, const TextStyle& style) {
   cairo_save(cairo);
   cairo_translate(cairo, anchor.x, anchor.y);
   cairo_rotate(cairo, -style.turnDegrees * std::numbers::pi / 180);
+  if (style.halo > 0) {
+    cairo_move_to(cairo, shiftX, shiftY);
+    cairo_text_path(cairo, terminated.c_str());
+    setStroke(cairo, {.color = {255, 255, 255}, .width = 2 * style.halo, .alpha = 0.85});
+    cairo_stroke(cairo);
+  }
   cairo_move_to(cairo, shiftX, shiftY);
   setColor(cairo, style.color, 1);
   cairo_show_text(cairo, terminated.c_str());

@@ -54,6 +54,7 @@ struct TextStyle {
   Align horizontal = Align::start;  ///< of the text about its anchor
   Align vertical = Align::end;      ///< start = hangs below the anchor, center, end = stands on it (baseline)
   double turnDegrees = 0;           ///< counter-clockwise about the anchor
+  double halo = 0;                  ///< width of a white border, pixels: text on a picture needs one
 };
 
 /// A picture to draw on: antialiased lines, areas, text and images, saved as PNG. Text is UTF-8, in DejaVu
@@ -63,6 +64,8 @@ class Canvas {
   /// Errors: usage, when a side is not 1..32767 pixels (what cairo can draw); unreadable, when there is no
   /// memory.
   static Result<Canvas> create(int widthPixels, int heightPixels, Rgb background = {255, 255, 255});
+  /// Without a background, to be laid over another picture. pixel() shows it over black. Errors: as create().
+  static Result<Canvas> createClear(int widthPixels, int heightPixels);
 
   Canvas(Canvas&&) noexcept;
   Canvas& operator=(Canvas&&) noexcept;
@@ -72,6 +75,11 @@ class Canvas {
   int height() const;
   /// Precondition: 0 <= x < width(), 0 <= y < height().
   Rgb pixel(int x, int y) const;
+  /// All pixels, as they are drawn. O(pixels).
+  Image picture() const;
+  /// Red, green, blue (multiplied by the opacity) and opacity of each pixel, row-major from the top left.
+  /// O(pixels).
+  std::vector<std::uint8_t> premultipliedRgba() const;
 
   void fill(const Rect& area, Rgb color, double alpha = 1);
   void frame(const Rect& area, const Stroke& stroke);
@@ -99,6 +107,7 @@ class Canvas {
  private:
   struct Drawing;
   explicit Canvas(std::unique_ptr<Drawing> drawing);
+  static Result<Canvas> make(int widthPixels, int heightPixels, bool isClear);
   std::unique_ptr<Drawing> drawing_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Distance and height have separate linear scales. The line of sight is drawn as a curve through points of
-// its height above the map.
+// its height above the map. Labels are placed last, where they cover nothing that is drawn.
 #include "viewer/picture/profile_chart.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,8 @@
 #include <limits>
 #include <vector>
 
-#include "viewer/picture/map_page.h"
+#include "viewer/picture/chart_labels.h"
+#include "viewer/picture/inks.h"
 #include "viewer/picture/ticks.h"
 
 namespace arete {
@@ -20,6 +21,7 @@ namespace {
 constexpr Rgb kGridLine = {229, 232, 236}, kGround = {196, 186, 168}, kGroundEdge = {96, 82, 60};
 constexpr Rgb kClear = {0, 140, 90}, kBlocked = {205, 50, 30}, kZone = {60, 130, 210}, kGap = {238, 238, 240};
 constexpr int kLineSteps = 600;
+constexpr double kLeastPlot = 80;  // pixels of height
 
 struct Frame {
   Rect plot;
@@ -30,6 +32,10 @@ struct Frame {
   }
 };
 
+std::string distanceText(double metres) {
+  return metres >= 5000 ? numberText(metres / 1000) + " km" : numberText(metres) + " m";
+}
+
 /// The heights that have to be seen.
 void include(double& low, double& high, double z) {
   if (!std::isfinite(z)) return;
@@ -38,7 +44,7 @@ void include(double& low, double& high, double z) {
 }
 
 /// The terrain between vertices that are joined, as one area per run.
-void drawTerrain(Canvas& canvas, const Frame& frame, const Profile& profile) {
+void drawTerrain(Canvas& canvas, const Frame& frame, const Profile& profile, ChartLabels& labels) {
   const auto& vertices = profile.vertices;
   // Where the terrain is not known, the plot is shaded over its whole height, at both ends as well.
   double end = 0;
@@ -59,6 +65,7 @@ void drawTerrain(Canvas& canvas, const Frame& frame, const Profile& profile) {
     area.push_back({top.front().x, frame.plot.bottom()});
     canvas.fillPolygon(area, kGround);
     canvas.polyline(top, {.color = kGroundEdge, .width = 1.5});
+    labels.avoid(top);
     begin = last;
   }
   drawGap(end, profile.length);
@@ -79,7 +86,8 @@ void drawZone(Canvas& canvas, const Frame& frame, const ProfileSight& sight) {
   }
 }
 
-void drawLine(Canvas& canvas, const Frame& frame, const ProfileSight& sight) {
+void drawLine(Canvas& canvas, const Frame& frame, const ProfileSight& sight, ChartLabels& labels,
+              const std::string& unit) {
   const double length = sight.line.length();
   const bool isBlocked = sight.answer.obstruction.has_value();
   const double seen = isBlocked ? sight.answer.obstruction->distance : length;
@@ -94,41 +102,69 @@ void drawLine(Canvas& canvas, const Frame& frame, const ProfileSight& sight) {
     clear.push_back(p);
     hidden.insert(hidden.begin(), p);
     canvas.polyline(hidden, {.color = kBlocked, .width = 2.25, .dash = 7});
+    labels.avoid(hidden);
   }
   if (sight.fresnel) {
     const SightPlace& place = sight.fresnel->place;
     const Vec2 foot = frame.at(place.distance, place.terrainHeight);
     canvas.line(foot, frame.at(place.distance, place.sightHeight), {.color = kZone, .width = 1.5, .dash = 3});
     canvas.fillCircle(foot, 4, kZone);
+    labels.avoid(std::vector{foot, frame.at(place.distance, place.sightHeight)});
   }
   canvas.polyline(clear, {.color = kClear, .width = 2.25});
+  labels.avoid(clear);
   for (const double s : {0.0, length}) canvas.fillCircle(frame.at(s, sight.line.height(s)), 4.5, kInk);
   if (isBlocked) {
     const Vec2 p = frame.at(seen, sight.line.height(seen));
     canvas.fillCircle(p, 7, {255, 255, 255});
     canvas.fillCircle(p, 5.5, kBlocked);
-    // The text goes to the side of the place that has more room.
-    const bool isLeft = p.x < frame.plot.left + frame.plot.width / 2;
-    canvas.text(fmt::format("obstruction at {} m", numberText(seen)), {p.x + (isLeft ? 12 : -12), p.y - 10},
-                {.size = 14, .color = kBlocked, .horizontal = isLeft ? Align::start : Align::end});
+    labels.add(p, fmt::format("obstruction at {}", distanceText(seen)), kBlocked);
   }
+  const auto heightText = [&](double s) {
+    return numberText(sight.line.height(s)) + (unit.empty() ? "" : " " + unit);
+  };
+  labels.add(frame.at(0, sight.line.height(0)), "from, at " + heightText(0), kInk);
+  labels.add(frame.at(length, sight.line.height(length)), "to, at " + heightText(length), kInk);
+}
+
+/// What is in the chart, by name.
+std::vector<ChartKey> keysOf(const Profile& profile, const std::optional<ProfileSight>& sight) {
+  std::vector<ChartKey> keys = {{"terrain", kGround, ChartKey::Shape::area}};
+  if (profile.gapMetres > 1e-3) keys.push_back({"no data", kGap, ChartKey::Shape::area});
+  if (!sight) return keys;
+  const bool isBlocked = sight->answer.obstruction.has_value();
+  keys.push_back({isBlocked ? "line of sight, free" : "line of sight", kClear, ChartKey::Shape::line});
+  if (isBlocked) keys.push_back({"line of sight, behind the obstruction", kBlocked, ChartKey::Shape::dashes});
+  if (sight->wavelength > 0)
+    keys.push_back({fmt::format("first Fresnel zone, and {:g} of it", sight->part),
+                    mix({255, 255, 255}, kZone, 0.33), ChartKey::Shape::area});
+  if (sight->fresnel) keys.push_back({"where the terrain comes furthest in", kZone, ChartKey::Shape::dashes});
+  return keys;
 }
 
 void drawAxes(Canvas& canvas, const Frame& frame, const ProfileChartOptions& options) {
   const bool isFar = frame.length >= 5000;
   const double perMetre = isFar ? 1e-3 : 1;
   const Rect& plot = frame.plot;
-  for (const double z : linearTicks(frame.low, frame.high, 6)) {
+  const std::vector<double> heights = linearTicks(frame.low, frame.high, 6);
+  const std::vector<std::string> heightTexts = tickTexts(heights);
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const double z = heights[i];
     // A line of one pixel is sharp where its middle is half a pixel from the grid.
     const double y = std::round(frame.at(0, z).y) + 0.5;
     canvas.line({plot.left, y}, {plot.right(), y}, {.color = kGridLine, .width = 1});
-    canvas.text(numberText(z), {plot.left - 10, y},
+    canvas.text(heightTexts[i], {plot.left - 10, y},
                 {.size = 14, .color = kInk, .horizontal = Align::end, .vertical = Align::center});
   }
-  for (const double x : linearTicks(0, frame.length * perMetre, 9)) {
+  // Long numbers stand farther apart.
+  const int most = std::clamp(int(plot.width / 110), 2, 9);
+  const std::vector<double> distances = linearTicks(0, frame.length * perMetre, most);
+  const std::vector<std::string> distanceTexts = tickTexts(distances);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const double x = distances[i];
     const double at = std::round(frame.at(x / perMetre, frame.low).x) + 0.5;
     canvas.line({at, plot.bottom()}, {at, plot.bottom() + 6}, {.color = kInk, .width = 1});
-    canvas.text(numberText(x), {at, plot.bottom() + 12},
+    canvas.text(distanceTexts[i], {at, plot.bottom() + 12},
                 {.size = 14, .color = kInk, .horizontal = Align::center, .vertical = Align::start});
   }
   canvas.text(isFar ? "distance along the ground, km" : "distance along the ground, m",
@@ -151,8 +187,6 @@ Result<Canvas> drawProfile(const Profile& profile, const std::optional<ProfileSi
   auto made = Canvas::create(options.width, options.height);
   if (!made) return made;
   Canvas& canvas = *made;
-  const double above = 26 + (options.title.empty() ? 0 : 36) + (options.subtitle.empty() ? 0 : 26);
-  Frame frame{{104, above, options.width - 104.0 - 36, options.height - above - 74}, profile.length};
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const ProfileVertex& v : profile.vertices) include(low, high, v.height);
   if (sight) {
@@ -164,9 +198,28 @@ Result<Canvas> drawProfile(const Profile& profile, const std::optional<ProfileSi
       include(low, high, z + radius);
     }
   }
-  const double margin = high > low ? (high - low) * 0.06 : 1;
-  frame.low = low - 2 * margin;
-  frame.high = high + margin;
+  // Doubles next to each other have no heights in between to draw.
+  const double least = std::max(std::abs(low), std::abs(high)) * 1e-12;
+  const double margin = high - low > least ? (high - low) * 0.06 : std::max(1.0, least);
+  Frame frame{{}, profile.length, low - 2 * margin, high + 2.5 * margin};
+  double widest = 0;
+  for (const std::string& text : tickTexts(linearTicks(frame.low, frame.high, 6)))
+    widest = std::max(widest, canvas.textWidth(text, {.size = 14}));
+  const double left = std::max(104.0, widest + 56);
+  std::vector<ChartKey> keys = keysOf(profile, sight);
+  double above = 26 + (options.title.empty() ? 0 : 36) + (options.subtitle.empty() ? 0 : 26);
+  const double keyTop = above - 6, keyWidth = options.width - left - 36;
+  const double keyHeight = chartKeysHeight(canvas, keys, keyWidth) + 6;
+  // A tiny chart has room for the chart alone.
+  if (options.height - above - keyHeight - 74 < kLeastPlot)
+    keys.clear();
+  else
+    above += keyHeight;
+  frame.plot = {left, above, options.width - left - 36, options.height - above - 74};
+  ChartLabels labels(frame.plot);
+  // Metres of height and of distance in one pixel.
+  const double tall = (frame.high - frame.low) * options.unitMetres / frame.plot.height,
+               wide = profile.length / frame.plot.width;
 
   if (!options.title.empty()) {
     TextStyle style = {.size = 22, .color = kInk, .bold = true};
@@ -175,17 +228,24 @@ Result<Canvas> drawProfile(const Profile& profile, const std::optional<ProfileSi
   }
   if (!options.subtitle.empty())
     canvas.text(options.subtitle, {40, options.title.empty() ? 36.0 : 74.0},
-                {.size = 15, .color = kQuietInk});
+                {.size = std::min(
+                     15.0, 15.0 * (options.width - 80) / canvas.textWidth(options.subtitle, {.size = 15})),
+                 .color = kQuietInk});
+  drawChartKeys(canvas, keys, {frame.plot.left, keyTop}, keyWidth);
   drawAxes(canvas, frame, options);
+  canvas.text(fmt::format("vertical exaggeration {:.3g} \u00d7", wide / tall),
+              {frame.plot.right(), options.height - 20.0},
+              {.size = 14, .color = kQuietInk, .horizontal = Align::end});
   canvas.clip(frame.plot);
-  drawTerrain(canvas, frame, profile);
+  drawTerrain(canvas, frame, profile, labels);
   if (sight && sight->wavelength > 0) drawZone(canvas, frame, *sight);
   canvas.unclip();
-  if (sight) drawLine(canvas, frame, *sight);
+  if (sight) drawLine(canvas, frame, *sight, labels, options.unit);
   canvas.line({frame.plot.left, frame.plot.bottom() + 0.5}, {frame.plot.right(), frame.plot.bottom() + 0.5},
               {.color = kInk, .width = 1});
   canvas.line({frame.plot.left + 0.5, frame.plot.top}, {frame.plot.left + 0.5, frame.plot.bottom()},
               {.color = kInk, .width = 1});
+  labels.draw(canvas);
   return made;
 }
 

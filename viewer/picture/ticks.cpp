@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 namespace arete {
@@ -16,6 +17,8 @@ namespace {
 constexpr std::string_view kThinSpace = "\u2009";
 constexpr std::string_view kMinus = "\u2212";
 constexpr double kSlack = 1e-9;  // a tick on the end of an axis is on the axis, whatever the rounding
+
+constexpr double kLargestWhole = 1e15;  // of doubles that can still be counted one by one
 
 /// Groups the digits before the decimal point in threes.
 std::string grouped(const std::string& digits) {
@@ -44,9 +47,40 @@ std::vector<double> linearTicks(double low, double high, int count) {
   double step = roundDownNice(wanted);
   if (wanted > step * 1.5) step = roundDownNice(step * 2.5);
   std::vector<double> ticks;
+  if (!(std::max(std::abs(low), std::abs(high)) / step < kLargestWhole)) return {low, high};
   const double last = std::floor(high / step + kSlack);
   for (double i = std::ceil(low / step - kSlack); i <= last; ++i) ticks.push_back(i * step);
   return ticks;
+}
+
+std::vector<std::string> tickTexts(std::span<const double> ticks) {
+  double largest = 0, step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    largest = std::max(largest, std::abs(ticks[i]));
+    for (std::size_t j = 0; j < i; ++j)
+      if (ticks[i] != ticks[j]) step = std::min(step, std::abs(ticks[i] - ticks[j]));
+  }
+  // One number alone has four digits.
+  if (!std::isfinite(step)) step = largest * 1e-3;
+  // The fewest decimals that move no tick by more than a hundredth of their distance.
+  constexpr int kMostDecimals = 12;
+  const auto isExact = [&](int decimals) {
+    const double unit = std::pow(10, -decimals);
+    return std::ranges::all_of(
+        ticks, [&](double v) { return std::abs(std::round(v / unit) * unit - v) <= step / 100; });
+  };
+  int decimals = 0;
+  while (decimals < kMostDecimals && !isExact(decimals)) ++decimals;
+  const bool isPlain = largest < 1e12 && isExact(decimals);
+  const int digits = largest > 0 ? std::clamp(int(std::ceil(std::log10(largest / step))) + 1, 2, 16) : 1;
+  std::vector<std::string> texts;
+  for (const double v : ticks) {
+    std::string text = isPlain ? grouped(fmt::format("{:.{}f}", std::abs(v), decimals))
+                               : fmt::format("{:.{}e}", std::abs(v), digits);
+    const bool isZero = text.find_first_of("123456789") == std::string::npos;
+    texts.push_back(v < 0 && !isZero ? std::string(kMinus) + text : text);
+  }
+  return texts;
 }
 
 std::vector<LogTick> logTicks(double low, double high) {

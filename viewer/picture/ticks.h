@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,13 @@ namespace arete {
 /// The largest of 1, 2, 5 times a power of ten that is <= `value`. Precondition: value > 0, finite.
 double roundDownNice(double value);
 
-/// Multiples of a round step within [low, high], about `count` of them. Precondition: low < high, finite.
+/// Multiples of a round step within [low, high], about `count` of them; the two ends where doubles are too
+/// far apart for any. Precondition: low < high, finite.
 std::vector<double> linearTicks(double low, double high, int count);
+
+/// The numbers of an axis, all with as many decimals as tell them apart: 4321.2, 4321.4 and never 4321 twice.
+/// Grouped, with a true minus sign. The same text means the same number.
+std::vector<std::string> tickTexts(std::span<const double> ticks);
 
 /// A tick of a logarithmic axis; minor ticks have no number.
 struct LogTick {

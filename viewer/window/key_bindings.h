@@ -27,6 +27,7 @@ enum class Action {
   colorError,
   clearPicks,
   screenshot,
+  decorations,
   panel,
   help,
 };

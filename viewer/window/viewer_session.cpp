@@ -30,6 +30,7 @@ ViewerSession::ViewerSession(const Subject& shown, Layers& shownLayers, const St
              .frameMilliseconds = start.frameMilliseconds} {
   if (const auto* terrain = dynamic_cast<const TerrainSubject*>(&shown)) tools.emplace(*terrain, layers);
   files.flight = start.flightPath;
+  shows.decorations = start.showsDecorations;
   rig.setStretch(settings.stretch);
   settings.waits = false;
   if (start.flight) deck.setPlan(*start.flight);
@@ -155,6 +156,9 @@ void ViewerSession::apply(Action action) {
       return tools->clear();
     case Action::screenshot:
       files.wantsScreenshot = true;
+      break;
+    case Action::decorations:
+      shows.decorations = !shows.decorations;
       break;
     case Action::panel:
       shows.panel = !shows.panel;

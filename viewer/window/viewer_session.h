@@ -28,6 +28,7 @@ class ViewerSession {
     Camera picture = {};  ///< size of the window, for the home view
     ViewSettings settings = {};
     double frameMilliseconds = 0;  ///< 0: the tolerance is not adapted to time
+    bool showsDecorations = true;
     std::optional<FlightPlan> flight = {};
     std::filesystem::path flightPath = "flight.json";
   };
@@ -74,6 +75,7 @@ class ViewerSession {
   } device;
   struct Shows {
     bool panel = true, help = false, frustum = true;
+    bool decorations = true;  ///< legend, scale bar, north arrow and graticule
   } shows;
   struct Files {
     std::filesystem::path flight, framesFolder = "frames";

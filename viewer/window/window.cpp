@@ -23,6 +23,7 @@
 
 #include "viewer/gl/frame_target.h"
 #include "viewer/headless/headless.h"
+#include "viewer/overlay/decoration_overlay.h"
 #include "viewer/panel/panel_context.h"
 #include "viewer/picture/picture.h"
 #include "viewer/window/glfw_window.h"
@@ -92,6 +93,8 @@ class WindowLoop {
 
   // A window of no size, as one that is minimized, is not drawn; the loop sleeps instead of spinning.
   Status run(const RunContext& context) {
+    ARETE_TRY(DecorationOverlay overlay, DecorationOverlay::create(scene_));
+    overlay_.emplace(std::move(overlay));
     window_.show();
     for (int frame = 0; !window_.isClosing(); ++frame) {
       if (context.cancelled()) return failure(ErrorCode::interrupted, "interrupted");
@@ -136,6 +139,8 @@ class WindowLoop {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, width, height);
     target_->copyTo(0);
+    if (session_.shows.decorations)
+      ARETE_CHECK(overlay_->draw(*target_, session_.rig.camera(), session_.settings));
     panelContext_.drawFrame();
     if (!options_.lastPicture.empty()) shown_ = windowImage(width, height);
     glFinish();
@@ -215,11 +220,25 @@ class WindowLoop {
     }
   }
 
+  /// As the window shows it, without the panel.
+  Result<Image> picture() const {
+    if (!session_.shows.decorations) return target_->image();
+    return overlay_->picture(*target_, session_.rig.camera(), session_.settings);
+  }
+  Status savePicture(const std::string& name) const {
+    ARETE_TRY(const Image image, picture());
+    return savePng(image, name);
+  }
+  Result<bool> saveFrame() {
+    ARETE_TRY(const Image image, picture());
+    return files_->save(session_, image);
+  }
+
   // The writing of frames ends after the last frame or the first failure; the window says either and goes on.
   void savePictures() {
     ViewerSession& s = session_;
     if (files_) {
-      const Result<bool> isLast = files_->save(s, target_->image());
+      const Result<bool> isLast = saveFrame();
       if (!isLast || *isLast) {
         s.say(isLast ? fmt::format("{} frames in {}", files_->count(), s.files.framesFolder.string())
                      : isLast.error().describe());
@@ -228,7 +247,7 @@ class WindowLoop {
     }
     if (std::exchange(s.files.wantsScreenshot, false)) {
       const std::string name = nameOfNow();
-      const Status saved = savePng(target_->image(), name);
+      const Status saved = savePicture(name);
       s.say(saved ? "saved " + name : saved.error().describe());
     }
   }
@@ -237,6 +256,7 @@ class WindowLoop {
   GlfwWindow window_;
   PanelContext panelContext_;
   Scene scene_;
+  std::optional<DecorationOverlay> overlay_;  // once the loop runs
   ViewerSession session_;
   Panel panel_;
   std::optional<FrameTarget> target_;

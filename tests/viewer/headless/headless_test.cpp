@@ -81,6 +81,29 @@ TEST(Headless, APictureSaysWhetherItShowsTheTerrain) {
   EXPECT_TRUE(view->draw(overview(model))->isShown);
 }
 
+TEST(Headless, APictureHasDecorationsWhereTheyAreWantedAndTheColoursOfItsLegend) {
+  ARETE_NEEDS_OPENGL(probe);
+  const TerrainModel model = mountains();
+  HeadlessOptions options{.widthPixels = 800, .heightPixels = 450, .samples = 4, .settings = {}};
+  options.settings.look.isShaded = false;
+  Result<HeadlessView> plain = HeadlessView::create(model, options);
+  ASSERT_TRUE(plain) << plain.error().describe();
+  ASSERT_TRUE(plain->draw(overview(model)));
+  const Image before = plain->image();
+  EXPECT_EQ(plain->picture()->pixels, before.pixels) << "none is wanted";
+  options.decorations = Decorations();
+  Result<HeadlessView> view = HeadlessView::create(model, options);
+  ASSERT_TRUE(view && view->draw(overview(model)));
+  const Result<Image> picture = view->picture();
+  ASSERT_TRUE(picture) << picture.error().describe();
+  EXPECT_EQ(view->image().pixels, before.pixels);
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < before.pixels.size(); ++i)
+    changed += picture->pixels[i] == before.pixels[i] ? 0 : 1;
+  EXPECT_GT(changed, before.pixels.size() / 50);
+  EXPECT_LT(changed, before.pixels.size() / 3);
+}
+
 TEST(Headless, AFilmHasAFrameForEveryMomentAndItsFigures) {
   ARETE_NEEDS_OPENGL(probe);
   const TerrainModel model = mountains();

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace arete {
 namespace {
@@ -63,6 +65,43 @@ TEST(ProfileChart, ShowsWhereTheLineIsCutOff) {
   const auto zone = drawProfile(wall(), radio, {.title = "T", .subtitle = "S"});
   ASSERT_TRUE(zone);
   EXPECT_LT(pixelsLike(*zone, {255, 255, 255}), pixelsLike(*other, {255, 255, 255}));
+}
+
+TEST(ProfileChart, DrawsExtremeShapesWithTheirLegends) {
+  const auto at = [](double s, double z, bool joined = true) { return ProfileVertex{s, {s, 0}, z, joined}; };
+  const auto profile = [](double length, std::vector<ProfileVertex> vertices) {
+    Profile made;
+    made.length = length;
+    made.vertices = std::move(vertices);
+    return made;
+  };
+  const std::vector<Profile> shapes = {
+      profile(4000, {at(0, 0, false), at(4000, 0)}),                              // flat
+      profile(4000, {at(0, 4321.2, false), at(2000, 4321.8), at(4000, 4321.2)}),  // slight, and high
+      profile(4000, {at(0, 0, false), at(1999, 0), at(2000, 9000), at(2001, 0), at(4000, 0)}),  // a spike
+      profile(1e-3, {at(0, 5, false), at(1e-3, 5.1)}),
+      profile(2e7, {at(0, -9000, false), at(2e7, 8000)}),
+      profile(4000, {at(1990, 7, false), at(2010, 7)}),  // nearly all void
+      profile(4000, {at(2000, 7, false)}),               // one place
+  };
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    for (const auto& [width, height] : {std::pair{1400, 700}, {640, 400}, {320, 240}}) {
+      SCOPED_TRACE(i);
+      const auto plain =
+          drawProfile(shapes[i], std::nullopt, {.width = width, .height = height, .unit = "m"});
+      ASSERT_TRUE(plain) << plain.error().describe();
+      SightTrack track;
+      track.points = {{{0, 0}, 0}, {{shapes[i].length, 0}, shapes[i].length}};
+      const SightLine line{track, shapes[i].vertices[0].height + 2, shapes[i].vertices[0].height + 2};
+      SightAnswer blocked;
+      const double half = shapes[i].length / 2;
+      blocked.obstruction = SightPlace{half, {half, 0}, line.height(half), line.height(half)};
+      const auto sight = drawProfile(shapes[i], ProfileSight{line, blocked},
+                                     {.width = width, .height = height, .title = "T", .subtitle = "S"});
+      ASSERT_TRUE(sight) << sight.error().describe();
+      EXPECT_GT(pixelsLike(*sight, kClear), 50);
+      EXPECT_GT(pixelsLike(*sight, kBlocked), 20);
+    }
 }
 
 TEST(ProfileChart, RefusesWhatCannotBeDrawn) {

@@ -72,6 +72,50 @@ TEST(Ticks, AreEquallyFarApartAndWithinTheRange) {
   }
 }
 
+/// What a person reads.
+double numberOf(std::string text) {
+  const auto replace = [&](const std::string& what, const std::string& by) {
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what))
+      text.replace(at, what.size(), by);
+  };
+  replace("\u2009", "");
+  replace("\u2212", "-");
+  return std::stod(text);
+}
+
+TEST(Ticks, HaveTextsThatTellThemApart) {
+  const std::vector<double> relief = linearTicks(4321.2, 4321.8, 6);
+  EXPECT_EQ(tickTexts(relief),
+            (std::vector<std::string>{"4321.2", "4321.3", "4321.4", "4321.5", "4321.6", "4321.7", "4321.8"}));
+  EXPECT_EQ(tickTexts(std::vector<double>{-20, 0, 20}), (std::vector<std::string>{"\u221220", "0", "20"}));
+  EXPECT_EQ(tickTexts(std::vector<double>{7}), std::vector<std::string>{"7"});
+  const unsigned seed = 60;
+  SCOPED_TRACE(seed);
+  std::mt19937_64 random(seed);
+  for (int i = 0; i < 3000; ++i) {
+    const auto exponent = [&](double low, double high) {
+      return std::pow(10, std::uniform_real_distribution<double>(low, high)(random));
+    };
+    const double middle = exponent(-8, 14) * (i % 2 == 0 ? 1 : -1), range = exponent(-9, 14);
+    if (range < std::abs(middle) * 1e-13) continue;
+    const std::vector<double> ticks = linearTicks(middle, middle + range, 6);
+    const std::vector<std::string> texts = tickTexts(ticks);
+    ASSERT_EQ(texts.size(), ticks.size());
+    SCOPED_TRACE(::testing::Message() << middle << " + " << range);
+    for (std::size_t k = 1; k < ticks.size(); ++k) {
+      const double step = ticks[k] - ticks[k - 1];
+      ASSERT_NE(texts[k], texts[k - 1]);
+      ASSERT_NEAR(numberOf(texts[k]) - numberOf(texts[k - 1]), step, step * 0.05);
+      ASSERT_NEAR(numberOf(texts[k]), ticks[k], step * 0.05);
+    }
+  }
+}
+
+TEST(Ticks, OfNumbersThatDoublesHardlyTellApartAreTheEnds) {
+  const double low = 1e17, high = 1e17 + 64;
+  EXPECT_EQ(linearTicks(low, high, 8), (std::vector<double>{low, high}));
+}
+
 TEST(Ticks, OfALogarithmAreMajorAtPowersOfTen) {
   for (const auto& [low, high] : {std::pair{0.3, 40.0}, {1.0, 1000.0}, {1e-6, 1e7}}) {
     double last = 0;

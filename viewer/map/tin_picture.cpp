@@ -4,7 +4,7 @@
 // typical edge in pixels: from a dozen pixels up the lines stand by themselves; below, they get lighter with
 // their length, so that dense ground turns into a tone instead of a black patch. Then a detail is cut out
 // where the heights vary most within its size, and put into the corner of the map farthest from it.
-#include "viewer/picture/tin_picture.h"
+#include "viewer/map/tin_picture.h"
 
 #include <fmt/core.h>
 
@@ -15,8 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include "viewer/map/map_page.h"
 #include "viewer/picture/hillshade.h"
-#include "viewer/picture/map_page.h"
+#include "viewer/picture/inks.h"
 #include "viewer/picture/ticks.h"
 
 namespace arete {
@@ -163,26 +164,36 @@ std::vector<std::string> captionOf(const RasterHeightfield& ground, const Triang
   return lines;
 }
 
+/// The colours of level ground, and the lines.
+ColorLegend legendFor(const RasterHeightfield& ground, const TriangleMesh& tin,
+                      const HillshadeOptions& relief) {
+  ColorLegend legend = legendOf(hillshadeTints(ground), "height", ground.georeference.verticalUnit);
+  if (legend.scale) legend.scale->shade = [relief](Rgb tint, double) { return onLevelGround(tint, relief); };
+  if (!tin.triangles.empty()) legend.classes.push_back({{kEdgeColor}, "edges of triangles", true});
+  return legend;
+}
+
 }  // namespace
 
 Result<Canvas> drawTin(const RasterHeightfield& ground, const TriangleMesh& tin,
                        const TinPictureOptions& options) {
   ARETE_CHECK(tin.validate());
+  const HillshadeOptions relief = {.tint = 0.85, .wash = tin.triangles.empty() ? 0.0 : 0.15};
   ARETE_TRY(auto page, makeMapPage(ground.columns, ground.rows, ground.georeference,
                                    {.width = options.width,
                                     .title = options.title,
-                                    .caption = captionOf(ground, tin, options)}));
+                                    .caption = captionOf(ground, tin, options),
+                                    .legends = {legendFor(ground, tin, relief)},
+                                    .isDecorated = options.isDecorated}));
 
-  const double wash = tin.triangles.empty() ? 0.0 : 0.15;
-  page.canvas.image(drawHillshade(ground, page.view, {.tint = 0.85, .wash = wash}), int(page.map.left),
-                    int(page.map.top));
+  page.canvas.image(drawHillshade(ground, page.view, relief), int(page.map.left), int(page.map.top));
   std::vector<Vec2> grid;
   grid.reserve(tin.positions.size());
   for (const Vec3& p : tin.positions) grid.push_back(ground.georeference.toGrid(p.x, p.y));
   const auto edges = uniqueEdges(tin);
   const double edgeLength = typicalEdge(page.view, tin.triangles.size());
   drawEdges(page.canvas, grid, edges, page.view, page.map, edgeStroke(edgeLength));
-  page.canvas.frame(page.map, {.color = kInk, .width = 1});
+  page.finish();
   if (options.detail && !tin.triangles.empty() && edgeLength < kDetailBelowEdge)
     drawDetail(page, ground, grid, edges, edgeLength);
   return std::move(page.canvas);

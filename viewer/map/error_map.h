@@ -18,6 +18,7 @@ struct ErrorMapOptions {
   /// The colours run from -limit to +limit; 0 takes a round number at or above the largest error.
   /// Errors beyond take the end's colour, and the bar's end is pointed.
   double limit = 0;
+  bool isDecorated = true;  ///< with colour bar, scale bar, north arrow and graticule
 };
 
 /// Signed errors (TIN minus reference, say) as a map: blue below, brown above, near-white at zero, grey-blue

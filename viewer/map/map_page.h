@@ -6,21 +6,26 @@
 
 #include "engine/base/result.h"
 #include "terrain/model/georeference.h"
+#include "viewer/decoration/legend.h"
+#include "viewer/decoration/picture_ground.h"
 #include "viewer/picture/map_view.h"
 #include "viewer/picture/picture.h"
 
 namespace arete {
 
-inline constexpr Rgb kInk = {34, 38, 46};
-inline constexpr Rgb kQuietInk = {104, 110, 120};
-inline constexpr Rgb kRule = {188, 193, 200};
-
-/// A page with a map: title above, caption below, scale bar and north arrow at the lower right.
+/// A page with a map: title above, caption below, scale bar and north arrow at the lower right, legends
+/// beside.
 struct MapPage {
   Canvas canvas;
   MapView view;  ///< of the whole grid
   Rect map;      ///< of the view on the canvas, whole pixels
   Rect side;     ///< free space beside the map; empty with sideWidth 0
+  PictureGround ground;
+  bool isDecorated = true;
+  std::vector<DrawnScale> scales = {};  ///< of the legends
+
+  /// Draws what lies over the map, once it is drawn: the graticule and the frame.
+  void finish();
 
   Vec2 toPage(double column, double row) const {
     const Vec2 p = view.toPixel(column, row);
@@ -33,15 +38,14 @@ struct MapPageOptions {
   int sideWidth = 0;  ///< kept free at the right of the map
   std::string title = {};
   std::vector<std::string> caption = {};  ///< lines
+  std::vector<ColorLegend> legends = {};  ///< drawn at the right of the map, in room of their own
+  bool isDecorated = true;                ///< false: no legend, scale bar, north arrow or graticule
 };
 
 /// Lays out and draws the page without its map. The map is as wide as the page allows and no taller than wide
-/// is; the page shrinks around a slim map. Errors: usage, when the page is narrower than 640 pixels;
-/// degenerate, when the grid has one row or one column.
+/// is; the page shrinks around a slim map. Legends are drawn too. Errors: usage, when the page is narrower
+/// than 640 pixels; degenerate, when the grid has one row or one column.
 Result<MapPage> makeMapPage(std::uint32_t columns, std::uint32_t rows, const Georeference& georeference,
                             const MapPageOptions& options);
-
-/// A bar of round length with its length, its right end at `right`; at most `maxWidth` pixels long.
-void drawScaleBar(Canvas& canvas, Vec2 right, double maxWidth, double groundPerPixel, bool metres);
 
 }  // namespace arete

@@ -4,7 +4,7 @@
 // own cell centre falls into it, or, where samples are sparser than pixels, the nearest. The colour bar spans
 // -limit..limit and carries the histogram of the same samples, its counts drawn by their square root so that
 // the tails remain visible.
-#include "viewer/picture/error_map.h"
+#include "viewer/map/error_map.h"
 
 #include <fmt/core.h>
 
@@ -15,7 +15,8 @@
 #include <utility>
 
 #include "viewer/color/color_tables.h"
-#include "viewer/picture/map_page.h"
+#include "viewer/map/map_page.h"
+#include "viewer/picture/inks.h"
 #include "viewer/picture/ticks.h"
 
 namespace arete {
@@ -178,11 +179,12 @@ Result<Plan> plan(const RasterHeightfield& errors, const ErrorMapOptions& option
       "errors {} to {}   \u00b7   mean {}   \u00b7   root mean square {} {}   \u00b7   {} samples",
       valueText(s.low), valueText(s.high), valueText(s.mean), numberText(s.rms), options.unit,
       countText(s.count)));
-  ARETE_TRY(
-      auto page,
-      makeMapPage(
-          errors.columns, errors.rows, errors.georeference,
-          {.width = options.width, .sideWidth = kSideWidth, .title = options.title, .caption = caption}));
+  ARETE_TRY(auto page, makeMapPage(errors.columns, errors.rows, errors.georeference,
+                                   {.width = options.width,
+                                    .sideWidth = options.isDecorated ? kSideWidth : 0,
+                                    .title = options.title,
+                                    .caption = caption,
+                                    .isDecorated = options.isDecorated}));
   const double height = std::floor(std::min(page.map.height - 84, 620.0));
   const Rect bar = {page.side.left + kBarLeft, std::floor(page.map.top + (page.map.height - height) / 2),
                     kBarWidth, height};
@@ -201,9 +203,10 @@ Result<Canvas> drawErrorMap(const RasterHeightfield& errors, const ErrorMapOptio
   MapPage& page = planned.page;
   page.canvas.image(errorImage(errors, page.view, planned.layout.limit), int(page.map.left),
                     int(page.map.top));
-  page.canvas.frame(page.map, {.color = kInk, .width = 1});
-  drawColorBar(page.canvas, planned.layout.colorBar, errors, planned.statistics, planned.layout.limit,
-               options.unit);
+  page.finish();
+  if (options.isDecorated)
+    drawColorBar(page.canvas, planned.layout.colorBar, errors, planned.statistics, planned.layout.limit,
+                 options.unit);
   return std::move(page.canvas);
 }
 

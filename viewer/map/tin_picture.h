@@ -21,6 +21,7 @@ struct TinPictureOptions {
   std::optional<std::size_t> finestTriangles = {};
   /// A detail four times as large, where the triangles are too small to be seen.
   bool detail = true;
+  bool isDecorated = true;  ///< with scale bar, north arrow and graticule
 };
 
 /// Draws a TIN's edges over the shaded relief of its DEM. Where edges are denser than pixels they fade to a

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where a page puts its map, caption and scale bar.
-#include "viewer/picture/map_page.h"
+#include "viewer/map/map_page.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

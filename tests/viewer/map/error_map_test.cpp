@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Maps of signed errors: colours, extremes, refusals.
-#include "viewer/picture/error_map.h"
+#include "viewer/map/error_map.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The edges of a TIN over shaded relief.
-#include "viewer/picture/tin_picture.h"
+#include "viewer/map/tin_picture.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "viewer/picture/map_page.h"
+#include "viewer/map/map_page.h"
+#include "viewer/picture/hillshade.h"
 #include "viewer/picture_fixture.h"
 
 namespace arete {
@@ -41,8 +42,9 @@ TEST(TinPicture, DrawsTheEdges) {
     mesh.positions.push_back({p.x, p.y, 100});
   }
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  const auto canvas = drawTin(h, mesh, {.width = 700});
-  const auto page = makeMapPage(11, 11, h.georeference, {.width = 700, .caption = {"", ""}});
+  const auto canvas = drawTin(h, mesh, {.width = 700, .isDecorated = false});
+  const auto page =
+      makeMapPage(11, 11, h.georeference, {.width = 700, .caption = {"", ""}, .isDecorated = false});
   ASSERT_TRUE(canvas && page);
   const Vec2 middle = page->toPage(5, 5), beside = page->toPage(2, 8);
   EXPECT_LT(canvas->pixel(int(middle.x), int(middle.y)).g + 40,
@@ -69,6 +71,26 @@ TEST(TinPicture, RefusesABrokenMesh) {
   TriangleMesh mesh;
   mesh.triangles = {{0, 1, 2}};
   EXPECT_FALSE(drawTin(hills(), mesh));
+}
+
+TEST(TinPicture, HasALegendWithTheColoursOfLevelGround) {
+  // Wide terraces: in their middles the ground is level.
+  const RasterHeightfield terraces =
+      located(field(120, 120, [](double c, double) { return 4321 + 0.2 * std::floor(c / 30); }), 30);
+  const auto canvas = drawTin(terraces, {}, {.width = 900, .title = "T"});
+  ASSERT_TRUE(canvas) << canvas.error().describe();
+  const ColorMap tints = hillshadeTints(terraces);
+  for (int terrace = 0; terrace < 4; ++terrace) {
+    const Rgb expected = onLevelGround(tints.at(4321 + 0.2 * terrace).opaque(), {.tint = 0.85});
+    int inMap = 0, inLegend = 0;
+    for (int y = 90; y < 400; ++y)
+      for (int x = 0; x < canvas->width(); ++x) {
+        const bool isRight = canvas->pixel(x, y) == expected;
+        (x < 560 ? inMap : inLegend) += isRight ? 1 : 0;
+      }
+    EXPECT_GT(inMap, 5000) << terrace;
+    EXPECT_GT(inLegend, 20) << "terrace " << terrace << " is not in the legend";
+  }
 }
 
 }  // namespace
