@@ -6,11 +6,16 @@
 #include "viewer/layers/feature_painter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/criteria/view.h"
+#include "viewer/gl/gl_objects.h"
 #include "viewer/gl/gl_program.h"
+#include "viewer/layers/label_atlas.h"
 
 namespace arete {
 namespace {
@@ -53,69 +58,91 @@ class Blending {
 
 }  // namespace
 
+struct FeaturePainter::State {
+  FrameView frame = {};
+  std::array<int, 4> viewport = {};
+  GlProgram lines, anchors, labels;
+  GlBuffer block;
+  GlVertexArray linesArray, anchorsArray, labelsArray;
+  std::optional<LabelAtlas> atlas;
+
+  void use(const GlProgram& program);
+  void drawLines(const FeatureBuffers& features, const FeatureStyle& style);
+  void findSeen(FeatureBuffers& features);
+  /// Where a place in the space that is drawn is in the picture, in pixels, y downwards; nothing behind the
+  /// eye.
+  std::optional<Vec2> pixelOf(Vec3 place) const;
+  void drawTexts(std::span<const LabelBox> boxes);
+};
+
 Result<FeaturePainter> FeaturePainter::create() {
-  FeaturePainter p;
-  ARETE_TRY(p.lines_,
-            makeProgram({{GL_VERTEX_SHADER, {"frame.glsl", "lifted.glsl", "ground_lines.vert.glsl"}},
-                         {GL_FRAGMENT_SHADER, {"ground_lines.frag.glsl"}}}));
-  ARETE_TRY(p.anchors_,
+  auto made = std::make_unique<State>();
+  State& p = *made;
+  ARETE_TRY(p.lines, makeProgram({{GL_VERTEX_SHADER, {"frame.glsl", "lifted.glsl", "ground_lines.vert.glsl"}},
+                                  {GL_FRAGMENT_SHADER, {"ground_lines.frag.glsl"}}}));
+  ARETE_TRY(p.anchors,
             makeProgram({{GL_VERTEX_SHADER, {"frame.glsl", "lifted.glsl", "ground_anchors.vert.glsl"}},
                          {GL_FRAGMENT_SHADER, {"ground_anchors.frag.glsl"}}}));
-  ARETE_TRY(p.labels_, makeProgram({{GL_VERTEX_SHADER, {"labels.vert.glsl"}},
-                                    {GL_FRAGMENT_SHADER, {"labels.frag.glsl"}}}));
-  ARETE_TRY(p.atlas_, LabelAtlas::create());
-  p.block_ = makeBuffer(sizeof(FrameBlock));
-  p.linesArray_ = makeVertexArray();
+  ARETE_TRY(p.labels, makeProgram({{GL_VERTEX_SHADER, {"labels.vert.glsl"}},
+                                   {GL_FRAGMENT_SHADER, {"labels.frag.glsl"}}}));
+  ARETE_TRY(p.atlas, LabelAtlas::create());
+  p.block = makeBuffer(sizeof(FrameBlock));
+  p.linesArray = makeVertexArray();
   for (const GLuint i : {0u, 1u, 2u, 3u}) {
-    setAttribute(p.linesArray_, i, 4, 0, i);
-    glVertexArrayBindingDivisor(p.linesArray_, i, 1);
+    setAttribute(p.linesArray, i, 4, 0, i);
+    glVertexArrayBindingDivisor(p.linesArray, i, 1);
   }
-  p.anchorsArray_ = makeVertexArray();
-  setAttribute(p.anchorsArray_, 0, 3, 0);
-  p.labelsArray_ = makeVertexArray();
-  setAttribute(p.labelsArray_, 0, 4, offsetof(LabelBox, left));
-  setAttribute(p.labelsArray_, 1, 2, offsetof(LabelBox, u));
-  setAttribute(p.labelsArray_, 2, 4, offsetof(LabelBox, ink));
-  glVertexArrayBindingDivisor(p.labelsArray_, 0, 1);
-  return p;
+  p.anchorsArray = makeVertexArray();
+  setAttribute(p.anchorsArray, 0, 3, 0);
+  p.labelsArray = makeVertexArray();
+  setAttribute(p.labelsArray, 0, 4, offsetof(LabelBox, left));
+  setAttribute(p.labelsArray, 1, 2, offsetof(LabelBox, u));
+  setAttribute(p.labelsArray, 2, 4, offsetof(LabelBox, ink));
+  glVertexArrayBindingDivisor(p.labelsArray, 0, 1);
+  return FeaturePainter(std::move(made));
 }
+
+FeaturePainter::FeaturePainter(std::unique_ptr<State> state) : state_(std::move(state)) {}
+FeaturePainter::FeaturePainter(FeaturePainter&&) noexcept = default;
+FeaturePainter& FeaturePainter::operator=(FeaturePainter&&) noexcept = default;
+FeaturePainter::~FeaturePainter() = default;
 
 void FeaturePainter::setFrame(const FrameView& frame, const MetricFrame& metric) {
-  frame_ = frame;
+  state_->frame = frame;
   const FrameBlock block = frameBlock(frame, metric);
-  glNamedBufferSubData(block_, 0, sizeof block, &block);
-  glGetIntegerv(GL_VIEWPORT, viewport_.data());
+  glNamedBufferSubData(state_->block, 0, sizeof block, &block);
+  glGetIntegerv(GL_VIEWPORT, state_->viewport.data());
 }
 
-void FeaturePainter::use(const GlProgram& program) {
+void FeaturePainter::State::use(const GlProgram& program) {
   glUseProgram(program);
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, block_);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, block);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GEQUAL);
   glDisable(GL_CULL_FACE);
 }
 
-void FeaturePainter::drawLines(const FeatureBuffers& features, const FeatureStyle& style) {
+void FeaturePainter::State::drawLines(const FeatureBuffers& features, const FeatureStyle& style) {
   if (features.lineVertices < 2) return;
-  use(lines_);
+  use(lines);
   const Blending blending;
   constexpr GLsizei kStride = 4 * sizeof(float);
   // The edge from vertex i sees its neighbours: the buffer begins with one vertex more.
   for (const GLuint i : {0u, 1u, 2u, 3u})
-    glVertexArrayVertexBuffer(linesArray_, i, features.lines, GLintptr(i) * kStride, kStride);
-  glBindVertexArray(linesArray_);
-  glProgramUniform2f(lines_, 0, float(viewport_[2]), float(viewport_[3]));
-  glProgramUniform1f(lines_, 1, float(style.width));
-  glProgramUniform4fv(lines_, 2, 1, inkOf(style).data());
+    glVertexArrayVertexBuffer(linesArray, i, features.lines, GLintptr(i) * kStride, kStride);
+  glBindVertexArray(linesArray);
+  glProgramUniform2f(lines, 0, float(viewport[2]), float(viewport[3]));
+  glProgramUniform1f(lines, 1, float(style.width));
+  glProgramUniform4fv(lines, 2, 1, inkOf(style).data());
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(features.lineVertices));
 }
 
-void FeaturePainter::findSeen(FeatureBuffers& features) {
+void FeaturePainter::State::findSeen(FeatureBuffers& features) {
   if (features.anchorCount() == 0) return;
   glClearNamedBufferData(features.seen, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
-  use(anchors_);
-  glVertexArrayVertexBuffer(anchorsArray_, 0, features.anchors, 0, 3 * sizeof(float));
-  glBindVertexArray(anchorsArray_);
+  use(anchors);
+  glVertexArrayVertexBuffer(anchorsArray, 0, features.anchors, 0, 3 * sizeof(float));
+  glBindVertexArray(anchorsArray);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kSeenBinding, features.seen);
   glPointSize(2);
   glDepthMask(GL_FALSE);
@@ -128,53 +155,63 @@ void FeaturePainter::findSeen(FeatureBuffers& features) {
                   GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
+std::optional<Vec2> FeaturePainter::State::pixelOf(Vec3 place) const {
+  const Frustum frustum(frame.view);
+  const Frustum::Planes planes = frustum.planes();
+  if (!(frame.earthRadius > 0)) place.z *= frame.stretch;
+  const Vec3 p = frustum.toView(place);
+  if (!(p.z > 0)) return std::nullopt;
+  const double side = frame.isMirrored ? -1 : 1;
+  return Vec2{viewport[2] * (0.5 + 0.5 * side * p.x / (p.z * planes.slopeX)),
+              viewport[3] * (0.5 - 0.5 * p.y / (p.z * planes.slopeY))};
+}
+
+void FeaturePainter::State::drawTexts(std::span<const LabelBox> boxes) {
+  if (boxes.empty()) return;
+  use(labels);
+  const Blending blending;
+  glDisable(GL_DEPTH_TEST);
+  const GlBuffer buffer = makeBuffer(boxes);
+  glVertexArrayVertexBuffer(labelsArray, 0, buffer, 0, sizeof(LabelBox));
+  glBindVertexArray(labelsArray);
+  glBindTextureUnit(kAtlasUnit, atlas->texture());
+  glProgramUniform2f(labels, 0, float(viewport[2]), float(viewport[3]));
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(boxes.size()));
+  glEnable(GL_DEPTH_TEST);
+}
+
+void FeaturePainter::draw(FeatureBuffers& features, const FeatureStyle& style) {
+  state_->drawLines(features, style);
+  state_->findSeen(features);
+}
+
 Status FeaturePainter::drawLabels(const FeatureBuffers& features, const GroundFeatures& texts,
                                   const FeatureStyle& style, LabelPlacement& placement) {
   if (features.labels == 0) return {};
+  State& s = *state_;
   std::vector<std::uint32_t> seen(features.labels);
   glGetNamedBufferSubData(features.seen, GLintptr(features.points) * GLintptr(sizeof(std::uint32_t)),
                           GLsizeiptr(seen.size() * sizeof(std::uint32_t)), seen.data());
-  const Frustum frustum(frame_.view);
-  const Frustum::Planes planes = frustum.planes();
-  const double stretch = frame_.earthRadius > 0 ? 1 : frame_.stretch, side = frame_.isMirrored ? -1 : 1;
   std::vector<LabelBox> boxes;
-  const auto flush = [&] {
-    if (boxes.empty()) return;
-    use(labels_);
-    const Blending blending;
-    glDisable(GL_DEPTH_TEST);
-    const GlBuffer buffer = makeBuffer(std::span<const LabelBox>(boxes));
-    glVertexArrayVertexBuffer(labelsArray_, 0, buffer, 0, sizeof(LabelBox));
-    glBindVertexArray(labelsArray_);
-    glBindTextureUnit(kAtlasUnit, atlas_->texture());
-    glProgramUniform2f(labels_, 0, float(viewport_[2]), float(viewport_[3]));
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(boxes.size()));
-    glEnable(GL_DEPTH_TEST);
-    boxes.clear();
-  };
   for (std::uint32_t i = 0; i < features.labels; ++i) {
-    if (seen[i] == 0) continue;
-    Vec3 place = features.labelPlaces[i];
-    place.z *= stretch;
-    const Vec3 p = frustum.toView(place);
-    if (!(p.z > 0)) continue;
-    const Vec2 at{viewport_[2] * (0.5 + 0.5 * side * p.x / (p.z * planes.slopeX)),
-                  viewport_[3] * (0.5 - 0.5 * p.y / (p.z * planes.slopeY))};
+    const auto at = seen[i] != 0 ? s.pixelOf(features.labelPlaces[i]) : std::nullopt;
+    if (!at) continue;
     const std::string& text = texts.labels[i].text;
-    const Vec2 size = atlas_->sizeOf(text);
-    const auto area = placement.place(at, size.x, size.y, kLabelAway);
+    const Vec2 size = s.atlas->sizeOf(text);
+    const auto area = placement.place(*at, size.x, size.y, kLabelAway);
     if (!area) continue;
-    ARETE_TRY(auto entry, atlas_->find(text));
+    ARETE_TRY(auto entry, s.atlas->find(text));
     if (!entry) {
-      flush();
-      atlas_->clear();
-      ARETE_TRY(entry, atlas_->find(text));
+      s.drawTexts(boxes);
+      boxes.clear();
+      s.atlas->clear();
+      ARETE_TRY(entry, s.atlas->find(text));
       if (!entry) continue;
     }
     boxes.push_back({float(area->left), float(area->top), float(area->width), float(area->height),
                      float(entry->corner.x), float(entry->corner.y), inkOf(style)});
   }
-  flush();
+  s.drawTexts(boxes);
   return {};
 }
 

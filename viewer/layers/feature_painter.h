@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
+
 #include "engine/base/result.h"
 #include "engine/mt/multitriangulation.h"
 #include "viewer/gl/frame_block.h"
-#include "viewer/gl/gl_objects.h"
 #include "viewer/layers/feature_buffers.h"
-#include "viewer/layers/label_atlas.h"
 #include "viewer/layers/label_placement.h"
 #include "viewer/picture/picture.h"
 
@@ -26,28 +26,25 @@ class FeaturePainter {
  public:
   /// Errors: unsupported, by the driver.
   static Result<FeaturePainter> create();
+  FeaturePainter(FeaturePainter&&) noexcept;
+  FeaturePainter& operator=(FeaturePainter&&) noexcept;
+  ~FeaturePainter();
 
   /// The frame of the next calls: that of the terrain in the framebuffer.
   /// @param metric of the flat space of its model.
   void setFrame(const FrameView& frame, const MetricFrame& metric);
 
-  void drawLines(const FeatureBuffers& features, const FeatureStyle& style);
-  /// Finds out which points and labels are seen, for the two calls below.
-  void findSeen(FeatureBuffers& features);
+  /// Everything but the labels; finds out which of these are seen.
+  void draw(FeatureBuffers& features, const FeatureStyle& style);
   /// As many labels as there is room for, of those whose places are seen; first come, first served.
+  /// Precondition: draw() of the same features in this frame. Waits for the drawing.
   Status drawLabels(const FeatureBuffers& features, const GroundFeatures& texts, const FeatureStyle& style,
                     LabelPlacement& placement);
 
  private:
-  FeaturePainter() = default;
-  void use(const GlProgram& program);
-
-  FrameView frame_;
-  std::array<int, 4> viewport_ = {};
-  GlProgram lines_, anchors_, labels_;
-  GlBuffer block_;
-  GlVertexArray linesArray_, anchorsArray_, labelsArray_;
-  std::optional<LabelAtlas> atlas_;
+  struct State;
+  explicit FeaturePainter(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace arete

@@ -77,8 +77,7 @@ class FeaturePainterTest : public testing::Test {
       return view_->drawnPosition(xy, height, settings).value_or(Vec3{NAN, NAN, NAN});
     });
     painter_->setFrame(*view_->frameOf(camera, settings), hills().mt.metric());
-    painter_->drawLines(buffers, style);
-    painter_->findSeen(buffers);
+    painter_->draw(buffers, style);
     LabelPlacement placement(kWidth, kHeight);
     EXPECT_TRUE(painter_->drawLabels(buffers, features, style, placement));
     return target->image();
@@ -88,7 +87,8 @@ class FeaturePainterTest : public testing::Test {
     const auto frame = view_->frameOf(camera, settings_);
     const Frustum frustum(frame->view);
     const Vec3 p = frustum.toView(metricPosition(xy, height, hills()));
-    return {kWidth * (0.5 + 0.5 * p.x / (p.z * frustum.planes().slopeX)),
+    const double side = frame->isMirrored ? -1 : 1;
+    return {kWidth * (0.5 + 0.5 * side * p.x / (p.z * frustum.planes().slopeX)),
             kHeight * (0.5 - 0.5 * p.y / (p.z * frustum.planes().slopeY))};
   }
 
