@@ -21,7 +21,11 @@ namespace arete {
 namespace {
 
 constexpr double kLabelAway = 6;  // pixels between a label and its place
-constexpr GLuint kSeenBinding = 12, kAtlasUnit = 5;
+constexpr GLuint kSeenBinding = 12, kAtlasUnit = 5, kSeenUnit = 6;
+/// The radius of a marker beside lines of a width.
+float markerRadius(const FeatureStyle& style) {
+  return float(2.5 + style.width);
+}
 
 /// labels.vert.glsl.
 struct LabelBox {
@@ -61,14 +65,16 @@ class Blending {
 struct FeaturePainter::State {
   FrameView frame = {};
   std::array<int, 4> viewport = {};
-  GlProgram lines, anchors, labels;
+  GlProgram lines, anchors, labels, points;
   GlBuffer block;
-  GlVertexArray linesArray, anchorsArray, labelsArray;
+  GlVertexArray linesArray, anchorsArray, labelsArray, pointsArray;
+  GlTexture seen;
   std::optional<LabelAtlas> atlas;
 
   void use(const GlProgram& program);
   void drawLines(const FeatureBuffers& features, const FeatureStyle& style);
   void findSeen(FeatureBuffers& features);
+  void drawPoints(const FeatureBuffers& features, const FeatureStyle& style);
   /// Where a place in the space that is drawn is in the picture, in pixels, y downwards; nothing behind the
   /// eye.
   std::optional<Vec2> pixelOf(Vec3 place) const;
@@ -85,6 +91,8 @@ Result<FeaturePainter> FeaturePainter::create() {
                          {GL_FRAGMENT_SHADER, {"ground_anchors.frag.glsl"}}}));
   ARETE_TRY(p.labels, makeProgram({{GL_VERTEX_SHADER, {"labels.vert.glsl"}},
                                    {GL_FRAGMENT_SHADER, {"labels.frag.glsl"}}}));
+  ARETE_TRY(p.points, makeProgram({{GL_VERTEX_SHADER, {"frame.glsl", "ground_points.vert.glsl"}},
+                                   {GL_FRAGMENT_SHADER, {"ground_points.frag.glsl"}}}));
   ARETE_TRY(p.atlas, LabelAtlas::create());
   p.block = makeBuffer(sizeof(FrameBlock));
   p.linesArray = makeVertexArray();
@@ -94,6 +102,10 @@ Result<FeaturePainter> FeaturePainter::create() {
   }
   p.anchorsArray = makeVertexArray();
   setAttribute(p.anchorsArray, 0, 3, 0);
+  p.seen = makeTexture(GL_TEXTURE_BUFFER);
+  p.pointsArray = makeVertexArray();
+  setAttribute(p.pointsArray, 0, 3, 0);
+  glVertexArrayBindingDivisor(p.pointsArray, 0, 1);
   p.labelsArray = makeVertexArray();
   setAttribute(p.labelsArray, 0, 4, offsetof(LabelBox, left));
   setAttribute(p.labelsArray, 1, 2, offsetof(LabelBox, u));
@@ -155,6 +167,22 @@ void FeaturePainter::State::findSeen(FeatureBuffers& features) {
                   GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
+void FeaturePainter::State::drawPoints(const FeatureBuffers& features, const FeatureStyle& style) {
+  if (features.points == 0) return;
+  use(points);
+  const Blending blending;
+  glDisable(GL_DEPTH_TEST);
+  glVertexArrayVertexBuffer(pointsArray, 0, features.anchors, 0, 3 * sizeof(float));
+  glBindVertexArray(pointsArray);
+  glTextureBuffer(seen, GL_R32UI, features.seen);
+  glBindTextureUnit(kSeenUnit, seen);
+  glProgramUniform2f(points, 0, float(viewport[2]), float(viewport[3]));
+  glProgramUniform1f(points, 1, markerRadius(style));
+  glProgramUniform4fv(points, 2, 1, inkOf(style).data());
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(features.points));
+  glEnable(GL_DEPTH_TEST);
+}
+
 std::optional<Vec2> FeaturePainter::State::pixelOf(Vec3 place) const {
   const Frustum frustum(frame.view);
   const Frustum::Planes planes = frustum.planes();
@@ -183,6 +211,7 @@ void FeaturePainter::State::drawTexts(std::span<const LabelBox> boxes) {
 void FeaturePainter::draw(FeatureBuffers& features, const FeatureStyle& style) {
   state_->drawLines(features, style);
   state_->findSeen(features);
+  state_->drawPoints(features, style);
 }
 
 Status FeaturePainter::drawLabels(const FeatureBuffers& features, const GroundFeatures& texts,

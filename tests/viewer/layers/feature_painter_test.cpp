@@ -212,16 +212,60 @@ TEST_F(FeaturePainterTest, LabelsStandAtTheirPlacesAndGoBehindTheTerrain) {
     for (int x = 0; x < kWidth; ++x)
       if (!(with.at(x, y) == without.at(x, y))) {
         ++changed;
-        outside += std::abs(x - p.x) > 60 || y > p.y || y < p.y - 40 ? 1 : 0;
+        outside += std::abs(x - p.x) > 60 || y > p.y + 6 || y < p.y - 40 ? 1 : 0;
       }
   EXPECT_GT(changed, 200);
   EXPECT_EQ(outside, 0);
 
   // From below the ground nothing of it is seen.
   GroundFeatures buried = peaks;
-  for (auto& label : buried.labels) label.at.height -= 500;
+  buried.points[0].height -= 500;
+  buried.labels[0].at.height -= 500;
   const Image none = picture(buried, above(), settings_);
   EXPECT_EQ(none.pixels, without.pixels);
+}
+
+TEST_F(FeaturePainterTest, PointsAreDiscsAtTheirPlacesOrNotThereAtAll) {
+  // Over the whole terrain, from a low eye: a marker is drawn if its place is seen, and then the whole of it.
+  FeatureLayer layer;
+  layer.name = "points";
+  for (int i = 0; i < 12; ++i)
+    layer.points.push_back({hills().toSource({10.0 * i + 4.3, 10.1 + (i * 37) % 80})});
+  const GroundFeatures points = grounded(layer);
+  ASSERT_EQ(points.points.size(), 12u);
+  settings_.pixels = 1;
+  const Camera low = {.xy = hills().toSource({64, 130}),
+                      .height = 2500,
+                      .azimuthDegrees = 0,
+                      .pitchDegrees = -25,
+                      .verticalFieldOfViewDegrees = 60,
+                      .widthPixels = kWidth,
+                      .heightPixels = kHeight};
+  for (const Camera& camera : {above(), low}) {
+    const Image none = picture(GroundFeatures{}, camera, settings_);
+    int whole = 0;
+    for (const auto& point : points.points) {
+      GroundFeatures one;
+      one.points = {point};
+      const Image image = picture(one, camera, settings_, {.color = kRed, .width = 2});
+      const Vec2 p = pixelOf(point.xy, point.height, camera);
+      int changed = 0, beside = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+          if (!(image.at(x, y) == none.at(x, y))) {
+            ++changed;
+            beside += std::hypot(x + 0.5 - p.x, y + 0.5 - p.y) > 6 ? 1 : 0;
+          }
+      EXPECT_EQ(beside, 0);
+      if (changed == 0) continue;
+      ++whole;
+      if (p.x > 6 && p.y > 6 && p.x < kWidth - 6 && p.y < kHeight - 6) {
+        EXPECT_GT(changed, 55) << "a disc of radius 4.5";
+        EXPECT_TRUE(isRed(image.at(int(p.x), int(p.y))));
+      }
+    }
+    EXPECT_GT(whole, camera.pitchDegrees < -80 ? 10 : 4);
+  }
 }
 
 TEST_F(FeaturePainterTest, OpacityMixesWithTheGround) {
