@@ -19,66 +19,60 @@
 
 #include "engine/base/stopwatch.h"
 #include "io/files/text_scan.h"
-#include "viewer/gl/frame_target.h"
-#include "viewer/gl/offscreen.h"
+#include "viewer/gl/terrain_drawable.h"
 
 extern char** environ;
 
 namespace arete {
 namespace {
 
+using namespace std::string_literals;
+
 constexpr std::uint64_t kMostFrames = 1'000'000;
 
 }  // namespace
 
-struct HeadlessView::State {
-  OffscreenContext context;  // the last to go
-  FrameTarget target;
-  TerrainView view;
-  HeadlessOptions options;
-  Warnings warnings;
-};
-
-Result<HeadlessView> HeadlessView::create(const TerrainModel& model, const HeadlessOptions& options,
-                                          const RunContext& context) {
+Result<HeadlessView> HeadlessView::create(const HeadlessOptions& options, const FillScene& fill) {
   ARETE_TRY(OffscreenContext gl, OffscreenContext::create());
   ARETE_TRY(FrameTarget target,
             FrameTarget::create(options.widthPixels, options.heightPixels, options.samples));
-  TerrainView::Options viewOptions;
-  viewOptions.path = options.settings.path;
-  ARETE_TRY(TerrainView view, TerrainView::create(model, viewOptions, context));
-  auto state = std::make_unique<State>(State{std::move(gl), std::move(target), std::move(view), options, {}});
-  if (options.settings.path == CutPath::device && !state->view.deviceRefusal().empty()) {
-    state->warnings.push_back(
-        {WarningCode::display, "the processor takes the cuts: " + state->view.deviceRefusal()});
-    state->options.settings.path = CutPath::processor;
+  ARETE_TRY(Scene scene, Scene::create());
+  HeadlessView view(std::move(gl), std::move(target), std::move(scene), options.settings);
+  ARETE_CHECK(fill(view.scene_));
+  view.warnings_ = view.scene_.warnings();
+  const std::string refusal = view.scene_.deviceRefusal();
+  if (options.settings.path == CutPath::device && !refusal.empty()) {
+    view.warnings_.push_back({WarningCode::display, "the processor takes the cuts: " + refusal});
+    view.settings_.path = CutPath::processor;
   }
-  return HeadlessView(std::move(state));
+  return view;
 }
 
-HeadlessView::HeadlessView(std::unique_ptr<State> state) : state_(std::move(state)) {}
-HeadlessView::HeadlessView(HeadlessView&&) noexcept = default;
-HeadlessView& HeadlessView::operator=(HeadlessView&&) noexcept = default;
-HeadlessView::~HeadlessView() = default;
+Result<HeadlessView> HeadlessView::create(const TerrainModel& model, const HeadlessOptions& options,
+                                          const RunContext& context) {
+  return create(options, [&](Scene& scene) -> Status {
+    ARETE_TRY(TerrainDrawable made, TerrainDrawable::create(model, {.path = options.settings.path}, context));
+    return scene.add(std::make_unique<TerrainDrawable>(std::move(made)));
+  });
+}
 
-Result<FrameFigures> HeadlessView::draw(const Camera& stated) {
-  State& s = *state_;
+Result<FrameFigures> HeadlessView::draw(const Camera& stated, const RunContext& context) {
   Camera camera = stated;
-  camera.widthPixels = s.options.widthPixels;
-  camera.heightPixels = s.options.heightPixels;
-  ViewSettings settings = s.options.settings;
+  camera.widthPixels = target_.width();
+  camera.heightPixels = target_.height();
+  ViewSettings settings = settings_;
   settings.waits = true;
-  Result<FrameFigures> figures = s.view.cut(camera, settings);
+  Result<FrameFigures> figures = scene_.cut(camera, settings, context);
   if (!figures) return figures;
   // The device's cut knows its number of triangles beforehand, but not which tolerance has fewer: doubled
   // until there are few enough, halved between (on a logarithmic scale) until nearly all of the budget is
   // used.
-  const std::uint32_t most = settings.maxTriangles > 0 ? settings.maxTriangles : s.view.capacity();
+  const std::uint32_t most = settings.maxTriangles > 0 ? settings.maxTriangles : scene_.capacity();
   const auto fits = [&] { return figures->isComplete && figures->asked <= most; };
-  if (settings.path == CutPath::device && !fits()) {
+  if (!scene_.keepsBudget(settings) && !fits()) {
     const auto cutAt = [&](double pixels) -> Status {
       settings.pixels = pixels;
-      figures = s.view.cut(camera, settings);
+      figures = scene_.cut(camera, settings, context);
       return figures ? Status() : tl::unexpected(figures.error());
     };
     constexpr int kDoublings = 60, kHalvings = 12;
@@ -100,25 +94,12 @@ Result<FrameFigures> HeadlessView::draw(const Camera& stated) {
   }
   // The time of drawing ends when the device has finished, and not when the last call returns.
   const Stopwatch watch;
-  s.target.begin();
-  ARETE_CHECK(s.view.draw(camera, settings));
+  target_.begin();
+  ARETE_CHECK(scene_.draw(camera, settings));
   glFinish();
-  figures->showsTerrain = s.view.showsTerrain();
+  figures->isShown = scene_.isShown();
   figures->drawMilliseconds = watch.milliseconds();
   return figures;
-}
-
-Image HeadlessView::image() const {
-  return state_->target.image();
-}
-TerrainView& HeadlessView::view() {
-  return state_->view;
-}
-const std::string& HeadlessView::description() const {
-  return state_->context.description();
-}
-const Warnings& HeadlessView::warnings() const {
-  return state_->warnings;
 }
 
 /// A flight of too many frames is refused before the first one is drawn.
@@ -150,7 +131,7 @@ Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight
     frame.seconds = double(i) / rate;
     frame.camera = flight.at(frame.seconds);
     const auto path = options.folder / fmt::format("frame_{:05}.png", i);
-    const Result<FrameFigures> figures = view.draw(frame.camera);
+    const Result<FrameFigures> figures = view.draw(frame.camera, context);
     if (!figures)
       return failure(figures.error().code, figures.error().message,
                      fmt::format("{}, {}", path.string(), figures.error().culprit));
@@ -191,28 +172,11 @@ Status encodeFilm(const std::filesystem::path& folder, std::size_t frames, doubl
   const std::string rate = fmt::format("{}", framesPerSecond), count = std::to_string(frames),
                     pattern = (folder / "frame_%05d.png").string(), output = part.string();
   // Only the frames of this flight; sides of the picture rounded to even numbers, which H.264 needs.
-  std::vector<std::string> words = {"ffmpeg",
-                                    "-v",
-                                    "error",
-                                    "-nostdin",
-                                    "-y",
-                                    "-framerate",
-                                    rate,
-                                    "-start_number",
-                                    "0",
-                                    "-i",
-                                    pattern,
-                                    "-vf",
-                                    "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-                                    "-frames:v",
-                                    count,
-                                    "-c:v",
-                                    "libx264",
-                                    "-pix_fmt",
-                                    "yuv420p",
-                                    "-movflags",
-                                    "+faststart",
-                                    output};
+  std::vector<std::string> words = {"ffmpeg", "-v", "error", "-nostdin", "-y", "-framerate", rate};
+  for (const std::string& more :
+       {"-start_number"s, "0"s, "-i"s, pattern, "-vf"s, "pad=ceil(iw/2)*2:ceil(ih/2)*2"s, "-frames:v"s, count,
+        "-c:v"s, "libx264"s, "-pix_fmt"s, "yuv420p"s, "-movflags"s, "+faststart"s, output})
+    words.push_back(more);
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
 namespace arete {
 
@@ -35,29 +34,6 @@ ZUpShape uprightShape(const SurfaceModel& model, const ZUpFrame& upright) {
     if (v < kMostPoints) shape.points.push_back(p);
   }
   return shape;
-}
-
-Camera surfaceHome(HomeView view, const ZUpShape& shape, const Camera& picture) {
-  const CameraSpace space;
-  const Look look = view == HomeView::overview ? Look{325, -20} : homeLook(view);
-  Camera camera = space.at(picture, eyeOnAll(shape.points, axesOf(space, look), picture));
-  camera.azimuthDegrees = wrappedAzimuth(look.azimuthDegrees);
-  camera.pitchDegrees = look.pitchDegrees;
-  return camera;
-}
-
-Result<View> uprightView(const Camera& camera) {
-  const CameraSpace space;
-  View view;
-  view.eye = space.position(camera);
-  view.forward = space.forward(lookOf(camera));
-  view.up = space.up(lookOf(camera));
-  view.verticalFieldOfView = camera.verticalFieldOfViewDegrees * std::numbers::pi / 180;
-  view.widthPixels = camera.widthPixels;
-  view.heightPixels = camera.heightPixels;
-  if (const Status valid = view.validate(); !valid)
-    return failure(valid.error().code, valid.error().message, "camera");
-  return view;
 }
 
 }  // namespace arete

@@ -42,11 +42,4 @@ struct ZUpShape {
 /// O(vertices).
 ZUpShape uprightShape(const SurfaceModel& model, const ZUpFrame& upright);
 
-/// The nearest camera that has all points of the shape in its picture: along the axes, as homeLook(), but for
-/// the overview, which shows three sides: the front, its left and the top. What is in front looks south.
-Camera surfaceHome(HomeView view, const ZUpShape& shape, const Camera& picture);
-
-/// What a camera of upright space sees, as a view of it. Errors: usage, culprit "camera".
-Result<View> uprightView(const Camera& camera);
-
 }  // namespace arete

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/window/picking.h"
+#include "viewer/scene/terrain_subject.h"
 
 #include <gtest/gtest.h>
 
@@ -29,9 +29,9 @@ TerrainModel plane(double perColumn, double perRow) {
 }
 
 /// Where a ray meets the surface, found by walking: a ten-thousandth of the way at a time, then by halves.
-std::optional<Vec3> walked(const TerrainPicker& picker, const GroundHeights& heights, const Vec3& eye,
-                           const Vec3& d, double far) {
-  const CameraSpace& space = picker.space();
+std::optional<Vec3> walked(const TerrainSubject& subject, const Vec3& eye, const Vec3& d, double far) {
+  const CameraSpace& space = subject.space();
+  const GroundHeights& heights = *subject.heights();
   const auto above = [&](double t) -> std::optional<double> {
     const Vec3 p{eye.x + t * d.x, eye.y + t * d.y, eye.z + t * d.z};
     const auto ground = heights.at(space.xy(p));
@@ -61,8 +61,7 @@ std::optional<Vec3> walked(const TerrainPicker& picker, const GroundHeights& hei
 
 TEST(Picking, OnAPlaneItIsWhereTheRayMeetsThePlane) {
   const TerrainModel model = plane(2, -1.5);
-  const Profiles profiles(model);
-  const TerrainPicker picker(model, profiles);
+  const TerrainSubject subject(model);
   Random random(3);
   int hits = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -73,14 +72,14 @@ TEST(Picking, OnAPlaneItIsWhereTheRayMeetsThePlane) {
                         .widthPixels = 800,
                         .heightPixels = 600};
     const Vec2 pixel{random.between(0, 800), random.between(0, 600)};
-    const auto pick = picker.at(camera, pixel);
+    const auto pick = subject.pick(camera, pixel);
     if (!pick) continue;
     ++hits;
     // The height of the plane there, in terms of the source.
     const double column = (pick->xy.x - 500015) / 30, row = (3999985 - pick->xy.y) / 30;
     EXPECT_NEAR(pick->height, 100 + 2 * column - 1.5 * row, 1e-6) << "camera " << i;
     EXPECT_NEAR(pick->plan.x, column, 1e-6);
-    const auto seen = pixelOf(picker.space(), camera, pick->metric);
+    const auto seen = pixelOf(subject, camera, pick->metric);
     ASSERT_TRUE(seen);
     EXPECT_NEAR(seen->x, pixel.x, 1e-4);
     EXPECT_NEAR(seen->y, pixel.y, 1e-4);
@@ -91,34 +90,33 @@ TEST(Picking, OnAPlaneItIsWhereTheRayMeetsThePlane) {
 TEST(Picking, OnEveryKindOfGridItIsTheFirstPlaceThatAWalkAlongTheRayFinds) {
   for (const test::CameraModel& m : cameraModels()) {
     SCOPED_TRACE(m.name);
-    const Profiles profiles(m.model);
-    const TerrainPicker picker(m.model, profiles);
-    const double far = 3 * picker.box().diagonal();
+    const TerrainSubject subject(m.model);
+    const double far = 3 * subject.box().diagonal();
     Random random(17);
     int hits = 0;
     for (int i = 0; i < 60; ++i) {
-      Camera camera = homeCamera(HomeView::overview, picker.space(), picker.box(),
+      Camera camera = homeCamera(HomeView::overview, subject.space(), subject.box(),
                                  {.widthPixels = 800, .heightPixels = 600});
-      const Vec3 c = picker.box().centre();
-      camera = picker.space().at(
+      const Vec3 c = subject.box().centre();
+      camera = subject.space().at(
           camera, {c.x + random.between(-0.5, 0.5) * far / 3, c.y + random.between(-0.5, 0.5) * far / 3,
-                   picker.box().high.z + random.between(0.01, 0.5) * far / 3});
+                   subject.box().high.z + random.between(0.01, 0.5) * far / 3});
       camera.azimuthDegrees = random.between(0, 360);
       camera.pitchDegrees = random.between(-80, 0);
       const Vec2 pixel{random.between(0, 800), random.between(0, 600)};
-      Vec3 d = directionOfPixel(picker.space(), camera, pixel);
+      Vec3 d = directionOfPixel(*viewOf(camera, subject.space()), subject.space().isMirrored(), pixel);
       const double length = std::hypot(d.x, d.y, d.z);
       d = {d.x / length, d.y / length, d.z / length};
-      const auto found = walked(picker, profiles.heights(), picker.space().position(camera), d, far);
-      const auto pick = picker.at(camera, pixel);
+      const auto found = walked(subject, subject.space().position(camera), d, far);
+      const auto pick = subject.pick(camera, pixel);
       if (!found) continue;  // the walk may step over a crest that the ray meets
       ++hits;
       ASSERT_TRUE(pick) << "camera " << i;
-      const double there = test::apart(picker.space().position(camera), *found);
+      const double there = test::apart(subject.space().position(camera), *found);
       EXPECT_LE(pick->metres, there + 1e-6 * far);
       const bool isThere = pick->metres > there - 1e-6 * far;
       EXPECT_LT(isThere ? test::apart(pick->metric, *found) : 0, 1e-6 * far);
-      const auto ground = profiles.heights().at(pick->xy);
+      const auto ground = subject.heights()->at(pick->xy);
       ASSERT_TRUE(ground);
       EXPECT_NEAR(ground->height, pick->height, 1e-6 * far) << "a pick lies on the terrain";
     }
@@ -128,35 +126,33 @@ TEST(Picking, OnEveryKindOfGridItIsTheFirstPlaceThatAWalkAlongTheRayFinds) {
 
 TEST(Picking, ExaggeratedHeightsArePickedWhereTheyAreDrawn) {
   const TerrainModel& model = cameraModels()[0].model;
-  const Profiles profiles(model);
-  const TerrainPicker picker(model, profiles);
-  const Camera camera = homeCamera(HomeView::overview, picker.space(), picker.box());
+  const TerrainSubject subject(model);
+  const Camera camera = homeCamera(HomeView::overview, subject.space(), subject.box());
   for (const double stretch : {0.5, 1.0, 4.0}) {
-    const auto pick = picker.at(camera, {960, 560}, stretch);
+    const auto pick = subject.pick(camera, {960, 560}, {.stretch = stretch});
     if (!pick) continue;
-    const auto seen = pixelOf(picker.space(), camera, pick->metric, stretch);
+    const auto seen = pixelOf(subject, camera, pick->metric, {.stretch = stretch});
     ASSERT_TRUE(seen);
     EXPECT_NEAR(seen->x, 960, 1e-4);
     EXPECT_NEAR(seen->y, 560, 1e-4);
-    EXPECT_NEAR(profiles.heights().at(pick->xy)->height, pick->height, 1e-6);
+    EXPECT_NEAR(subject.heights()->at(pick->xy)->height, pick->height, 1e-6);
   }
 }
 
 TEST(Picking, StraightDownIsTheGroundBelowAndTheSkyIsNothing) {
   for (const test::CameraModel& m : cameraModels()) {
     SCOPED_TRACE(m.name);
-    const Profiles profiles(m.model);
-    const TerrainPicker picker(m.model, profiles);
-    const Vec3 c = picker.box().centre();
-    const Vec3 eye{c.x, c.y, picker.box().high.z + 100};
-    const auto pick = picker.along(eye, {0, 0, -3});
-    const auto ground = profiles.heights().at(picker.space().xy(eye));
+    const TerrainSubject subject(m.model);
+    const Vec3 c = subject.box().centre();
+    const Vec3 eye{c.x, c.y, subject.box().high.z + 100};
+    const auto pick = subject.along(eye, {0, 0, -3});
+    const auto ground = subject.heights()->at(subject.space().xy(eye));
     ASSERT_EQ(pick.has_value(), ground.has_value());
     if (pick) {
       EXPECT_NEAR(pick->height, ground->height, 1e-9 * std::abs(ground->height) + 1e-9);
     }
-    EXPECT_FALSE(picker.along(eye, {0, 0, 1}));
-    EXPECT_FALSE(picker.along(eye, {1, 0, 0.2}));
+    EXPECT_FALSE(subject.along(eye, {0, 0, 1}));
+    EXPECT_FALSE(subject.along(eye, {1, 0, 0.2}));
   }
 }
 
