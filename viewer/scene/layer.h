@@ -14,6 +14,7 @@
 namespace arete {
 
 class DrapeOnGpu;
+class SpaceContent;
 
 using Rgba = std::array<std::uint8_t, 4>;
 
@@ -59,15 +60,16 @@ struct SpaceVertices {
 struct Layer {
   using Drape = std::shared_ptr<const DrapeOnGpu>;
   using Overlay = std::shared_ptr<const PlanPicture>;
+  using Drawn = std::shared_ptr<SpaceContent>;
 
   std::string name;  ///< unlike those of the others
-  std::variant<Drape, Overlay, Contours, SpaceVertices> content;
+  std::variant<Drape, Overlay, Contours, SpaceVertices, Drawn> content;
   double opacity = 1;  ///< 0 to 1
   bool isVisible = true;
   Legend legend = {};
 
   bool isOnGround() const { return content.index() < 3; }
-  /// "a drape", "an overlay", "contours", "lines".
+  /// "a drape", "an overlay", "contours", "lines", or as its content calls itself.
   std::string_view kind() const;
 };
 

@@ -175,6 +175,7 @@ const std::map<std::string, Tried>& triedCommands() {
          {"--no-geomorph", {"--no-geomorph"}},
          {"--color", {"--color error"}},
          {"--drape", {"--drape dem.tif"}},
+         {"--layer", {"--layer a.gpkg"}},
          {"--drape-bands", {"--drape-bands 1", "--drape dem.tif"}},
          {"--contours", {"--contours 1"}},
          {"--sun", {"--sun 90,10"}},

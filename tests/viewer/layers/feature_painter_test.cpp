@@ -13,7 +13,7 @@
 #include "terrain/model/camera.h"
 #include "viewer/gl/frame_target.h"
 #include "viewer/gl/offscreen.h"
-#include "viewer/gl/terrain_view.h"
+#include "viewer/gl/terrain_drawable.h"
 
 namespace arete {
 namespace {
@@ -45,9 +45,9 @@ class FeaturePainterTest : public testing::Test {
   void SetUp() override {
     context_ = std::make_unique<Result<OffscreenContext>>(OffscreenContext::create());
     if (!*context_) GTEST_SKIP() << context_->error().describe();
-    auto view = TerrainView::create(hills(), {});
+    auto view = TerrainDrawable::create(hills(), {});
     ASSERT_TRUE(view) << view.error().describe();
-    view_ = std::make_unique<TerrainView>(std::move(*view));
+    view_ = std::make_unique<TerrainDrawable>(std::move(*view));
     auto painter = FeaturePainter::create();
     ASSERT_TRUE(painter) << painter.error().describe();
     painter_ = std::make_unique<FeaturePainter>(std::move(*painter));
@@ -73,9 +73,8 @@ class FeaturePainterTest : public testing::Test {
     target->begin();
     EXPECT_TRUE(view_->cut(camera, settings));
     EXPECT_TRUE(view_->draw(camera, settings));
-    FeatureBuffers buffers = uploadFeatures(features, [&](Vec2 xy, double height) {
-      return view_->drawnPosition(xy, height, settings).value_or(Vec3{NAN, NAN, NAN});
-    });
+    FeatureBuffers buffers =
+        uploadFeatures(features, [](Vec2 xy, double height) { return metricPosition(xy, height, hills()); });
     painter_->setFrame(*view_->frameOf(camera, settings), hills().mt.metric());
     painter_->draw(buffers, style);
     LabelPlacement placement(kWidth, kHeight);
@@ -103,7 +102,7 @@ class FeaturePainterTest : public testing::Test {
   }
 
   std::unique_ptr<Result<OffscreenContext>> context_;
-  std::unique_ptr<TerrainView> view_;
+  std::unique_ptr<TerrainDrawable> view_;
   std::unique_ptr<FeaturePainter> painter_;
   ViewSettings settings_;
 };
