@@ -31,10 +31,10 @@ FeatureBuffers uploadFeatures(const GroundFeatures& features, const DrawnPlace& 
     const Vec3 p = place(at.xy, at.height);
     // Not a number is outside of every picture.
     anchors.push_back({float(p.x), float(p.y), float(p.z)});
-    return p;
+    if (!features.labels.empty()) buffers.anchorPlaces.push_back(p);
   };
   for (const auto& point : features.points) add(point);
-  for (const auto& label : features.labels) buffers.labelPlaces.push_back(add(label.at));
+  for (const auto& label : features.labels) add(label.at);
   buffers.points = std::uint32_t(features.points.size());
   buffers.labels = std::uint32_t(features.labels.size());
   buffers.anchors = makeBuffer(std::span<const std::array<float, 3>>(anchors));

@@ -21,7 +21,7 @@ struct FeatureBuffers {
   GlBuffer anchors;  ///< x, y, z of the points, then of the labels
   GlBuffer seen;     ///< of each anchor, whether it was seen when that was last asked
   std::uint32_t lineVertices = 0, points = 0, labels = 0;
-  std::vector<Vec3> labelPlaces;  ///< as in `anchors`
+  std::vector<Vec3> anchorPlaces;  ///< where there are labels: as in `anchors`
 
   std::uint32_t anchorCount() const { return points + labels; }
 };

@@ -20,7 +20,8 @@
 namespace arete {
 namespace {
 
-constexpr double kLabelAway = 6;  // pixels between a label and its place
+constexpr double kLabelGap = 3;                  // pixels between a label and a marker
+constexpr std::uint32_t kMostKeptFree = 20'000;  // markers that no label covers
 constexpr GLuint kSeenBinding = 12, kAtlasUnit = 5, kSeenUnit = 6;
 /// The radius of a marker beside lines of a width.
 float markerRadius(const FeatureStyle& style) {
@@ -218,16 +219,22 @@ Status FeaturePainter::drawLabels(const FeatureBuffers& features, const GroundFe
                                   const FeatureStyle& style, LabelPlacement& placement) {
   if (features.labels == 0) return {};
   State& s = *state_;
-  std::vector<std::uint32_t> seen(features.labels);
-  glGetNamedBufferSubData(features.seen, GLintptr(features.points) * GLintptr(sizeof(std::uint32_t)),
-                          GLsizeiptr(seen.size() * sizeof(std::uint32_t)), seen.data());
+  std::vector<std::uint32_t> seen(features.anchorCount());
+  glGetNamedBufferSubData(features.seen, 0, GLsizeiptr(seen.size() * sizeof(std::uint32_t)), seen.data());
+  // A marker stays free of all labels but of those that are there already.
+  const double radius = markerRadius(style);
+  for (std::uint32_t i = 0; i < std::min(features.points, kMostKeptFree); ++i)
+    if (const auto at = seen[i] != 0 ? s.pixelOf(features.anchorPlaces[i]) : std::nullopt)
+      placement.take({at->x - radius, at->y - radius, 2 * radius, 2 * radius});
+  const double away = (features.points > 0 ? radius : 0) + kLabelGap + 1;
   std::vector<LabelBox> boxes;
   for (std::uint32_t i = 0; i < features.labels; ++i) {
-    const auto at = seen[i] != 0 ? s.pixelOf(features.labelPlaces[i]) : std::nullopt;
+    const auto at =
+        seen[features.points + i] != 0 ? s.pixelOf(features.anchorPlaces[features.points + i]) : std::nullopt;
     if (!at) continue;
     const std::string& text = texts.labels[i].text;
     const Vec2 size = s.atlas->sizeOf(text);
-    const auto area = placement.place(*at, size.x, size.y, kLabelAway);
+    const auto area = placement.place(*at, size.x, size.y, away);
     if (!area) continue;
     ARETE_TRY(auto entry, s.atlas->find(text));
     if (!entry) {

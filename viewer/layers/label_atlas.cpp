@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kAtlasSide = 2048;
 constexpr double kTextPixels = 15;
-constexpr int kHaloPixels = 3, kTextHeight = 25;
+constexpr int kHaloPixels = 3, kTextHeight = 23, kBaseline = 17;
 constexpr std::size_t kMostSizes = 200'000;  // texts whose size is remembered
 
 TextStyle labelStyle() {
@@ -50,7 +50,7 @@ Result<std::optional<LabelAtlas::Entry>> LabelAtlas::find(const std::string& tex
   if (next_.x + size.x > kAtlasSide) next_ = {0, next_.y + kTextHeight};
   if (next_.y + kTextHeight > kAtlasSide) return std::optional<Entry>();
   ARETE_TRY(Canvas canvas, Canvas::create(int(size.x), int(size.y), {0, 0, 0}));
-  canvas.text(text, {kHaloPixels, kTextHeight - 8}, labelStyle());
+  canvas.text(text, {kHaloPixels, kBaseline}, labelStyle());
   std::vector<std::uint8_t> coverage;
   for (int y = 0; y < canvas.height(); ++y)
     for (int x = 0; x < canvas.width(); ++x) coverage.push_back(canvas.pixel(x, y).r);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -188,7 +189,10 @@ Status readInto(const std::string& path, const TerrainModel& model, const Featur
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
   if (!looksLikePointText(path, 2)) return readVectors(path, model, options, layer, context);
   auto table = readPointTable(path, model.georeference, {.layer = options.layer}, context);
-  if (table) return readTable(std::move(*table), model, options, layer, context);
+  if (table) {
+    layer.name = std::filesystem::path(path).stem().string();
+    return readTable(std::move(*table), model, options, layer, context);
+  }
   if (table.error().code != ErrorCode::invalidData) return tl::unexpected(table.error());
   // Lines in WKT. What was the matter with the points is the better answer if GDAL finds nothing either.
   const Status read = readVectors(path, model, options, layer, context);
