@@ -66,7 +66,7 @@ TEST_F(ViewLayers, AreDrawnInScreenshotsAndCounted) {
   if (plain.err.find("no OpenGL 4.5 context") != std::string::npos) GTEST_SKIP() << plain.err;
   ASSERT_EQ(plain.code, 0) << plain.err;
   write("points, old.csv", "x,y,what\n500900,5199300,A\n500600,5199000,B\n1,1,C\n");
-  write("way.csv", "WKT\n\"LINESTRING (500100 5199900, 501500 5198700)\"\n");
+  write("way.csv", "id,WKT\n1,\"LINESTRING (500100 5199900, 501500 5198700)\"\n");
   const Outcome both = shoot("both.png", {"--layer", "points, old.csv,label=what,title=Posts", "--layer",
                                           "way.csv,color=#0000ff,width=4", "--layer", "way.csv,opacity=0.5"});
   ASSERT_EQ(both.code, 0) << both.err;
