@@ -62,7 +62,7 @@ struct Layer {
   using Overlay = std::shared_ptr<const PlanPicture>;
   using Drawn = std::shared_ptr<SpaceContent>;
 
-  std::string name;  ///< unlike those of the others
+  std::string name;  ///< each has its own
   std::variant<Drape, Overlay, Contours, SpaceVertices, Drawn> content;
   double opacity = 1;  ///< 0 to 1
   bool isVisible = true;

@@ -34,7 +34,7 @@ class SurfaceSubject final : public Subject {
   SurfaceSubject(ZUpShape shape, const ZUpFrame& upright);
 
   ZUpFrame upright_;
-  std::vector<Vec3> points_;  // as of ZUpShape
+  std::vector<Vec3> points_;  // of its ZUpShape
 };
 
 }  // namespace arete
