@@ -62,10 +62,18 @@ TerrainPicker::TerrainPicker(const TerrainModel& model, const Profiles& profiles
   box_.high = {box_.high.x + margin, box_.high.y + margin, box_.high.z + margin};
 }
 
-TerrainPick TerrainPicker::pickOf(const Vec3& metric, const Vec3& eye) const {
-  const Vec2 xy = space_.xy(metric);
-  return {model_.toPlan(xy), xy, space_.height(metric), metric,
-          std::hypot(metric.x - eye.x, metric.y - eye.y, metric.z - eye.z)};
+// The ray says where; the height there is the terrain's own. On the rim of NODATA rounding may have carried
+// the place off the terrain: then it is taken a little further along the triangle that was hit.
+std::optional<TerrainPick> TerrainPicker::pickOf(const Vec3& hit, const Vec3& inside, const Vec3& eye) const {
+  for (const double step : {0.0, 1e-9, 1e-6, 1e-3}) {
+    const Vec2 xy = space_.xy(arete::along(hit, inside - hit, step));
+    const auto ground = profiles_.heights().at(xy);
+    if (!ground) continue;
+    const Vec3 metric = space_.position(xy, ground->height);
+    return TerrainPick{model_.toPlan(xy), xy, ground->height, metric,
+                       std::hypot(metric.x - eye.x, metric.y - eye.y, metric.z - eye.z)};
+  }
+  return std::nullopt;
 }
 
 std::optional<TerrainPick> TerrainPicker::along(const Vec3& eye, const Vec3& direction) const {
@@ -84,7 +92,7 @@ std::optional<TerrainPick> TerrainPicker::between(const Vec3& first, const Vec3&
     if (!ground) return std::nullopt;
     const Vec3 hit = space_.position(space_.xy(first), ground->height);
     const bool isBetween = (hit.z - first.z) * (hit.z - last.z) <= 0;
-    return isBetween ? std::optional(pickOf(hit, eye)) : std::nullopt;
+    return isBetween ? pickOf(hit, hit, eye) : std::nullopt;
   }
   const auto track = plane_->track(from, to);
   if (!track) return std::nullopt;
@@ -100,9 +108,10 @@ std::optional<TerrainPick> TerrainPicker::between(const Vec3& first, const Vec3&
       const double at = isJoined && clearance != clearanceBefore
                             ? before + (t - before) * (clearanceBefore / (clearanceBefore - clearance))
                             : t;
-      const Vec3 hit{first.x + at * (last.x - first.x), first.y + at * (last.y - first.y),
-                     first.z + at * (last.z - first.z)};
-      return pickOf(hit, eye);
+      const Vec3 ray = last - first;
+      const double middle = isJoined ? (before + t) / 2 : at;
+      const auto pick = pickOf(arete::along(first, ray, at), arete::along(first, ray, middle), eye);
+      if (pick) return pick;
     }
     before = t;
     clearanceBefore = clearance;

@@ -15,7 +15,7 @@ namespace arete {
 struct TerrainPick {
   Vec2 plan;          ///< plan coordinates of the model
   Vec2 xy;            ///< source coordinates
-  double height = 0;  ///< of the terrain, in the DEM's vertical unit
+  double height = 0;  ///< GroundHeights::at(xy), in the DEM's vertical unit
   Vec3 metric;        ///< heights as they are, not exaggerated
   double metres = 0;  ///< from the eye, in a straight line
 };
@@ -49,7 +49,8 @@ class TerrainPicker {
  private:
   /// The first intersection between two points.
   std::optional<TerrainPick> between(const Vec3& first, const Vec3& last, const Vec3& eye) const;
-  TerrainPick pickOf(const Vec3& metric, const Vec3& eye) const;
+  /// @param inside a place of the triangle that was hit, in the plan.
+  std::optional<TerrainPick> pickOf(const Vec3& hit, const Vec3& inside, const Vec3& eye) const;
 
   const TerrainModel& model_;
   const Profiles& profiles_;
