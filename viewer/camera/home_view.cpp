@@ -4,7 +4,7 @@
 // low (z - ez) <= x - ex <= high (z - ez), (ex, ey, ez) the eye, low and high the slopes of the sides of what
 // is free of the picture. Over all points that is two bounds, A = max(x - high z) <= ex - high ez and B =
 // max(low z - x) <= low ez - ex. Their sum bounds how far ahead the eye may stand, ez <= -(A + B) / (high -
-// low); so do those of y. The lesser of the two is the nearest eye, and ex and ey are taken, of what it
+// low); so do the two of y. The lesser of the two is the nearest eye, and ex and ey are taken, of what it
 // leaves them, so that the picture has as much free on either side.
 #include "viewer/camera/home_view.h"
 
@@ -58,8 +58,8 @@ struct Frame {
   Sides across, upwards;
 };
 
-// The slopes are those of the free part, less what is kept free of it on either side. Pixels are square, so
-// the horizontal slopes follow from the picture's shape.
+// The slopes reach to the edges of the free part, less what is kept free of it on either side. Pixels are
+// square, so the horizontal slopes follow from the picture's shape.
 Frame frameOf(const Camera& picture, const CoveredEdges& covered) {
   const double slope = std::tan(picture.verticalFieldOfViewDegrees * std::numbers::pi / 360);
   const auto sides = [](double half, double atLow, double atHigh) {

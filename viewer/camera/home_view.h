@@ -40,7 +40,7 @@ struct HomeShape {
 HomeShape homeShape(std::uint32_t vertices, const std::function<Vec3(std::uint32_t)>& at);
 /// Of the triangulated terrain in metric space: without NODATA and isolated samples, which are not drawn.
 HomeShape homeShape(const TerrainModel& model);
-/// Of a box: its corners.
+/// The corners of a box.
 HomeShape homeShape(const MetricBox& box);
 
 /// What panels leave free of a picture: how much of its width and height they cover at each edge. Each pair

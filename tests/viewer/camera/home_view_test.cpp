@@ -148,7 +148,7 @@ TEST(HomeView, OfTheRealShapeTouchesTheMarginsOnTwoSidesInEveryPicture) {
             EXPECT_FALSE(reach.isBehind);
             EXPECT_LE(reach.most(), 0.9 + 1e-6) << "all of it, with some room";
             EXPECT_TRUE(reach.touchesBothSides(1e-6) ||
-                        reach.nearest < 0.021 * stretch * shape.box.diagonal())
+                        reach.nearest < 0.021 * std::max(1.0, stretch) * shape.box.diagonal())
                 << "and no further away than that takes";
             EXPECT_NEAR(reach.low.x, -reach.high.x, 1e-6) << "in the middle of what is free";
             EXPECT_NEAR(reach.low.y, -reach.high.y, 1e-6);
