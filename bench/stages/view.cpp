@@ -37,7 +37,7 @@ Result<Figures> viewStage(const DemSource& source, const std::string& path, cons
     HeadlessOptions options{.widthPixels = 1280, .heightPixels = 720, .samples = 1, .settings = {}};
     options.settings.path = cutPath;
     ARETE_TRY(HeadlessView view, HeadlessView::create(model, options));
-    if (cutPath == CutPath::device && !view.view().deviceRefusal().empty()) continue;
+    if (cutPath == CutPath::device && !view.scene().deviceRefusal().empty()) continue;
     std::vector<double> cut, draw, triangles, rate;
     for (int i = 0; i <= kFrames; ++i) {
       // The whole round in so many frames, each far from the last.

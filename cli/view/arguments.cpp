@@ -21,20 +21,12 @@ namespace {
 
 constexpr std::int64_t kMostTriangles = 0xFFFFFFF;
 
-Coloring coloringOf(const std::string& name) {
-  if (name == "slope") return Coloring::slope;
-  if (name == "aspect") return Coloring::aspect;
-  if (name == "plain") return Coloring::plain;
-  if (name == "error") return Coloring::error;
-  return Coloring::hypsometric;
-}
-
-Result<std::pair<double, double>> anglesOfSun(const std::string& sun) {
+Result<Sun> readSun(const std::string& sun) {
   const auto angles = twoNumbers("--sun", sun, ',');
   if (!angles || !(angles->second >= 0 && angles->second <= 90) || !std::isfinite(angles->first))
     return failure(ErrorCode::usage, "must be AZIMUTH,ELEVATION, with an elevation from 0 to 90 degrees",
                    "--sun " + sun);
-  return *angles;
+  return Sun{angles->first, angles->second};
 }
 
 }  // namespace
@@ -57,10 +49,10 @@ void ViewpointArguments::addTo(CLI::App& command, OptionKinds& kinds) {
       ->excludes(place)
       ->type_name("NAME")
       ->group(group);
-  CLI::Option* flight = kinds.ofTerrain(
+  CLI::Option* flight =
       command.add_option("--path", path, "Flight through the key frames of a file (docs/topics/flights.md)")
           ->type_name("FLIGHT.json")
-          ->group(group));
+          ->group(group);
   command.add_flag("--round", isRound, "Flight around the inside of the terrain; one turn around a surface")
       ->excludes(flight)
       ->group(group);
@@ -207,17 +199,16 @@ Result<DrapeOptions> AppearanceArguments::drapeOptions() const {
   return options;
 }
 
-Result<ViewLook> AppearanceArguments::look() const {
+Result<ViewLook> AppearanceArguments::look(std::span<const Coloring> colorings) const {
+  // OptionKinds has refused the colours of the other kind of model.
+  const auto stated = std::ranges::find(colorings, color, [](Coloring c) { return toString(c); });
   ViewLook look;
-  look.coloring = coloringOf(color);
+  look.coloring = stated == colorings.end() ? colorings.front() : *stated;
   look.isShaded = !isUnshaded;
-  look.contourInterval = contours;
   look.hazeKilometres = hazeKilometres;
   look.hasWireframe = hasWireframe;
-  // Without a direction the sun stays where ViewLook has it.
   if (sun.empty()) return look;
-  ARETE_TRY(const auto angles, anglesOfSun(sun));
-  std::tie(look.sunAzimuthDegrees, look.sunElevationDegrees) = angles;
+  ARETE_TRY(look.sun, readSun(sun));
   return look;
 }
 
@@ -311,6 +302,8 @@ Status ViewArguments::check() const {
   if (p.isHeadless && p.screenshot.empty() && viewpoint.statesCamera())
     return refuse("requires --screenshot; the frames of a flight have cameras of their own",
                   viewpoint.home.empty() ? "--camera " + viewpoint.camera : "--home " + viewpoint.home);
+  if (!appearance.sun.empty()) ARETE_CHECK(readSun(appearance.sun));
+  ARETE_CHECK(appearance.drapeOptions());
   if (p.film.empty()) return {};
   // Drawing may take hours: a film that cannot be made is refused first.
   if (Status can = canEncodeFilm(p.film); !can)
@@ -318,31 +311,15 @@ Status ViewArguments::check() const {
   return {};
 }
 
-Result<ViewSettings> ViewArguments::settings() const {
-  ARETE_TRY(ViewLook look, appearance.look());
+Result<ViewSettings> ViewArguments::settings(std::span<const Coloring> colorings) const {
   ViewSettings s;
+  ARETE_TRY(s.look, appearance.look(colorings));
   s.pixels = detail.pixelError;
   s.path = detail.isCutByProcessor() ? CutPath::processor : CutPath::device;
   s.cutMilliseconds = detail.deadline;
   s.isGeomorphed = !detail.isFixed;
   s.stretch = appearance.exaggeration;
   s.isCurved = appearance.isCurved;
-  s.look = look;
-  return s;
-}
-
-Result<SurfaceViewSettings> ViewArguments::ofSurface() const {
-  const std::string& color = appearance.color;
-  SurfaceViewSettings s;
-  s.pixels = detail.pixelError;
-  s.look.coloring = color == "plain"   ? SurfaceColoring::plain
-                    : color == "error" ? SurfaceColoring::error
-                                       : SurfaceColoring::materials;
-  s.look.isShaded = !appearance.isUnshaded;
-  s.look.hasWireframe = appearance.hasWireframe;
-  if (appearance.sun.empty()) return s;
-  ARETE_TRY(const auto angles, anglesOfSun(appearance.sun));
-  s.look.sun = SurfaceLook::Sun{angles.first, angles.second};
   return s;
 }
 

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -11,8 +12,7 @@
 #include "engine/base/result.h"
 #include "viewer/camera/home_view.h"
 #include "viewer/gl/drape_on_gpu.h"
-#include "viewer/gl/terrain_view.h"
-#include "viewer/surface/surface_view.h"
+#include "viewer/scene/subject.h"
 
 namespace arete {
 
@@ -60,8 +60,9 @@ struct AppearanceArguments {
   void addTo(CLI::App& command, OptionKinds& kinds);
   /// Which bands of the drape to show. Errors: usage: not one or three band numbers, which count from 1.
   Result<DrapeOptions> drapeOptions() const;
+  /// @param colorings of the model, the usual one first.
   /// Errors: usage: `sun` is not two angles.
-  Result<ViewLook> look() const;
+  Result<ViewLook> look(std::span<const Coloring> colorings) const;
 };
 
 /// Pictures and films, and the size of the window.
@@ -94,11 +95,8 @@ struct ViewArguments {
   /// The rules between options that CLI11 cannot state. Errors: usage, naming the option; unsupported: a film
   /// without ffmpeg.
   Status check() const;
-  /// Errors: usage.
-  Result<ViewSettings> settings() const;
-  /// Of a surface. Precondition: no option is stated that is for terrain. Errors: usage: `sun` is not two
-  /// angles.
-  Result<SurfaceViewSettings> ofSurface() const;
+  /// @param colorings as of look(). Errors: usage.
+  Result<ViewSettings> settings(std::span<const Coloring> colorings) const;
 };
 
 }  // namespace arete

@@ -22,30 +22,48 @@
 namespace arete {
 namespace {
 
-Json jsonOf(const Camera& c) {
-  return {{"x", c.xy.x},
-          {"y", c.xy.y},
-          {"height", c.height},
-          {"azimuth", c.azimuthDegrees},
-          {"pitch", c.pitchDegrees},
-          {"fov", c.verticalFieldOfViewDegrees}};
+/// As --camera takes it, and key frames of flights.
+Json jsonOf(const Camera& c, const Subject& subject) {
+  if (subject.isTerrain())
+    return {{"x", c.xy.x},
+            {"y", c.xy.y},
+            {"height", c.height},
+            {"azimuth", c.azimuthDegrees},
+            {"pitch", c.pitchDegrees},
+            {"fov", c.verticalFieldOfViewDegrees}};
+  const Vec3 eye = subject.space().position(c),
+             target = eye + subject.box().diagonal() * subject.space().forward(lookOf(c));
+  const auto list = [&](const Vec3& p) {
+    const Vec3 q = subject.inFile(p);
+    return Json::array({q.x, q.y, q.z});
+  };
+  return {{"eye", list(eye)}, {"target", list(target)}, {"fov", c.verticalFieldOfViewDegrees}};
 }
 
-Json jsonOf(const FrameFigures& f) {
-  return {{"triangles", f.triangles},
-          {"moving", f.moving},
-          {"pixelError", std::isfinite(f.pixels) ? Json(f.pixels) : Json()},
-          {"isComplete", f.isComplete},
-          {"showsTerrain", f.showsTerrain},
-          {"jumpPixels", std::isfinite(f.jumpPixels) ? Json(f.jumpPixels) : Json()},
-          {"cutMilliseconds", f.cutMilliseconds},
-          {"drawMilliseconds", f.drawMilliseconds}};
+Json jsonOf(const FrameFigures& f, const Subject& subject) {
+  const auto number = [](double n) { return std::isfinite(n) ? Json(n) : Json(); };
+  Json json = {{"triangles", f.triangles},
+               {"pixelError", number(f.pixels)},
+               {"isComplete", f.isComplete},
+               {subject.isTerrain() ? "showsTerrain" : "showsSurface", f.isShown},
+               {"cutMilliseconds", f.cutMilliseconds},
+               {"drawMilliseconds", f.drawMilliseconds}};
+  if (subject.isTerrain()) json.update({{"moving", f.moving}, {"jumpPixels", number(f.jumpPixels)}});
+  return json;
 }
 
 /// "within 1 pixel".
 std::string accuracyOf(const FrameFigures& figures) {
-  if (!std::isfinite(figures.pixels)) return "as coarse as it gets, its error around the eye not known";
+  if (!std::isfinite(figures.pixels)) return "of an error around the eye that is not known";
   return fmt::format("within {:.3g} pixel{}", figures.pixels, figures.pixels == 1 ? "" : "s");
+}
+
+/// Errors are named as the options that state what is wrong.
+tl::unexpected<Error> namedByOption(const Error& error, const ViewArguments& a) {
+  std::string culprit = error.culprit;
+  if (culprit == "maxTriangles") culprit = fmt::format("--max-triangles {}", a.detail.maxTriangles);
+  if (culprit == "camera" && !a.viewpoint.camera.empty()) culprit = "--camera " + a.viewpoint.camera;
+  return failure(error.code, error.message, culprit);
 }
 
 /// The nodes around the eye, whose pixels nothing bounds, are in every cut of the device.
@@ -74,23 +92,6 @@ FramesFolder::~FramesFolder() {
   if (!temporary_.empty()) std::filesystem::remove_all(temporary_, ignored);
 }
 
-Status makeFilmOf(const PictureArguments& pictures, std::size_t frames, double rate, Session& session) {
-  Status encoded = encodeFilm(pictures.frames, frames, rate, pictures.film, session.context());
-  // Its sentence says that the pictures are there.
-  if (!encoded && pictures.dropsFrames)
-    encoded.error().message.erase(
-        std::min(encoded.error().message.find(';'), encoded.error().message.size()));
-  if (encoded) session.say(fmt::format("{}: {}\n", pictures.film, grouped(frames, "frame", "frames")));
-  return encoded;
-}
-
-void warnOfFramesBehind(const std::string& folder, std::size_t frames, const Session& session) {
-  std::error_code ignored;
-  if (std::filesystem::exists(std::filesystem::path(folder) / fmt::format("frame_{:05}.png", frames),
-                              ignored))
-    session.warn(fmt::format("{} has frames of an earlier, longer flight behind these", folder));
-}
-
 /// Files beside the frames: none of the inputs, none of each other, none of the frames.
 Status checkPictureOutputs(const ViewArguments& a, const std::vector<std::string>& inputs) {
   namespace fs = std::filesystem;
@@ -112,89 +113,91 @@ Status checkPictureOutputs(const ViewArguments& a, const std::vector<std::string
   return {};
 }
 
-// A refused camera is reported under the option that states it. A picture that falls short of what was wanted
-// is written all the same, with a warning that says why.
+// A picture that falls short of what was wanted is written all the same, with a warning that says why.
 Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView& view, Session& session,
                       Json& json) {
-  const Result<FrameFigures> figures = view.draw(camera);
-  if (!figures)
-    return failure(figures.error().code, figures.error().message,
-                   figures.error().culprit == "camera" && !a.viewpoint.camera.empty()
-                       ? "--camera " + a.viewpoint.camera
-                       : figures.error().culprit);
+  const Subject& subject = view.scene().subject();
+  const Result<FrameFigures> figures = view.draw(camera, session.context());
+  if (!figures) return namedByOption(figures.error(), a);
   ARETE_CHECK(savePng(view.image(), a.pictures.screenshot));
-  if (!figures->showsTerrain) session.warn("the picture shows nothing of the terrain");
+  if (!figures->isShown) session.warn(fmt::format("the picture shows nothing of the {}", subject.kind()));
   if (!figures->isComplete)
-    session.warn(fmt::format("the {} ended the cut: the terrain is {}", a.detail.whatEndsTheCut(),
+    session.warn(fmt::format("the {} ended the cut: the {} is {}", a.detail.whatEndsTheCut(), subject.kind(),
                              accuracyOf(*figures)));
   if (exceedsBudget(a, *figures))
     session.warn(fmt::format("--max-triangles {}: from there the coarsest cut has {}", a.detail.maxTriangles,
                              grouped(figures->triangles)));
-  session.say(fmt::format("{}: {}, {} on the move, {}\n", a.pictures.screenshot,
-                          grouped(figures->triangles, "triangle", "triangles"),
-                          grouped(figures->moving, "vertex", "vertices"), accuracyOf(*figures)));
-  json["screenshot"] = {
-      {"file", a.pictures.screenshot}, {"camera", jsonOf(camera)}, {"figures", jsonOf(*figures)}};
+  session.say(fmt::format(
+      "{}: {}, {}{}\n", a.pictures.screenshot, grouped(figures->triangles, "triangle", "triangles"),
+      subject.isTerrain() ? grouped(figures->moving, "vertex", "vertices") + " on the move, " : "",
+      accuracyOf(*figures)));
+  json["screenshot"] = {{"file", a.pictures.screenshot},
+                        {"camera", jsonOf(camera, subject)},
+                        {"figures", jsonOf(*figures, subject)}};
   return {};
 }
 
-Status makeFilm(const ViewArguments& a, const Flight& flight, const GroundHeights& heights,
-                HeadlessView& view, Session& session, Json& json) {
-  ARETE_TRY(
-      const auto frames,
-      drawFilm(view, flight, {.folder = a.pictures.frames, .framesPerSecond = a.pictures.framesPerSecond},
-               session.context()));
-  // What is wrong is counted over all frames, and each defect is one warning, however long the film is.
+Status makeFilm(const ViewArguments& a, const Flight& flight, HeadlessView& view, Session& session,
+                Json& json) {
+  const PictureArguments& p = a.pictures;
+  const Subject& subject = view.scene().subject();
+  const auto drawn =
+      drawFilm(view, flight, {.folder = p.frames, .framesPerSecond = p.framesPerSecond}, session.context());
+  if (!drawn) return namedByOption(drawn.error(), a);
+  const std::vector<FilmFrame>& frames = *drawn;
+  // What is wrong is counted over all frames, and each defect is one warning, however long the film is. The
+  // figures list every frame; they go to a file of their own only if one is named.
   Json list = Json::array();
   std::uint64_t triangles = 0;
   std::size_t unfinished = 0, empty = 0, large = 0, buried = 0;
   for (const FilmFrame& frame : frames) {
-    const auto ground = heights.at(frame.camera.xy);
+    const auto ground = subject.heights() ? subject.heights()->at(frame.camera.xy) : std::nullopt;
     buried += ground && frame.camera.height < ground->height ? 1 : 0;
     unfinished += frame.figures.isComplete ? 0 : 1;
-    empty += frame.figures.showsTerrain ? 0 : 1;
+    empty += frame.figures.isShown ? 0 : 1;
     large += exceedsBudget(a, frame.figures) ? 1 : 0;
+    triangles += frame.figures.triangles;
+    Json entry = {{"seconds", frame.seconds}, {"camera", jsonOf(frame.camera, subject)}};
+    if (!p.dropsFrames) entry["file"] = frame.file;
+    entry.update(jsonOf(frame.figures, subject));
+    list.push_back(std::move(entry));
   }
+  const std::string all = grouped(frames.size(), "frame", "frames");
   if (empty > 0)
-    session.warn(fmt::format("{} of {} nothing of the terrain", empty,
-                             grouped(frames.size(), "frame shows", "frames show")));
-  if (buried > 0)
-    session.warn(fmt::format("the camera stands under the ground in {} of {}", buried,
-                             grouped(frames.size(), "frame", "frames")));
+    session.warn(fmt::format("{} of {} nothing of the {}", empty,
+                             grouped(frames.size(), "frame shows", "frames show"), subject.kind()));
+  if (buried > 0) session.warn(fmt::format("the camera stands under the ground in {} of {}", buried, all));
   if (unfinished > 0)
-    session.warn(fmt::format("the {} ended the cut of {} of {}", a.detail.whatEndsTheCut(), unfinished,
-                             grouped(frames.size(), "frame", "frames")));
+    session.warn(fmt::format("the {} ended the cut of {} of {}", a.detail.whatEndsTheCut(), unfinished, all));
   if (large > 0)
     session.warn(fmt::format("--max-triangles {}: the coarsest {} of {} of {} more", a.detail.maxTriangles,
                              agreeing(frames.size(), "cut", "cuts"), large,
                              grouped(frames.size(), "frame has", "frames have")));
-  warnOfFramesBehind(a.pictures.frames, frames.size(), session);
-  // The figures list every frame; they go to a file of their own only if one is named.
-  for (const FilmFrame& frame : frames) {
-    Json entry = {{"file", frame.file}, {"seconds", frame.seconds}, {"camera", jsonOf(frame.camera)}};
-    if (a.pictures.dropsFrames) entry.erase("file");
-    entry.update(jsonOf(frame.figures));
-    list.push_back(std::move(entry));
-    triangles += frame.figures.triangles;
-  }
-  json["renderer"] = view.description();
+  std::error_code ignored;
+  if (std::filesystem::exists(std::filesystem::path(p.frames) / fmt::format("frame_{:05}.png", frames.size()),
+                              ignored))
+    session.warn(fmt::format("{} has frames of an earlier, longer flight behind these", p.frames));
   json["frames"] = std::move(list);
-  if (!a.pictures.figures.empty()) {
-    ARETE_TRY(auto file, FileWriter::create(a.pictures.figures));
+  if (!p.figures.empty()) {
+    ARETE_TRY(auto file, FileWriter::create(p.figures));
     file.write(json.dump(1) + "\n");
     ARETE_CHECK(file.finish());
   }
-  if (!a.pictures.dropsFrames)
-    session.say(fmt::format("{}: {}, {} in the mean\n", a.pictures.frames,
-                            grouped(frames.size(), "frame", "frames"),
+  if (!p.dropsFrames)
+    session.say(fmt::format("{}: {}, {} in the mean\n", p.frames, all,
                             grouped(triangles / frames.size(), "triangle", "triangles")));
+  if (p.film.empty()) return {};
   // The film is encoded from the frames in their folder, at the rate at which they were drawn.
-  if (!a.pictures.film.empty()) {
-    const double rate =
-        a.pictures.framesPerSecond > 0 ? a.pictures.framesPerSecond : flight.plan().framesPerSecond;
-    ARETE_CHECK(makeFilmOf(a.pictures, frames.size(), rate, session));
-    json["film"] = a.pictures.film;
+  const double rate = p.framesPerSecond > 0 ? p.framesPerSecond : flight.plan().framesPerSecond;
+  Status encoded = encodeFilm(p.frames, frames.size(), rate, p.film, session.context());
+  // Its sentence says that the pictures are there.
+  if (!encoded && p.dropsFrames) {
+    std::string& sentence = encoded.error().message;
+    sentence.erase(std::min(sentence.find(';'), sentence.size()));
   }
+  ARETE_CHECK(encoded);
+  session.say(fmt::format("{}: {}\n", p.film, all));
+  json["film"] = p.film;
   return {};
 }
 

@@ -7,7 +7,6 @@
 #include "cli/session/session.h"
 #include "cli/view/arguments.h"
 #include "engine/base/result.h"
-#include "terrain/locate/ground_height.h"
 #include "terrain/model/camera.h"
 #include "viewer/camera/flight.h"
 #include "viewer/headless/headless.h"
@@ -36,25 +35,16 @@ class FramesFolder {
   std::string temporary_;  // empty: none
 };
 
-/// Makes the film of the pictures. Errors: as encodeFilm().
-Status makeFilmOf(const PictureArguments& pictures, std::size_t frames, double rate, Session& session);
-
-/// Warns of frames in the folder that an earlier, longer film left behind the ones that were drawn.
-void warnOfFramesBehind(const std::string& folder, std::size_t frames, const Session& session);
-
 /// Draws one picture and writes it; adds "screenshot" to the JSON answer.
 ///
-/// Warns where the picture shows no terrain or the cut ended early. Errors: those of HeadlessView::draw() and
-/// savePng().
+/// Warns where the picture shows nothing of the model or the cut ended early. Errors: those of
+/// HeadlessView::draw() and savePng().
 Status takeScreenshot(const ViewArguments& arguments, const Camera& camera, HeadlessView& view,
                       Session& session, Json& json);
 
 /// Draws the frames of a flight, writes their figures and makes the film, as far as the arguments say; adds
-/// "frames" and "film" to the JSON answer.
-///
-/// @param heights of the terrain, for a warning where the camera is under the ground.
-/// Errors: those of drawFilm() and encodeFilm().
-Status makeFilm(const ViewArguments& arguments, const Flight& flight, const GroundHeights& heights,
-                HeadlessView& view, Session& session, Json& json);
+/// "frames" and "film" to the JSON answer. Errors: those of drawFilm() and encodeFilm().
+Status makeFilm(const ViewArguments& arguments, const Flight& flight, HeadlessView& view, Session& session,
+                Json& json);
 
 }  // namespace arete

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Reads the model, places the camera or the flight, and hands both to the window or, with --headless, to the
-// functions of pictures.h.
+// Reads the model, of terrain or a surface, places the camera or the flight, and hands all to the window or,
+// with --headless, to the functions of pictures.h.
 #include "cli/view/view.h"
 
 #include <fmt/format.h>
@@ -15,66 +15,118 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "cli/surface/camera.h"
 #include "cli/view/arguments.h"
 #include "cli/view/pictures.h"
-#include "cli/view/surface.h"
 #include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/query/extract/camera_argument.h"
 #include "io/query/extract/model_file.h"
 #include "io/store/amt/file.h"
-#include "terrain/locate/ground_height.h"
+#include "io/store/amt/surface_file.h"
 #include "viewer/camera/flight_json.h"
-#include "viewer/camera/home_view.h"
-#include "viewer/camera/round_flight.h"
+#include "viewer/gl/drape_on_gpu.h"
+#include "viewer/gl/terrain_drawable.h"
 #include "viewer/headless/headless.h"
-#include "viewer/scene/curved_home_view.h"
-#include "viewer/window/terrain_window.h"
+#include "viewer/surface/surface_drawable.h"
+#include "viewer/window/window.h"
 
 namespace arete {
 namespace {
 
-Result<Camera> cameraOf(const ViewArguments& a, const TerrainModel& model, const GroundHeights& heights,
-                        int width, int height) {
-  // A home view depends on the shape of the picture, so its size comes first.
-  Camera picture;
-  picture.widthPixels = width;
-  picture.heightPixels = height;
-  if (a.viewpoint.camera.empty()) {
-    const CameraSpace space(model);
-    if (!a.appearance.isCurved)
-      return homeCamera(a.viewpoint.homeView(), space, metricBox(model), picture, a.appearance.exaggeration);
-    ARETE_TRY(const auto ground, CurvedGround::create(model));
-    return curvedHomeCamera(a.viewpoint.homeView(), ground, space, metricBox(model), picture,
-                            a.appearance.exaggeration);
+/// A model of either kind, as the window and the pictures take it.
+struct Viewed {
+  std::shared_ptr<const Subject> subject;
+  std::uint64_t finestTriangles = 0;
+  Georeference georeference = {};
+  LongitudeTurns turns = {};
+  std::optional<Camera> camera = {};  ///< that is stated
+  std::string source = {};            ///< that is not to be overwritten
+  FillScene addModel;                 ///< keeps the model
+};
+
+Result<Viewed> readTerrain(const ViewArguments& a, AmtContainer container, Session& session) {
+  ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
+  ARETE_TRY(TerrainModel read, file.read({}, session.context()));
+  const auto model = std::make_shared<const TerrainModel>(std::move(read));
+  const auto subject = std::make_shared<const TerrainSubject>(*model);
+  ARETE_CHECK(checkGroundUnits(model->georeference, {a.appearance.hazeWithUnit}));
+  Viewed viewed{.subject = subject,
+                .finestTriangles = model->mt.finestTriangleCount(),
+                .georeference = model->georeference,
+                .turns = LongitudeTurns(*model),
+                .source = model->source,
+                .addModel = {}};
+  if (!a.viewpoint.camera.empty()) {
+    ARETE_TRY(const auto toDem, transformOfPlaces(a.viewpoint.isLonLat, *model));
+    ARETE_TRY(CameraArgument stated,
+              readCameraArgument("--camera", a.viewpoint.camera, toDem, *subject->heights()));
+    viewed.camera = stated.camera;
   }
-  ARETE_TRY(const auto toDem, transformOfPlaces(a.viewpoint.isLonLat, model));
-  ARETE_TRY(CameraArgument stated, readCameraArgument("--camera", a.viewpoint.camera, toDem, heights));
-  stated.camera.widthPixels = width;
-  stated.camera.heightPixels = height;
-  return stated.camera;
+  ARETE_TRY(const DrapeOptions drapeOptions, a.appearance.drapeOptions());
+  double interval = a.appearance.contours;
+  if (const std::string& stated = a.appearance.contoursWithUnit; !stated.empty()) {
+    ARETE_TRY(interval, inDataUnit(StatedLength{.number = interval, .unitMetres = 1},
+                                   heightUnitOf(model->georeference), stated));
+  }
+  viewed.addModel = [&a, &session, model, subject, drapeOptions, interval](Scene& scene) -> Status {
+    ARETE_TRY(TerrainDrawable made,
+              TerrainDrawable::create(
+                  subject, {.path = a.detail.isCutByProcessor() ? CutPath::processor : CutPath::device},
+                  session.context()));
+    ARETE_CHECK(scene.add(std::make_unique<TerrainDrawable>(std::move(made))));
+    if (const std::string& file = a.appearance.drape; !file.empty()) {
+      ARETE_TRY(DrapeOnGpu drape, DrapeOnGpu::load(file, *model, drapeOptions, session.context()));
+      session.warn(drape.warnings(), file);
+      scene.layers.put("drape", std::make_shared<const DrapeOnGpu>(std::move(drape)));
+    }
+    if (interval > 0) scene.layers.put("contours", Contours{interval});
+    return {};
+  };
+  return viewed;
 }
 
-Result<std::optional<Flight>> flightOf(const ViewArguments& a, const TerrainModel& model,
-                                       const GroundHeights& heights, Session& session) {
-  const CameraSpace space(model);
+Result<Viewed> readSurface(const ViewArguments& a, const AmtContainer& file, Session& session) {
+  ARETE_TRY(SurfaceModel read, loadSurfaceAmt(file, AmtVerify::all, session.context()));
+  const auto model = std::make_shared<const SurfaceModel>(std::move(read));
+  const auto subject = std::make_shared<const SurfaceSubject>(*model, ZUpFrame(*model, a.viewpoint.up));
+  Viewed viewed{.subject = subject,
+                .finestTriangles = model->mt.finestTriangleCount(),
+                .addModel = [model, subject](Scene& scene) -> Status {
+                  ARETE_TRY(SurfaceDrawable made, SurfaceDrawable::create(*model, subject));
+                  return scene.add(std::make_unique<SurfaceDrawable>(std::move(made)));
+                }};
+  if (a.viewpoint.camera.empty()) return viewed;
+  ARETE_TRY(const SurfaceCameraArgument stated, readSurfaceCamera(a.viewpoint.camera));
+  const Vec3 eye = subject->upright().fromFile(stated.camera.eye);
+  const Look look = subject->space().lookAlong(subject->upright().fromFile(stated.camera.target) - eye);
+  Camera camera = subject->space().at({}, eye);
+  camera.azimuthDegrees = look.azimuthDegrees;
+  camera.pitchDegrees = look.pitchDegrees;
+  if (stated.statesFieldOfView) camera.verticalFieldOfViewDegrees = stated.camera.verticalFieldOfViewDegrees;
+  if (const Result<View> view = subject->viewOf(camera); !view)
+    return failure(view.error().code, view.error().message, "--camera " + a.viewpoint.camera);
+  viewed.camera = camera;
+  return viewed;
+}
+
+Result<std::optional<Flight>> flightOf(const ViewArguments& a, const Viewed& viewed, const Camera& camera,
+                                       Session& session) {
+  const std::string& path = a.viewpoint.path;
+  if (!a.viewpoint.hasFlight()) return std::optional<Flight>();
   FlightPlan plan;
-  if (!a.viewpoint.path.empty()) {
-    ARETE_TRY(FlightRead read, readFlight(a.viewpoint.path, model.georeference, LongitudeTurns(model)));
-    session.warn(read.warnings, a.viewpoint.path);
-    plan = std::move(read.plan);
-  } else if (a.viewpoint.isRound) {
-    ARETE_TRY(FlightPlan round, roundFlight(heights, space, metricBox(model)));
-    plan = std::move(round);
+  if (path.empty()) {
+    ARETE_TRY(plan, viewed.subject->round(camera));
   } else {
-    return std::optional<Flight>();
+    ARETE_TRY(FlightRead read, readFlight(path, viewed.georeference, viewed.turns));
+    session.warn(read.warnings, path);
+    plan = std::move(read.plan);
   }
-  Result<Flight> flight = Flight::create(std::move(plan), space);
-  // A flight around the terrain comes from no file that the error could name.
-  if (!flight && !a.viewpoint.path.empty())
-    return failure(
-        ErrorCode::invalidData, flight.error().message,
-        flight.error().culprit.empty() ? a.viewpoint.path : a.viewpoint.path + ", " + flight.error().culprit);
+  Result<Flight> flight = Flight::create(std::move(plan), viewed.subject->space());
+  // A flight around the model comes from no file that the error could name.
+  if (!flight && !path.empty())
+    return failure(ErrorCode::invalidData, flight.error().message,
+                   flight.error().culprit.empty() ? path : path + ", " + flight.error().culprit);
   if (!flight) return tl::unexpected(flight.error());
   return std::optional<Flight>(std::move(*flight));
 }
@@ -83,29 +135,29 @@ Status runView(ViewArguments a, Session& session) {
   ARETE_CHECK(a.completePictures());
   ARETE_TRY(AmtContainer container, openModelFile(a.model));
   ARETE_CHECK(a.kinds.refuseOther(kindOf(container)));
-  if (container.isOfSurface()) return viewSurface(a, container, session);
   ARETE_CHECK(a.check());
   ARETE_TRY(const FramesFolder framesFolder, FramesFolder::of(a.pictures));
-  ARETE_TRY(ViewSettings settings, a.settings());
-  ARETE_TRY(const DrapeOptions drapeOptions, a.appearance.drapeOptions());
   ARETE_TRY(const auto size, a.pictures.size());
-  ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
-  ARETE_TRY(const TerrainModel model, file.read({}, session.context()));
-  ARETE_CHECK(a.detail.findBudget(model.mt.finestTriangleCount()));
+  const bool isSurface = container.isOfSurface();
+  ARETE_TRY(const Viewed viewed,
+            isSurface ? readSurface(a, container, session) : readTerrain(a, std::move(container), session));
+  const Subject& subject = *viewed.subject;
+  ARETE_CHECK(a.detail.findBudget(viewed.finestTriangles));
+  ARETE_TRY(ViewSettings settings, a.settings(subject.colorings()));
   settings.maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);
-  ARETE_CHECK(checkGroundUnits(model.georeference, {a.appearance.hazeWithUnit}));
-  if (const std::string& stated = a.appearance.contoursWithUnit; !stated.empty()) {
-    const StatedLength interval{.number = settings.look.contourInterval, .unitMetres = 1};
-    ARETE_TRY(settings.look.contourInterval, inDataUnit(interval, heightUnitOf(model.georeference), stated));
-  }
-  const GroundHeights heights(model);
-  ARETE_TRY(const Camera camera, cameraOf(a, model, heights, size.first, size.second));
-  // A camera below the ground may be meant, so it is allowed.
-  if (const auto ground = heights.at(camera.xy); ground && camera.height < ground->height)
-    session.warn(fmt::format("the camera stands {} under the ground",
-                             withUnit(ground->height - camera.height, model.georeference.verticalUnit)));
-  ARETE_TRY(const auto flight, flightOf(a, model, heights, session));
+  ARETE_CHECK(subject.check(settings));
 
+  // A home view depends on the shape of the picture, so its size comes first.
+  Camera camera = viewed.camera.value_or(Camera());
+  camera.widthPixels = size.first;
+  camera.heightPixels = size.second;
+  if (!viewed.camera) camera = subject.home(a.viewpoint.homeView(), camera, settings);
+  // A camera below the ground may be meant, so it is allowed.
+  if (const auto ground = subject.heights() ? subject.heights()->at(camera.xy) : std::nullopt;
+      ground && camera.height < ground->height)
+    session.warn(fmt::format("the camera stands {} under the ground",
+                             withUnit(ground->height - camera.height, viewed.georeference.verticalUnit)));
+  ARETE_TRY(const auto flight, flightOf(a, viewed, camera, session));
   if (!a.pictures.frames.empty()) {
     if (const auto count = filmFrames(*flight, a.pictures.framesPerSecond); !count)
       return failure(
@@ -114,51 +166,38 @@ Status runView(ViewArguments a, Session& session) {
     std::error_code failed;  // drawFilm() says why; the film may lie in it
     std::filesystem::create_directories(a.pictures.frames, failed);
   }
-  ARETE_CHECK(checkPictureOutputs(a, {a.model, a.viewpoint.path, a.appearance.drape, model.source}));
+  ARETE_CHECK(checkPictureOutputs(a, {a.model, a.viewpoint.path, a.appearance.drape, viewed.source}));
 
-  const auto layDrape = [&](TerrainView& view) -> Status {
-    ARETE_CHECK(view.setDrape(a.appearance.drape, drapeOptions, session.context()));
-    session.warn(view.drape()->warnings(), a.appearance.drape);
-    return {};
-  };
+  const Camera start = flight && !a.viewpoint.statesCamera() ? flight->at(0) : camera;
   if (!a.pictures.isHeadless) {
     WindowOptions window{.title = fmt::format("arete - {}", a.model)};
     window.start.settings = settings;
     window.start.frameMilliseconds = a.detail.frameTime;
-    if (a.viewpoint.statesCamera())
-      window.start.camera = camera;
-    else if (flight)
-      window.start.camera = flight->at(0);
+    window.start.home = a.viewpoint.homeView();
+    if (viewed.camera || flight) window.start.camera = start;
     if (flight) window.start.flight = flight->plan();
     if (!a.viewpoint.path.empty()) window.start.flightPath = a.viewpoint.path;
     if (!a.pictures.sizeText.empty()) std::tie(window.width, window.height) = size;
     window.samples = a.pictures.samples;
-    window.start.hasDrape = !a.appearance.drape.empty();
-    if (!a.appearance.drape.empty()) window.onReady = layDrape;
     window.lastPicture = a.pictures.windowScreenshot;
     window.frames = a.pictures.windowFrames;
-    return runWindow(model, window, session.context());
+    return runWindow(viewed.addModel, window, session.context());
   }
 
-  HeadlessOptions options{size.first, size.second, a.pictures.samples, settings};
-  ARETE_TRY(HeadlessView view, HeadlessView::create(model, options, session.context()));
-  for (const std::string& warning : view.warnings()) session.warn(warning);
-  Json json = {{"model", a.model}, {"renderer", view.description()}};
-  a.detail.addBudgetTo(json, model.mt.finestTriangleCount());
-  if (!a.appearance.drape.empty()) {
-    ARETE_CHECK(layDrape(view.view()));
-    const DrapeOnGpu& drape = *view.view().drape();
+  ARETE_TRY(HeadlessView view,
+            HeadlessView::create({size.first, size.second, a.pictures.samples, settings}, viewed.addModel));
+  session.warn(view.warnings(), a.model);
+  Json json = {{"model", a.model}, {"kind", subject.kind()}, {"renderer", view.description()}};
+  a.detail.addBudgetTo(json, viewed.finestTriangles);
+  if (const Layer* layer = view.scene().layers.find("drape")) {
+    const DrapeOnGpu& drape = *std::get<Layer::Drape>(layer->content);
     json["drape"] = {{"file", a.appearance.drape},
                      {"columns", drape.columns()},
                      {"rows", drape.rows()},
                      {"bytes", drape.bytes()}};
   }
-  if (!a.pictures.screenshot.empty()) {
-    const bool isStated = a.viewpoint.statesCamera();
-    const Camera from = flight && !isStated ? flight->at(0) : camera;
-    ARETE_CHECK(takeScreenshot(a, from, view, session, json));
-  }
-  if (!a.pictures.frames.empty()) ARETE_CHECK(makeFilm(a, *flight, heights, view, session, json));
+  if (!a.pictures.screenshot.empty()) ARETE_CHECK(takeScreenshot(a, start, view, session, json));
+  if (!a.pictures.frames.empty()) ARETE_CHECK(makeFilm(a, *flight, view, session, json));
   session.answer(json);
   return {};
 }

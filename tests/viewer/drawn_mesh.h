@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "viewer/gl/offscreen.h"
-#include "viewer/gl/terrain_view.h"
+#include "viewer/gl/terrain_drawable.h"
 
 namespace arete::test {
 
@@ -22,7 +22,7 @@ struct DrawnMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-inline DrawnMesh readDrawn(const TerrainView& view) {
+inline DrawnMesh readDrawn(const TerrainDrawable& view) {
   const TerrainOnGpu& t = view.terrain();
   const TerrainModel& model = view.model();
   const MetricFrame& metric = model.mt.arrays().metric;

@@ -19,6 +19,7 @@
 #include "datasets/random.h"
 #include "terrain/builder/build.h"
 #include "terrain/model/camera.h"
+#include "viewer/camera_models.h"
 
 namespace arete::test {
 
@@ -26,10 +27,6 @@ constexpr double kRadians = std::numbers::pi / 180;
 
 inline const GeographicLib::Geocentric& wgs84() {
   return GeographicLib::Geocentric::WGS84();
-}
-
-inline double apart(const Vec3& a, const Vec3& b) {
-  return std::sqrt(dot(a - b, a - b));
 }
 
 /// Earth-centred, of longitude and latitude in degrees.

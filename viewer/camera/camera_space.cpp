@@ -97,4 +97,17 @@ Look CameraSpace::lookAlong(const Vec3& d, double azimuthThere) const {
   return look;
 }
 
+Result<View> viewOf(const Camera& camera, const CameraSpace& space) {
+  View view;
+  view.eye = space.position(camera);
+  view.forward = space.forward(lookOf(camera));
+  view.up = space.up(lookOf(camera));
+  view.verticalFieldOfView = camera.verticalFieldOfViewDegrees * kRadians;
+  view.widthPixels = camera.widthPixels;
+  view.heightPixels = camera.heightPixels;
+  if (const Status valid = view.validate(); !valid)
+    return failure(valid.error().code, valid.error().message, "camera");
+  return view;
+}
+
 }  // namespace arete

@@ -41,6 +41,8 @@ class CameraSpace {
 
   /// Metres of one unit of height.
   double metresPerHeight() const { return metresPerHeight_; }
+  /// Whether the space turns the other way round than the map.
+  bool isMirrored() const { return isMirrored_; }
 
  private:
   Vec3 level(double azimuthDegrees) const;
@@ -51,6 +53,9 @@ class CameraSpace {
   Vec2 east_{1, 0}, north_{0, 1};  // unit vectors
   bool isMirrored_ = false;
 };
+
+/// What a camera sees, in the space that it moves in. Errors: usage, culprit "camera".
+Result<View> viewOf(const Camera& camera, const CameraSpace& space);
 
 /// An azimuth in 0 to below 360.
 double wrappedAzimuth(double degrees);

@@ -85,6 +85,26 @@ Result<FlightPlan> roundFlight(const GroundHeights& heights, const CameraSpace& 
   return plan;
 }
 
+// So many keys that between two of them the path leaves the circle by far less than a pixel.
+Result<FlightPlan> turnAround(const CameraSpace& space, const Vec3& middle, const Camera& from,
+                              double durationSeconds) {
+  constexpr int kKeys = 72;
+  FlightPlan plan;
+  plan.duration = durationSeconds;
+  plan.framesPerSecond = 30;
+  const Vec3 away = space.position(from) - middle;
+  plan.isClosed = std::hypot(away.x, away.y) > 1e-5 * norm(away);
+  for (int i = 0; i < (plan.isClosed ? kKeys : kKeys + 1); ++i) {
+    const double turn = 2 * std::numbers::pi * i / kKeys, c = std::cos(turn), s = std::sin(turn);
+    const Vec3 place = plan.isClosed ? Vec3{away.x * c - away.y * s, away.x * s + away.y * c, away.z} : away;
+    Camera key = space.at(from, middle + place);
+    key.azimuthDegrees = wrappedAzimuth(from.azimuthDegrees - turn * 180 / std::numbers::pi);
+    plan.keys.push_back(key);
+  }
+  ARETE_CHECK(Flight::create(plan, space));
+  return plan;
+}
+
 double leastHeightAboveGround(const Flight& flight, const GroundHeights& heights, const CameraSpace& space,
                               std::size_t looks) {
   double least = std::numeric_limits<double>::infinity();

@@ -25,6 +25,12 @@ struct RoundFlightOptions {
 Result<FlightPlan> roundFlight(const GroundHeights& heights, const CameraSpace& space, const MetricBox& box,
                                const RoundFlightOptions& options = {});
 
+/// A closed flight once around the vertical through a place, anticlockwise on the map, from a camera on: with
+/// its distance, its height and, as it is turned with it, its view of the place. A camera above the place
+/// turns on the spot. Errors: those of Flight::create(). O(1).
+Result<FlightPlan> turnAround(const CameraSpace& space, const Vec3& middle, const Camera& from,
+                              double durationSeconds = 8);
+
 /// The least height of a flight above the ground in metres, over so many looks at even times; infinite where
 /// there is no terrain under any of them.
 double leastHeightAboveGround(const Flight& flight, const GroundHeights& heights, const CameraSpace& space,

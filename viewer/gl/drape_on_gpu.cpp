@@ -26,7 +26,8 @@ namespace {
 
 constexpr std::int32_t kSmallestPicture = 32;  // of the last level, in pixels along its longer side
 constexpr std::size_t kMostLevels = 16;        // shaders/terrain.frag.glsl
-constexpr GLint kPicture = 2, kEye = 3, kStep = 4, kLevels = 5;
+constexpr GLint kPicture = 2, kEye = 6, kStep = 10, kLevels = 14;
+constexpr GLuint kFirstUnit = 2;
 
 /// Half of what is free, as far as the driver tells; a quarter of the machine's memory where it does not.
 std::uint64_t roomInBytes() {
@@ -168,17 +169,19 @@ Status DrapeOnGpu::makeLevels() const {
   return {};
 }
 
-void DrapeOnGpu::bind(GLuint program, GLuint unit, Vec2 eyePlan, Vec2 metricScale) const {
-  glBindTextureUnit(unit, texture_);
+void DrapeOnGpu::bind(GLuint program, GLuint slot, Vec2 eyePlan, Vec2 metricScale) const {
+  glBindTextureUnit(kFirstUnit + slot, texture_);
+  const auto at = GLint(slot);
   constexpr double kFar = 1e9;
   const Vec2 eye{eyePlan.x * scale_.x + shift_.x, eyePlan.y * scale_.y + shift_.y};
   const double x = std::clamp(std::floor(eye.x), -kFar, kFar), y = std::clamp(std::floor(eye.y), -kFar, kFar);
-  glProgramUniform4i(program, kPicture, GLint(columns_), GLint(rows_), GLint(side_), GLint(grid_.size()));
-  glProgramUniform2i(program, kEye, GLint(x), GLint(y));
-  glProgramUniform4f(program, kStep, float(scale_.x / metricScale.x), float(scale_.y / metricScale.y),
+  glProgramUniform4i(program, kPicture + at, GLint(columns_), GLint(rows_), GLint(side_),
+                     GLint(grid_.size()));
+  glProgramUniform2i(program, kEye + at, GLint(x), GLint(y));
+  glProgramUniform4f(program, kStep + at, float(scale_.x / metricScale.x), float(scale_.y / metricScale.y),
                      float(eye.x - x), float(eye.y - y));
   for (std::size_t k = 0; k < grid_.size(); ++k)
-    glProgramUniform2i(program, kLevels + GLint(k), grid_[k].firstLayer, grid_[k].tilesAcross);
+    glProgramUniform2i(program, kLevels + 16 * at + GLint(k), grid_[k].firstLayer, grid_[k].tilesAcross);
 }
 
 }  // namespace arete

@@ -41,9 +41,9 @@ class DrapeOnGpu {
   /// Differences from the file as sentences: read coarser, bands chosen.
   const Warnings& warnings() const { return warnings_; }
 
-  /// The texture and the uniforms of shaders/terrain.frag.glsl, for an eye over a plan position and so many
-  /// units of metric space a unit of the plan.
-  void bind(GLuint program, GLuint unit, Vec2 eyePlan, Vec2 metricScale) const;
+  /// The texture and the uniforms of shaders/terrain.frag.glsl for a layer on the ground, counted from 0, for
+  /// an eye over a plan position and so many units of metric space a unit of the plan.
+  void bind(GLuint program, GLuint slot, Vec2 eyePlan, Vec2 metricScale) const;
 
  private:
   struct Level {

@@ -4,6 +4,8 @@
 // fragment shader colours by height, slope, aspect or error; the sky is a triangle behind everything.
 #include "viewer/gl/terrain_painter.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -21,12 +23,14 @@ namespace arete {
 
 /// shaders/terrain.frag.glsl, std140.
 struct TerrainPainter::Look {
-  glm::vec4 sun{}, range{}, heightUnits{}, modes{}, flatColor{}, overlayFrame{}, eastNorth{}, heat{};
+  glm::vec4 sun{}, range{}, heightUnits{}, modes{}, flatColor{}, eastNorth{}, heat{};
+  std::array<glm::vec4, Layers::kMostOnGround> ground{}, overlayFrame{};
 };
 
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
+constexpr GLuint kFirstOverlay = 6;  // texture unit, as in the shader
 
 /// dz/dx and dz/dy of the samples in metric space: central differences, one-sided beside what has no data.
 std::vector<float> slopesOf(const RasterHeightfield& f, const MetricFrame& metric) {
@@ -85,8 +89,7 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
   };
   for (const Status& ok :
        {program(p.terrain_, {"frame.glsl", "terrain.vert.glsl"}, {"frame.glsl", "terrain.frag.glsl"}),
-        program(p.sky_, {"sky.vert.glsl"}, {"frame.glsl", "sky.frag.glsl"}),
-        program(p.lines_, {"frame.glsl", "lines.vert.glsl"}, {"lines.frag.glsl"})})
+        program(p.sky_, {"sky.vert.glsl"}, {"frame.glsl", "sky.frag.glsl"})})
     if (!ok) return tl::unexpected(ok.error());
 
   const MultiTriangulation& mt = model.mt;
@@ -97,7 +100,6 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
   // A small buffer stands in where a front has no ids, so that the shader never meets an empty binding.
   p.noIds_ = makeBuffer(64);
   p.emptyArray_ = makeVertexArray();
-  p.linesArray_ = makeVertexArray();
   p.terrainArray_ = makeVertexArray();
 
   double low = INFINITY, high = -INFINITY;
@@ -159,41 +161,76 @@ void TerrainPainter::setFrame(const FrameView& frame) {
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
 }
 
-void TerrainPainter::setOverlay(int width, int height, std::span<const std::array<std::uint8_t, 4>> rgba,
-                                Vec2 scale, Vec2 shift) {
-  hasOverlay_ = !rgba.empty();
-  if (!hasOverlay_) return;
-  overlay_ = makeTexture(GL_TEXTURE_2D);
-  glTextureStorage2D(overlay_, levelsOf(std::uint32_t(width), std::uint32_t(height)), GL_RGBA8, width,
-                     height);
+namespace {
+
+GlTexture overlayTexture(const PlanPicture& picture) {
+  GlTexture texture = makeTexture(GL_TEXTURE_2D);
+  glTextureStorage2D(texture, levelsOf(std::uint32_t(picture.width), std::uint32_t(picture.height)), GL_RGBA8,
+                     picture.width, picture.height);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTextureSubImage2D(overlay_, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-  glGenerateTextureMipmap(overlay_);
+  glTextureSubImage2D(texture, 0, 0, 0, picture.width, picture.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                      picture.rgba.data());
+  glGenerateTextureMipmap(texture);
   // The overlay keeps hard edges when it is enlarged: a pixel is one answer.
-  setSampling(overlay_, GL_LINEAR_MIPMAP_LINEAR, GL_NEAREST);
-  overlayFrame_ = {float(scale.x), float(scale.y), float(shift.x), float(shift.y)};
+  setSampling(texture, GL_LINEAR_MIPMAP_LINEAR, GL_NEAREST);
+  return texture;
+}
+
+}  // namespace
+
+Status TerrainPainter::setLayers(std::span<const Layer> layers) {
+  std::vector<Ground> ground;
+  for (const Layer& layer : layers) {
+    if (!layer.isOnGround() || !layer.isVisible) continue;
+    if (ground.size() == Layers::kMostOnGround)
+      return failure(ErrorCode::unsupported,
+                     fmt::format("more than {} layers on the ground are not painted at once; hide some",
+                                 Layers::kMostOnGround),
+                     layer.name);
+    Ground& g = ground.emplace_back(Ground{.layer = layer});
+    const auto* overlay = std::get_if<Layer::Overlay>(&layer.content);
+    if (!overlay) continue;
+    const auto known = std::ranges::find_if(ground_, [&](const Ground& old) {
+      const auto* other = std::get_if<Layer::Overlay>(&old.layer.content);
+      return other && *other == *overlay && old.overlay != 0;
+    });
+    g.overlay = known != ground_.end() ? std::move(known->overlay) : overlayTexture(**overlay);
+  }
+  ground_ = std::move(ground);
+  return {};
+}
+
+// Azimuths go clockwise from north. The direction is in metric space.
+glm::vec4 TerrainPainter::sunOf(const ViewLook& look) const {
+  const Sun sun = look.sun.value_or(Sun{});
+  const double azimuth = sun.azimuthDegrees * kRadians, elevation = sun.elevationDegrees * kRadians;
+  const double flat = std::cos(elevation);
+  return {float(flat * (std::sin(azimuth) * east_.x + std::cos(azimuth) * north_.x)),
+          float(flat * (std::sin(azimuth) * east_.y + std::cos(azimuth) * north_.y)),
+          float(std::sin(elevation)), 0};
 }
 
 void TerrainPainter::draw(const TerrainOnGpu& terrain, const DrawnFront& front, const ViewLook& l) {
   Look look;
-  // Azimuths go clockwise from north. The sun's direction is in metric space.
-  const double azimuth = l.sunAzimuthDegrees * kRadians, elevation = l.sunElevationDegrees * kRadians;
-  const double flat = std::cos(elevation);
-  look.sun = {float(flat * (std::sin(azimuth) * east_.x + std::cos(azimuth) * north_.x)),
-              float(flat * (std::sin(azimuth) * east_.y + std::cos(azimuth) * north_.y)),
-              float(std::sin(elevation)), l.isShaded ? 1.0f : 0.0f};
-  look.range = {float(lowest_), float(highest_), float(l.contourInterval), 1.0f};
+  look.sun = sunOf(l);
+  look.sun[3] = l.isShaded ? 1.0f : 0.0f;
+  look.range = {float(lowest_), float(highest_), 0, 1.0f};
   look.heightUnits = {float(1 / metric_.scale.z), float(metric_.origin.z), float(l.hazeKilometres * 1000), 0};
-  const int mode = l.coloring == Coloring::hypsometric ? 0
-                   : l.coloring == Coloring::slope     ? 1
-                   : l.coloring == Coloring::aspect    ? 2
-                   : l.coloring == Coloring::error     ? 4
-                                                       : 3;
-  const bool isDraped = l.hasDrape && drape_ != nullptr;
-  look.modes = {float(mode), hasSlopes_ ? 1.0f : 0.0f, isDraped ? 1.0f : 0.0f,
-                l.hasOverlay && hasOverlay_ ? 1.0f : 0.0f};
-  if (isDraped) drape_->bind(terrain_, 2, eyePlan_, {metric_.scale.x, metric_.scale.y});
-  look.overlayFrame = overlayFrame_;
+  look.modes = {float(l.coloring), hasSlopes_ ? 1.0f : 0.0f, float(ground_.size()), 0};
+  for (std::size_t i = 0; i < ground_.size(); ++i) {
+    const Layer& layer = ground_[i].layer;
+    look.ground[i] = {float(layer.content.index() + 1), float(layer.opacity), 0, 0};
+    if (const auto* drape = std::get_if<Layer::Drape>(&layer.content)) {
+      (*drape)->bind(terrain_, GLuint(i), eyePlan_, {metric_.scale.x, metric_.scale.y});
+    } else if (const auto* overlay = std::get_if<Layer::Overlay>(&layer.content)) {
+      const PlanPicture& picture = **overlay;
+      look.overlayFrame[i] = {float(picture.scale.x), float(picture.scale.y), float(picture.shift.x),
+                              float(picture.shift.y)};
+      glBindTextureUnit(kFirstOverlay + GLuint(i), ground_[i].overlay);
+    } else {
+      look.ground[i][2] = float(std::get<Contours>(layer.content).interval);
+    }
+  }
   look.eastNorth = {float(east_.x), float(east_.y), float(north_.x), float(north_.y)};
   look.heat = {float(l.heatError), 0, 0, 0};
   drawWith(terrain, front, look);
@@ -225,7 +262,6 @@ void TerrainPainter::drawWith(const TerrainOnGpu& terrain, const DrawnFront& fro
   glUseProgram(terrain_);
   glBindTextureUnit(0, slopes_);
   glBindTextureUnit(1, tints_);
-  glBindTextureUnit(3, overlay_);
   // Codes follow each other as the bits of the floats that they stand for do.
   const auto bitsOf = [&](OutwardScale::Code code) {
     return std::bit_cast<std::uint32_t>(scale_.decode(code));
@@ -260,12 +296,9 @@ void TerrainPainter::drawWith(const TerrainOnGpu& terrain, const DrawnFront& fro
 }
 
 void TerrainPainter::drawSky(const ViewLook& l) {
-  const double azimuth = l.sunAzimuthDegrees * kRadians, elevation = l.sunElevationDegrees * kRadians;
-  const double flat = std::cos(elevation);
+  const glm::vec4 sun = sunOf(l);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
-  glProgramUniform4f(sky_, 0, float(flat * (std::sin(azimuth) * east_.x + std::cos(azimuth) * north_.x)),
-                     float(flat * (std::sin(azimuth) * east_.y + std::cos(azimuth) * north_.y)),
-                     float(std::sin(elevation)), 1.0f);
+  glProgramUniform4f(sky_, 0, sun.x, sun.y, sun.z, 1.0f);
   glUseProgram(sky_);
   glBindVertexArray(emptyArray_);
   glEnable(GL_DEPTH_TEST);
@@ -273,28 +306,6 @@ void TerrainPainter::drawSky(const ViewLook& l) {
   glDepthMask(GL_FALSE);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDepthMask(GL_TRUE);
-}
-
-void TerrainPainter::drawLines(std::span<const LineEnd> ends, bool isAlwaysSeen) {
-  if (ends.empty()) return;
-  const GlBuffer buffer = makeBuffer(ends);
-  glVertexArrayVertexBuffer(linesArray_, 0, buffer, 0, sizeof(LineEnd));
-  glVertexArrayAttribFormat(linesArray_, 0, 3, GL_FLOAT, GL_FALSE, 0);
-  glVertexArrayAttribFormat(linesArray_, 1, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(LineEnd, color));
-  for (const GLuint i : {0u, 1u}) {
-    glVertexArrayAttribBinding(linesArray_, i, 0);
-    glEnableVertexArrayAttrib(linesArray_, i);
-  }
-  glUseProgram(lines_);
-  glBindVertexArray(linesArray_);
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
-  if (isAlwaysSeen)
-    glDisable(GL_DEPTH_TEST);
-  else
-    glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_GEQUAL);
-  glDrawArrays(GL_LINES, 0, GLsizei(ends.size()));
-  glEnable(GL_DEPTH_TEST);
 }
 
 }  // namespace arete

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <optional>
+#include <span>
+#include <vector>
 
 #include "engine/base/result.h"
 #include "terrain/model/terrain_model.h"
@@ -10,12 +10,10 @@
 #include "viewer/gl/frame_block.h"
 #include "viewer/gl/gl_objects.h"
 #include "viewer/gl/terrain_on_gpu.h"
-#include "viewer/picture/picture.h"
-#include "viewer/scene/view_look.h"
+#include "viewer/scene/layer.h"
+#include "viewer/scene/view_settings.h"
 
 namespace arete {
-
-class DrapeOnGpu;
 
 /// Draws fronts of one terrain and the sky behind them, into the framebuffer that is bound.
 class TerrainPainter {
@@ -27,12 +25,10 @@ class TerrainPainter {
   /// The frame's block goes into uniform buffer binding 0, for cuts as well.
   void setFrame(const FrameView& frame);
 
-  /// A picture over the plan: (u, v) = plan * scale + shift, v downwards from its first row; transparent
-  /// where alpha is 0. Empty to remove it.
-  void setOverlay(int width, int height, std::span<const std::array<std::uint8_t, 4>> rgba, Vec2 scale,
-                  Vec2 shift);
-  /// Precondition: it outlives the painter or the next call. Null to remove it.
-  void setDrape(const DrapeOnGpu* drape) { drape_ = drape; }
+  /// The layers of the next pictures, the lowest first: those on the ground that are visible. A picture of an
+  /// overlay is uploaded once. Errors: unsupported: more than Layers::kMostOnGround, naming the first too
+  /// many.
+  Status setLayers(std::span<const Layer> layers);
 
   /// Preconditions: the frame is set; colouring by error: terrain.triangleErrors are there.
   void draw(const TerrainOnGpu& terrain, const DrawnFront& front, const ViewLook& look);
@@ -40,30 +36,26 @@ class TerrainPainter {
   /// Draws in one colour, without the sky, to count covered pixels.
   void drawFlat(const TerrainOnGpu& terrain, const DrawnFront& front, const glm::vec4& color);
 
-  struct LineEnd {
-    std::array<float, 3> position;  ///< TerrainView::drawnPosition()
-    std::array<std::uint8_t, 4> color;
-  };
-  /// Lines between pairs of ends. `isAlwaysSeen`: also behind the terrain.
-  void drawLines(std::span<const LineEnd> ends, bool isAlwaysSeen = false);
-
  private:
   TerrainPainter() = default;
   struct Look;
+  glm::vec4 sunOf(const ViewLook& look) const;
   void drawWith(const TerrainOnGpu& terrain, const DrawnFront& front, const Look& look);
 
-  GlProgram terrain_, sky_, lines_;
+  GlProgram terrain_, sky_;
   GlBuffer frame_, look_, noIds_;
-  GlVertexArray terrainArray_, emptyArray_, linesArray_;
-  GlTexture slopes_, tints_, overlay_;
-  glm::vec4 overlayFrame_{};
-  bool hasSlopes_ = false, hasOverlay_ = false;
-  const DrapeOnGpu* drape_ = nullptr;
+  GlVertexArray terrainArray_, emptyArray_;
+  GlTexture slopes_, tints_;
+  struct Ground {
+    Layer layer;
+    GlTexture overlay = {};
+  };
+  std::vector<Ground> ground_;
+  bool hasSlopes_ = false;
   Vec2 eyePlan_;
   MetricFrame metric_;
   double lowest_ = 0, highest_ = 0;  // metric z
   Vec2 east_, north_;                // of the map, in metric space
-  double metresPerUnit_ = 1;         // of metric space
   OutwardScale scale_;
 };
 

@@ -21,6 +21,7 @@
 #include "io/files/text_scan.h"
 #include "viewer/gl/frame_target.h"
 #include "viewer/gl/offscreen.h"
+#include "viewer/gl/terrain_drawable.h"
 
 extern char** environ;
 
@@ -34,26 +35,34 @@ constexpr std::uint64_t kMostFrames = 1'000'000;
 struct HeadlessView::State {
   OffscreenContext context;  // the last to go
   FrameTarget target;
-  TerrainView view;
+  Scene scene;
   HeadlessOptions options;
   Warnings warnings;
 };
 
-Result<HeadlessView> HeadlessView::create(const TerrainModel& model, const HeadlessOptions& options,
-                                          const RunContext& context) {
+Result<HeadlessView> HeadlessView::create(const HeadlessOptions& options, const FillScene& fill) {
   ARETE_TRY(OffscreenContext gl, OffscreenContext::create());
   ARETE_TRY(FrameTarget target,
             FrameTarget::create(options.widthPixels, options.heightPixels, options.samples));
-  TerrainView::Options viewOptions;
-  viewOptions.path = options.settings.path;
-  ARETE_TRY(TerrainView view, TerrainView::create(model, viewOptions, context));
-  auto state = std::make_unique<State>(State{std::move(gl), std::move(target), std::move(view), options, {}});
-  if (options.settings.path == CutPath::device && !state->view.deviceRefusal().empty()) {
-    state->warnings.push_back(
-        {WarningCode::display, "the processor takes the cuts: " + state->view.deviceRefusal()});
+  ARETE_TRY(Scene scene, Scene::create());
+  auto state =
+      std::make_unique<State>(State{std::move(gl), std::move(target), std::move(scene), options, {}});
+  ARETE_CHECK(fill(state->scene));
+  state->warnings = state->scene.warnings();
+  const std::string refusal = state->scene.deviceRefusal();
+  if (options.settings.path == CutPath::device && !refusal.empty()) {
+    state->warnings.push_back({WarningCode::display, "the processor takes the cuts: " + refusal});
     state->options.settings.path = CutPath::processor;
   }
   return HeadlessView(std::move(state));
+}
+
+Result<HeadlessView> HeadlessView::create(const TerrainModel& model, const HeadlessOptions& options,
+                                          const RunContext& context) {
+  return create(options, [&](Scene& scene) -> Status {
+    ARETE_TRY(TerrainDrawable made, TerrainDrawable::create(model, {.path = options.settings.path}, context));
+    return scene.add(std::make_unique<TerrainDrawable>(std::move(made)));
+  });
 }
 
 HeadlessView::HeadlessView(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -61,24 +70,24 @@ HeadlessView::HeadlessView(HeadlessView&&) noexcept = default;
 HeadlessView& HeadlessView::operator=(HeadlessView&&) noexcept = default;
 HeadlessView::~HeadlessView() = default;
 
-Result<FrameFigures> HeadlessView::draw(const Camera& stated) {
+Result<FrameFigures> HeadlessView::draw(const Camera& stated, const RunContext& context) {
   State& s = *state_;
   Camera camera = stated;
   camera.widthPixels = s.options.widthPixels;
   camera.heightPixels = s.options.heightPixels;
   ViewSettings settings = s.options.settings;
   settings.waits = true;
-  Result<FrameFigures> figures = s.view.cut(camera, settings);
+  Result<FrameFigures> figures = s.scene.cut(camera, settings, context);
   if (!figures) return figures;
   // The device's cut knows its number of triangles beforehand, but not which tolerance has fewer: doubled
   // until there are few enough, halved between (on a logarithmic scale) until nearly all of the budget is
   // used.
-  const std::uint32_t most = settings.maxTriangles > 0 ? settings.maxTriangles : s.view.capacity();
+  const std::uint32_t most = settings.maxTriangles > 0 ? settings.maxTriangles : s.scene.capacity();
   const auto fits = [&] { return figures->isComplete && figures->asked <= most; };
-  if (settings.path == CutPath::device && !fits()) {
+  if (!s.scene.keepsBudget(settings) && !fits()) {
     const auto cutAt = [&](double pixels) -> Status {
       settings.pixels = pixels;
-      figures = s.view.cut(camera, settings);
+      figures = s.scene.cut(camera, settings, context);
       return figures ? Status() : tl::unexpected(figures.error());
     };
     constexpr int kDoublings = 60, kHalvings = 12;
@@ -101,9 +110,9 @@ Result<FrameFigures> HeadlessView::draw(const Camera& stated) {
   // The time of drawing ends when the device has finished, and not when the last call returns.
   const Stopwatch watch;
   s.target.begin();
-  ARETE_CHECK(s.view.draw(camera, settings));
+  ARETE_CHECK(s.scene.draw(camera, settings));
   glFinish();
-  figures->showsTerrain = s.view.showsTerrain();
+  figures->isShown = s.scene.isShown();
   figures->drawMilliseconds = watch.milliseconds();
   return figures;
 }
@@ -111,8 +120,8 @@ Result<FrameFigures> HeadlessView::draw(const Camera& stated) {
 Image HeadlessView::image() const {
   return state_->target.image();
 }
-TerrainView& HeadlessView::view() {
-  return state_->view;
+Scene& HeadlessView::scene() {
+  return state_->scene;
 }
 const std::string& HeadlessView::description() const {
   return state_->context.description();
@@ -150,7 +159,7 @@ Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight
     frame.seconds = double(i) / rate;
     frame.camera = flight.at(frame.seconds);
     const auto path = options.folder / fmt::format("frame_{:05}.png", i);
-    const Result<FrameFigures> figures = view.draw(frame.camera);
+    const Result<FrameFigures> figures = view.draw(frame.camera, context);
     if (!figures)
       return failure(figures.error().code, figures.error().message,
                      fmt::format("{}, {}", path.string(), figures.error().culprit));

@@ -12,7 +12,7 @@
 #include "engine/parallel/run_context.h"
 #include "terrain/model/camera.h"
 #include "viewer/camera/flight.h"
-#include "viewer/gl/terrain_view.h"
+#include "viewer/gl/scene.h"
 #include "viewer/picture/picture.h"
 
 namespace arete {
@@ -23,28 +23,31 @@ struct HeadlessOptions {
   ViewSettings settings;
 };
 
-/// Draws pictures of a terrain without a screen, in an off-screen OpenGL context that is current on the
-/// thread that created it.
+/// Draws pictures of a scene without a screen, in an off-screen OpenGL context that is current on the thread
+/// that created it.
 class HeadlessView {
  public:
-  /// The model stays alive as long as this. Errors: unsupported (no OpenGL 4.5, a terrain too large for the
-  /// device), usage (a size of picture that the device cannot draw).
+  /// Errors: unsupported (no OpenGL 4.5), usage (a size of picture that the device cannot draw); those of
+  /// `fill`.
+  static Result<HeadlessView> create(const HeadlessOptions& options, const FillScene& fill);
+  /// Of a terrain alone, which stays alive as long as this. Errors: also unsupported, a terrain too large for
+  /// the device.
   static Result<HeadlessView> create(const TerrainModel& model, const HeadlessOptions& options,
                                      const RunContext& context = {});
   HeadlessView(HeadlessView&&) noexcept;
   HeadlessView& operator=(HeadlessView&&) noexcept;
   ~HeadlessView();
 
-  /// The terrain as the camera sees it. The size of the picture is that of the options, not of the
-  /// camera. With a budget, the tolerance grows until the cut fits. Errors: usage, of the camera.
-  Result<FrameFigures> draw(const Camera& camera);
+  /// The scene as the camera sees it. The size of the picture is that of the options, not of the camera. With
+  /// a budget, the tolerance grows until the cut fits. Errors: those of Scene.
+  Result<FrameFigures> draw(const Camera& camera, const RunContext& context = {});
   /// The picture that was drawn last.
   Image image() const;
 
-  TerrainView& view();
+  Scene& scene();
   /// The renderer's name and the version of OpenGL.
   const std::string& description() const;
-  /// Settings that the device does not support, as sentences.
+  /// What is not shown, and settings that the device does not support, as sentences.
   const Warnings& warnings() const;
 
  private:

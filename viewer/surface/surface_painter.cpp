@@ -20,7 +20,7 @@ struct SurfacePainter::Look {
 
 namespace {
 
-Vec3 towardsSun(const FrameView& frame, const SurfaceLook& look) {
+Vec3 towardsSun(const FrameView& frame, const ViewLook& look) {
   if (look.sun) {
     const double azimuth = look.sun->azimuthDegrees * std::numbers::pi / 180,
                  elevation = look.sun->elevationDegrees * std::numbers::pi / 180;
@@ -31,8 +31,8 @@ Vec3 towardsSun(const FrameView& frame, const SurfaceLook& look) {
   return unit(-0.62 * axes.right + 0.62 * axes.up - 0.48 * axes.forward);
 }
 
-float coloringNumber(SurfaceColoring coloring) {
-  return coloring == SurfaceColoring::materials ? 0.0f : coloring == SurfaceColoring::plain ? 1.0f : 2.0f;
+float coloringNumber(Coloring coloring) {
+  return coloring == Coloring::material ? 0.0f : coloring == Coloring::plain ? 1.0f : 2.0f;
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ void SurfacePainter::drawRange(const DrawnSurface::Range& range, const Look& loo
 }
 
 void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials,
-                          const DrawnSurface& front, const FrameView& frame, const SurfaceLook& look) {
+                          const DrawnSurface& front, const FrameView& frame, const ViewLook& look) {
   const FrameBlock block = frameBlock(frame, MetricFrame{});
   glNamedBufferSubData(frame_, 0, sizeof block, &block);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
@@ -92,7 +92,7 @@ void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& mat
   glDepthFunc(GL_GEQUAL);
 
   const Vec3 sun = towardsSun(frame, look);
-  const bool hasMaterials = look.coloring == SurfaceColoring::materials;
+  const bool hasMaterials = look.coloring == Coloring::material;
   // Blended materials are drawn after the others, over them, and do not write depth, so that what lies behind
   // them stays visible. Only the colouring by materials has any.
   for (const bool isBlended : {false, true}) {

@@ -2,31 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include "engine/base/result.h"
 #include "viewer/gl/frame_block.h"
 #include "viewer/gl/gl_objects.h"
+#include "viewer/scene/view_settings.h"
 #include "viewer/surface/materials_on_gpu.h"
 #include "viewer/surface/surface_on_gpu.h"
 
 namespace arete {
-
-enum class SurfaceColoring { materials, plain, error };
-
-/// Colours and light of a surface.
-struct SurfaceLook {
-  SurfaceColoring coloring = SurfaceColoring::materials;
-  bool isShaded = true;
-  bool hasWireframe = false;
-  /// Clockwise from north and above the horizon, in degrees. Nothing: from above the left shoulder of who
-  /// looks.
-  struct Sun {
-    double azimuthDegrees = 315, elevationDegrees = 40;
-  };
-  std::optional<Sun> sun = {};
-};
 
 /// A front as it lies in graphics memory: its triangles by material.
 struct DrawnSurface {
@@ -46,7 +31,7 @@ class SurfacePainter {
 
   /// `frame`: of upright space. What is blended is drawn last, in the order of its triangles.
   void draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials, const DrawnSurface& front,
-            const FrameView& frame, const SurfaceLook& look);
+            const FrameView& frame, const ViewLook& look);
   void drawBackground();
 
  private:

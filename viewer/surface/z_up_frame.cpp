@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viewer/surface/z_up_frame.h"
 
-#include <algorithm>
-#include <limits>
-#include <numbers>
-
 namespace arete {
 
 ZUpFrame::ZUpFrame(const SurfaceModel& model, std::string_view up)
@@ -23,41 +19,9 @@ View ZUpFrame::turnedBack(View view) const {
   return view;
 }
 
-ZUpShape uprightShape(const SurfaceModel& model, const ZUpFrame& upright) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  constexpr std::uint32_t kMostPoints = 20'000;
-  ZUpShape shape{.box = {{kNone, kNone, kNone}, {-kNone, -kNone, -kNone}}, .points = {}};
-  MetricBox& box = shape.box;
-  for (std::uint32_t v = 0; v < model.mt.vertexCount(); ++v) {
-    const Vec3 p = upright.fromFile(model.mt.position(VertexId(v)));
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-    if (v < kMostPoints) shape.points.push_back(p);
-  }
-  return shape;
-}
-
-Camera surfaceHome(HomeView view, const ZUpShape& shape, const Camera& picture) {
-  const CameraSpace space;
-  const Look look = view == HomeView::overview ? Look{325, -20} : homeLook(view);
-  Camera camera = space.at(picture, eyeOnAll(shape.points, axesOf(space, look), picture));
-  camera.azimuthDegrees = wrappedAzimuth(look.azimuthDegrees);
-  camera.pitchDegrees = look.pitchDegrees;
-  return camera;
-}
-
-Result<View> uprightView(const Camera& camera) {
-  const CameraSpace space;
-  View view;
-  view.eye = space.position(camera);
-  view.forward = space.forward(lookOf(camera));
-  view.up = space.up(lookOf(camera));
-  view.verticalFieldOfView = camera.verticalFieldOfViewDegrees * std::numbers::pi / 180;
-  view.widthPixels = camera.widthPixels;
-  view.heightPixels = camera.heightPixels;
-  if (const Status valid = view.validate(); !valid)
-    return failure(valid.error().code, valid.error().message, "camera");
-  return view;
+HomeShape uprightShape(const SurfaceModel& model, const ZUpFrame& upright) {
+  return homeShape(model.mt.vertexCount(),
+                   [&](std::uint32_t v) { return upright.fromFile(model.mt.position(VertexId(v))); });
 }
 
 }  // namespace arete

@@ -34,19 +34,7 @@ class ZUpFrame {
   bool isYUp_ = false;
 };
 
-/// Where a surface is in upright space.
-struct ZUpShape {
-  MetricBox box;             ///< the least along the axes that holds all vertices
-  std::vector<Vec3> points;  ///< vertices, those of coarse levels first, 20 000 at most
-};
-/// O(vertices).
-ZUpShape uprightShape(const SurfaceModel& model, const ZUpFrame& upright);
-
-/// The nearest camera that has all points of the shape in its picture: along the axes, as homeLook(), but for
-/// the overview, which shows three sides: the front, its left and the top. What is in front looks south.
-Camera surfaceHome(HomeView view, const ZUpShape& shape, const Camera& picture);
-
-/// What a camera of upright space sees, as a view of it. Errors: usage, culprit "camera".
-Result<View> uprightView(const Camera& camera);
+/// Where a surface is in upright space. O(vertices).
+HomeShape uprightShape(const SurfaceModel& model, const ZUpFrame& upright);
 
 }  // namespace arete

@@ -8,27 +8,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "viewer/scene/curved_home_view.h"
-
 namespace arete {
-namespace {
 
-double distance(const Vec3& a, const Vec3& b) {
-  return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
-}
-
-}  // namespace
-
-CameraRig::CameraRig(const TerrainPicker& picker, const GroundHeights& heights, const Camera& start)
-    : picker_(picker),
-      heights_(heights),
-      space_(picker.space()),
+CameraRig::CameraRig(const Subject& subject, const Camera& start)
+    : subject_(subject),
+      space_(subject.space()),
       camera_(start),
       orbit_(space_, {}, start),
       free_(space_, start),
-      ground_(std::in_place, heights, space_, GroundFollowing::Options{.floorMetres = floorMetres_}),
-      metresPerSecond_(picker.box().diagonal() / 40) {
-  enter(start);
+      metresPerSecond_(subject.box().diagonal() / 40) {
+  setFloorMetres(subject.heights() ? floorMetres_ : 0);
 }
 
 Camera CameraRig::shown(Camera camera) const {
@@ -45,13 +34,21 @@ Camera CameraRig::asIs(Camera camera) const {
   return camera;
 }
 
-/// Of the camera at hand: as far as the terrain in the middle of its picture, or the middle of all.
+/// Of the camera at hand: as far as the model in the middle of its picture, or, of what lies ahead, the place
+/// nearest to the middle of all.
 double CameraRig::reach() const {
-  const auto hit = picker_.at(camera_, {camera_.widthPixels / 2, camera_.heightPixels / 2}, stretch_);
-  Vec3 target = hit ? hit->metric : picker_.box().centre(), eye = space_.position(camera_);
+  const Vec2 middle{camera_.widthPixels / 2, camera_.heightPixels / 2};
+  // A surface turns about its own middle, not about the part of it that is in front.
+  const auto hit = subject_.heights() ? subject_.pick(camera_, middle, {.stretch = stretch_}) : std::nullopt;
+  Vec3 target = hit ? hit->metric : subject_.box().centre(), eye = space_.position(camera_);
   target.z *= stretch_;
   eye.z *= stretch_;
-  return std::max(distance(eye, target), 1e-3);
+  if (subject_.heights()) return std::max(norm(target - eye), 1e-3);
+  return std::max(dot(target - eye, space_.forward(lookOf(camera_))), subject_.leastRadius());
+}
+
+Camera CameraRig::aboveFloor(const Camera& camera) {
+  return ground_ && floorMetres_ > 0 ? ground_->aboveFloor(camera) : camera;
 }
 
 /// Both cameras and the following of the terrain begin anew from a place, so that the next input continues
@@ -61,7 +58,7 @@ void CameraRig::enter(const Camera& camera) {
   camera_.azimuthDegrees = wrappedAzimuth(camera.azimuthDegrees);
   const Camera there = shown(camera_);
   orbit_ = OrbitCamera::of(space_, there, reach());
-  orbit_.limitRadius(std::max(floorMetres_, 0.5), 100 * picker_.box().diagonal());
+  orbit_.limitRadius(std::max(floorMetres_, subject_.leastRadius()), 100 * subject_.box().diagonal());
   free_.place(there);
   free_.stop();
   if (follows_) ground_->begin(camera_);
@@ -80,20 +77,17 @@ void CameraRig::setMode(CameraMode mode) {
   enter(camera_);
 }
 
-void CameraRig::home(HomeView view, const CurvedGround* ground) {
+void CameraRig::home(HomeView view, bool isCurved) {
   mode_ = CameraMode::orbit;
   follows_ = false;
-  enter(ground ? curvedHomeCamera(view, *ground, space_, picker_.box(), camera_, stretch_)
-               : homeCamera(view, space_, picker_.box(), camera_, stretch_));
+  enter(subject_.home(view, camera_, {.stretch = stretch_, .isCurved = isCurved}));
 }
 
 // The target stays in the middle of the picture, at the stated distance or the present one.
 void CameraRig::lookAt(const Vec3& metric, double metres) {
   const double radius = metres > 0 ? metres : orbit_.orbit().radius;
   const Vec3 f = space_.forward(lookOf(camera_)), target{metric.x, metric.y, metric.z * stretch_};
-  const Camera there =
-      asIs(space_.at(camera_, {target.x - radius * f.x, target.y - radius * f.y, target.z - radius * f.z}));
-  enter(floorMetres_ > 0 ? ground_->aboveFloor(there) : there);
+  enter(aboveFloor(asIs(space_.at(camera_, target - radius * f))));
 }
 
 // A change of the picture or the field of view changes what lies in its middle, so the orbit is found again.
@@ -123,6 +117,7 @@ void CameraRig::setStretch(double stretch) {
 }
 
 void CameraRig::follow(bool isOn) {
+  if (!ground_) return;
   if (isOn && mode_ != CameraMode::free) setMode(CameraMode::free);
   follows_ = isOn;
   if (isOn) ground_->begin(camera_);
@@ -130,17 +125,18 @@ void CameraRig::follow(bool isOn) {
 
 void CameraRig::setFloorMetres(double metres) {
   floorMetres_ = metres;
-  ground_.emplace(heights_, space_, GroundFollowing::Options{.floorMetres = metres});
+  if (const GroundHeights* heights = subject_.heights())
+    ground_.emplace(*heights, space_, GroundFollowing::Options{.floorMetres = metres});
   enter(camera_);
 }
 
 void CameraRig::setMetresPerSecond(double speed) {
-  const double diagonal = picker_.box().diagonal();
+  const double diagonal = subject_.box().diagonal();
   metresPerSecond_ = std::clamp(speed, 1e-6 * diagonal, 10 * diagonal);
 }
 
 std::optional<double> CameraRig::metresAboveGround() const {
-  const auto ground = heights_.at(camera_.xy);
+  const auto ground = subject_.heights() ? subject_.heights()->at(camera_.xy) : std::nullopt;
   if (!ground) return std::nullopt;
   return (camera_.height - ground->height) * space_.metresPerHeight();
 }
@@ -166,8 +162,8 @@ bool CameraRig::step(const InputState& input) {
       if (motion.speed.climb != 0)
         ground_->keep(ground_->keptMetres() + motion.speed.climb * input.seconds / stretch_);
       there = ground_->follow(there, input.seconds);
-    } else if (floorMetres_ > 0) {
-      there = ground_->aboveFloor(there);
+    } else {
+      there = aboveFloor(there);
     }
     free_.place(shown(there));
   } else {
@@ -176,9 +172,13 @@ bool CameraRig::step(const InputState& input) {
       return false;
     }
     orbit_.turn(motion.turnRight, motion.turnUp);
-    orbit_.slide(motion.slideRight, motion.slideAhead);
+    if (ground_)
+      orbit_.slide(motion.slideRight, motion.slideAhead);
+    else
+      orbit_.pan(motion.slideRight, motion.slideAhead);
     if (motion.zoom != 1) {
-      const auto under = input.wheel != 0 ? picker_.at(camera_, input.mouse, stretch_) : std::nullopt;
+      const auto under =
+          input.wheel != 0 ? subject_.pick(camera_, input.mouse, {.stretch = stretch_}) : std::nullopt;
       if (under)
         orbit_.zoomAbout({under->metric.x, under->metric.y, under->metric.z * stretch_}, motion.zoom);
       else
@@ -186,12 +186,12 @@ bool CameraRig::step(const InputState& input) {
     }
     there = asIs(orbit_.camera());
     // The orbit goes on where it would be; only what is seen stays above the floor.
-    if (floorMetres_ > 0) there = ground_->aboveFloor(there);
+    there = aboveFloor(there);
   }
   there.widthPixels = camera_.widthPixels;
   there.heightPixels = camera_.heightPixels;
   camera_ = there;
-  lastSpeed_ = input.seconds > 0 ? distance(before, space_.position(camera_)) / input.seconds : 0;
+  lastSpeed_ = input.seconds > 0 ? norm(space_.position(camera_) - before) / input.seconds : 0;
   return !motion.isNone();
 }
 

@@ -5,22 +5,21 @@
 
 #include "viewer/camera/free_camera.h"
 #include "viewer/camera/ground_following.h"
-#include "viewer/camera/home_view.h"
 #include "viewer/camera/orbit_camera.h"
+#include "viewer/scene/subject.h"
 #include "viewer/window/camera_motion.h"
-#include "viewer/window/picking.h"
 
 namespace arete {
 
-/// The camera of the window, moved by input: an orbit, free flight, and a lowest height above the ground for
-/// both.
+/// The camera of the window, moved by input: an orbit, free flight, and, where there is ground, a lowest
+/// height above it for both. Around a model without ground, an orbit is moved in the plane of the picture.
 ///
 /// With vertical exaggeration it moves in the space that is drawn: an orbit stays centred, and flying ahead
 /// goes where the picture's middle is. camera() has heights without exaggeration. Keeps references.
 class CameraRig {
  public:
-  /// Preconditions: picker and heights outlive this. The camera begins as an orbit of what it looks at.
-  CameraRig(const TerrainPicker& picker, const GroundHeights& heights, const Camera& start);
+  /// Precondition: the subject outlives this. The camera begins as an orbit of what it looks at.
+  CameraRig(const Subject& subject, const Camera& start);
 
   const Camera& camera() const { return camera_; }
   CameraMode mode() const { return mode_; }
@@ -34,16 +33,16 @@ class CameraRig {
   void setMode(CameraMode mode);
   /// Sets the camera, as a flight or a key frame does. Picture size and exaggeration stay.
   void place(const Camera& camera);
-  /// A view of all of the terrain, on the curved Earth if it is shown.
-  void home(HomeView view, const CurvedGround* ground = nullptr);
-  /// Orbits a place of the terrain, from where the camera looks now, at `metres` from it (0 = as far as now).
+  /// A view of the whole model, on the curved Earth if it is shown.
+  void home(HomeView view, bool isCurved = false);
+  /// Orbits a place of the model, from where the camera looks now, at `metres` from it (0 = as far as now).
   void lookAt(const Vec3& metric, double metres = 0);
 
   void setPicture(double widthPixels, double heightPixels);
   void setFieldOfView(double degrees);
   void setStretch(double stretch);
 
-  /// Keeps the height above the ground in free flight.
+  /// Keeps the height above the ground in free flight. Without ground: nothing.
   void follow(bool isOn);
   bool follows() const { return follows_; }
   /// The lowest height above the ground in metres; 0 = no limit.
@@ -54,7 +53,7 @@ class CameraRig {
   void setMetresPerSecond(double speed);
   /// Its speed in the last frame, in metres per second.
   double lastMetresPerSecond() const { return lastSpeed_; }
-  /// Height above the terrain in metres; nothing outside the terrain.
+  /// Height above the ground in metres; nothing where there is none.
   std::optional<double> metresAboveGround() const;
 
  private:
@@ -62,9 +61,9 @@ class CameraRig {
   Camera asIs(Camera camera) const;
   double reach() const;
   void enter(const Camera& camera);
+  Camera aboveFloor(const Camera& camera);
 
-  const TerrainPicker& picker_;
-  const GroundHeights& heights_;
+  const Subject& subject_;
   CameraSpace space_;
   CameraMode mode_ = CameraMode::orbit;
   Camera camera_;
@@ -72,7 +71,7 @@ class CameraRig {
   double floorMetres_ = 2;  // before ground_, which is made with it
   OrbitCamera orbit_;
   FreeCamera free_;
-  std::optional<GroundFollowing> ground_;
+  std::optional<GroundFollowing> ground_;  // nothing: there is no ground
   bool follows_ = false;
   double metresPerSecond_, lastSpeed_ = 0;
 };

@@ -3,6 +3,7 @@
 // One table of keys; help and lookup both read it.
 #include "viewer/window/key_bindings.h"
 
+#include <algorithm>
 #include <array>
 
 #define GLFW_INCLUDE_NONE
@@ -14,22 +15,26 @@ namespace {
 constexpr std::array kKeys = {
     KeyBinding{GLFW_KEY_TAB, false, Action::toggleMode, "Tab", "orbit or free flight"},
     KeyBinding{GLFW_KEY_H, false, Action::nextHome, "H", "home views, one after the other"},
-    KeyBinding{GLFW_KEY_F, false, Action::follow, "F", "follow the terrain"},
+    KeyBinding{GLFW_KEY_F, false, Action::follow, "F", "follow the terrain",
+               "following the ground is for terrain"},
     KeyBinding{GLFW_KEY_K, false, Action::setKeyFrame, "K", "set a key frame"},
     KeyBinding{GLFW_KEY_P, false, Action::playFlight, "P", "play or stop the flight"},
     KeyBinding{GLFW_KEY_S, true, Action::saveFlight, "Ctrl+S", "save the flight"},
     KeyBinding{GLFW_KEY_O, true, Action::loadFlight, "Ctrl+O", "load the flight"},
     KeyBinding{GLFW_KEY_L, false, Action::wireframe, "L", "wireframe"},
-    KeyBinding{GLFW_KEY_C, false, Action::contours, "C", "contour lines"},
+    KeyBinding{GLFW_KEY_C, false, Action::contours, "C", "contour lines", "contours are for terrain"},
     KeyBinding{GLFW_KEY_Z, false, Action::freeze, "Z", "freeze the cut"},
-    KeyBinding{GLFW_KEY_G, false, Action::geomorph, "G", "geomorphing"},
-    KeyBinding{GLFW_KEY_1, false, Action::colorHeight, "1", "colour by height"},
-    KeyBinding{GLFW_KEY_2, false, Action::colorSlope, "2", "colour by slope"},
-    KeyBinding{GLFW_KEY_3, false, Action::colorAspect, "3", "colour by aspect"},
+    KeyBinding{GLFW_KEY_G, false, Action::geomorph, "G", "geomorphing", "geomorphing is for terrain"},
+    KeyBinding{GLFW_KEY_1, false, Action::colorUsual, "1", "colour by height; a surface by material"},
+    KeyBinding{GLFW_KEY_2, false, Action::colorSlope, "2", "colour by slope",
+               "colours by slope are for terrain"},
+    KeyBinding{GLFW_KEY_3, false, Action::colorAspect, "3", "colour by aspect",
+               "colours by aspect are for terrain"},
     KeyBinding{GLFW_KEY_4, false, Action::colorPlain, "4", "one colour"},
     KeyBinding{GLFW_KEY_5, false, Action::colorError, "5", "error heat map"},
-    KeyBinding{GLFW_KEY_BACKSPACE, false, Action::clearPicks, "Backspace", "take picks and viewshed away"},
-    KeyBinding{GLFW_KEY_F12, false, Action::screenshot, "F12", "picture of the terrain as PNG"},
+    KeyBinding{GLFW_KEY_BACKSPACE, false, Action::clearPicks, "Backspace", "take picks and viewshed away",
+               "picks are for terrain"},
+    KeyBinding{GLFW_KEY_F12, false, Action::screenshot, "F12", "picture of the model as PNG"},
     KeyBinding{GLFW_KEY_F2, false, Action::panel, "F2", "show or hide the panel"},
     KeyBinding{GLFW_KEY_F1, false, Action::help, "F1", "this help"},
 };
@@ -58,6 +63,10 @@ std::optional<Action> actionOfKey(int key, bool isWithControl) {
   for (const KeyBinding& b : kKeys)
     if (b.key == key && b.isWithControl == isWithControl) return b.action;
   return std::nullopt;
+}
+
+std::string_view refusalOf(Action action) {
+  return std::ranges::find(kKeys, action, &KeyBinding::action)->refusal;
 }
 
 std::optional<Action> actionOfButton(int button) {

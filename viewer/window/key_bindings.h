@@ -20,7 +20,7 @@ enum class Action {
   contours,
   freeze,
   geomorph,
-  colorHeight,
+  colorUsual,
   colorSlope,
   colorAspect,
   colorPlain,
@@ -37,6 +37,8 @@ struct KeyBinding {
   bool isWithControl = false;
   Action action = Action::help;
   std::string_view name, help;
+  /// Why a surface does not have it, as a sentence; empty: it does.
+  std::string_view refusal = {};
 };
 
 /// All keys with an action. The help and docs/topics/viewer.md list them.
@@ -44,6 +46,9 @@ std::span<const KeyBinding> keyBindings();
 
 /// @return nothing for a key without an action.
 std::optional<Action> actionOfKey(int key, bool isWithControl);
+
+/// KeyBinding::refusal of an action.
+std::string_view refusalOf(Action action);
 
 /// Buttons of a gamepad as GLFW numbers them.
 std::optional<Action> actionOfButton(int button);

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viewer/camera/round_flight.h"
 #include "viewer/panel/widgets.h"
 
 namespace arete {
@@ -31,16 +30,17 @@ using widget::tip;
 
 void Panel::draw(ViewerSession& s, double scale) {
   drawMarks(s, scale);
-  if (s.showsHelp) drawHelp(s);
-  if (s.showsPanel) {
+  if (s.shows.help) drawHelp(s);
+  if (s.shows.panel) {
     beginColumn("figures", false);
     frameSection(s);
     detailSection(s);
     lookSection(s);
+    layerSection(s);
     endColumn();
     beginColumn("places", true);
     cameraSection(s);
-    pickSection(s);
+    if (s.tools) pickSection(s, *s.tools);
     flightSection(s);
     endColumn();
   }
@@ -66,19 +66,20 @@ void Panel::frameSection(ViewerSession& s) {
                                           : fmt::format("{} of {}", grouped(f.triangles), grouped(f.asked)));
   row("tolerance", fmt::format("{:.2f} px asked, {:.2f} {}", s.wanted.pixels, f.pixels,
                                f.isComplete ? "kept" : "not kept"));
-  if (s.settings.isGeomorphed) {
+  if (s.tools && s.settings.isGeomorphed) {
     row("moving", fmt::format("{} vertices", grouped(f.moving)));
     if (f.jumpPixels > 0) row("jump", fmt::format("{:.2f} px at most", f.jumpPixels));
   }
   row("cut, draw", fmt::format("{:.1f} ms, {:.1f} ms", f.cutMilliseconds, f.drawMilliseconds));
-  row("memory", fmt::format("{}, {} on device", megabytes(s.residentBytes), megabytes(s.deviceBytes)));
-  dim(s.renderer);
+  row("memory",
+      fmt::format("{}, {} on device", megabytes(s.device.residentBytes), megabytes(s.device.deviceBytes)));
+  dim(s.device.renderer);
 }
 
 void Panel::detailSection(ViewerSession& s) {
   if (!section("Detail")) return;
   slider("tolerance", s.wanted.pixels, 0.25, 32, "%.2f px", true);
-  tip("How far anything drawn may be from the terrain at full resolution, on the screen.");
+  tip("How far anything drawn may be from the model at full resolution, on the screen.");
   // The slider counts thousands of triangles; 0 stands for any number.
   int triangles = int(s.wanted.maxTriangles / 1000);
   if (ImGui::SliderInt("most triangles", &triangles, 0, 4000, triangles == 0 ? "any number" : "%d 000",
@@ -87,11 +88,19 @@ void Panel::detailSection(ViewerSession& s) {
   slider("frame time", s.wanted.frameMilliseconds, 0, 100,
          s.wanted.frameMilliseconds <= 0 ? "any" : "%.0f ms");
   tip("The tolerance is made coarser, up to 64 pixels, until frames take no longer.");
+  ImGui::Checkbox("freeze cut", &s.isFrozen);
+  tip("The cut stays as it is while the camera flies on.");
+  if (s.tools) {
+    ImGui::SameLine(9.5f * em());
+    ImGui::Checkbox("geomorphing", &s.settings.isGeomorphed);
+  }
+  if (s.isFrozen) ImGui::Checkbox("show what the frozen camera sees", &s.shows.frustum);
+  if (!s.tools) return;
   // A device that cannot compute cuts leaves the processor as the only choice: the reason replaces the menu.
   int path = s.settings.path == CutPath::device ? 0 : 1;
-  if (!s.deviceRefusal.empty()) {
+  if (!s.device.refusal.empty()) {
     path = 1;
-    dim("cut on the processor: " + s.deviceRefusal);
+    dim("cut on the processor: " + s.device.refusal);
   } else if (ImGui::Combo("cut by", &path, "graphics device\0processor\0")) {
     s.settings.path = path == 0 ? CutPath::device : CutPath::processor;
   }
@@ -100,75 +109,104 @@ void Panel::detailSection(ViewerSession& s) {
            s.settings.cutMilliseconds <= 0 ? "none" : "%.0f ms");
     tip("A cut takes no longer; the next frame goes on with it.");
   }
-  ImGui::Checkbox("geomorphing", &s.settings.isGeomorphed);
-  ImGui::SameLine(9.5f * em());
-  ImGui::Checkbox("freeze cut", &s.isFrozen);
-  tip("The cut stays as it is while the camera flies on.");
-  if (s.isFrozen) ImGui::Checkbox("show what the frozen camera sees", &s.showsFrustum);
 }
 
 void Panel::lookSection(ViewerSession& s) {
   if (!section("Look")) return;
   ViewLook& look = s.settings.look;
-  int coloring = int(look.coloring);
-  if (ImGui::Combo("colour by", &coloring, "height\0slope\0aspect\0nothing\0error\0"))
-    look.coloring = Coloring(coloring);
-  if (look.coloring == Coloring::error) {
-    slider("hottest", look.heatError, 0, s.model.mt.largestError(), look.heatError <= 0 ? "chosen" : "%.2f",
-           true);
+  if (ImGui::BeginCombo("colour by", std::string(toString(look.coloring)).c_str())) {
+    for (const Coloring coloring : s.subject.colorings())
+      if (ImGui::Selectable(std::string(toString(coloring)).c_str(), coloring == look.coloring))
+        look.coloring = coloring;
+    ImGui::EndCombo();
+  }
+  if (look.coloring == Coloring::error && s.tools) {
+    slider("hottest", look.heatError, 0, s.tools->model().mt.largestError(),
+           look.heatError <= 0 ? "chosen" : "%.2f", true);
     tip("The error of the hottest colour, in the unit of heights.");
   }
   ImGui::Checkbox("shading", &look.isShaded);
   ImGui::SameLine(9.5f * em());
   ImGui::Checkbox("wireframe", &look.hasWireframe);
   if (look.isShaded) {
-    slider("sun azimuth", look.sunAzimuthDegrees, 0, 360, "%.0f°");
-    slider("sun height", look.sunElevationDegrees, 0, 90, "%.0f°");
+    Sun sun = look.sun.value_or(Sun{});
+    const bool isTurned = slider("sun azimuth", sun.azimuthDegrees, 0, 360, "%.0f°");
+    if (slider("sun height", sun.elevationDegrees, 0, 90, "%.0f°") || isTurned) look.sun = sun;
   }
-  if (s.canBeCurved) ImGui::Checkbox("curved Earth", &s.settings.isCurved);
+  if (!s.tools) return;
+  if (!s.tools->model().georeference.crsWkt.empty()) ImGui::Checkbox("curved Earth", &s.settings.isCurved);
   slider("heights times", s.settings.stretch, 0.5, 10, "%.2f", true);
-  // The picker's box is in metres; contours are in the DEM's unit of height.
-  const double range = (s.picker.box().high.z - s.picker.box().low.z) / s.picker.space().metresPerHeight();
-  bool hasContours = look.contourInterval > 0;
-  if (ImGui::Checkbox("contours", &hasContours)) s.apply(Action::contours);
-  if (look.contourInterval > 0) {
-    ImGui::SameLine(9.5f * em());
-    ImGui::PushItemWidth(5 * em());
-    const double least = usualContourInterval(range) / 20;
-    slider("##interval", look.contourInterval, least, std::max(range, 2 * least), "every %.3g", true);
-    ImGui::PopItemWidth();
-  }
   slider("haze", look.hazeKilometres, 0, 200, look.hazeKilometres <= 0 ? "none" : "%.0f km", true);
-  if (s.hasDrape) ImGui::Checkbox("photo", &look.hasDrape);
-  if (s.hasDrape && s.overlay) ImGui::SameLine(9.5f * em());
-  if (s.overlay) ImGui::Checkbox("viewshed", &look.hasOverlay);
+}
+
+void Panel::layerSection(ViewerSession& s) {
+  if (!section("Layers")) return;
+  bool hasContours = s.layers.find("contours") != nullptr;
+  if (s.tools && ImGui::Checkbox("draw contours", &hasContours)) s.apply(Action::contours);
+  // The highest is the first of the list.
+  std::vector<Layer>& list = s.layers.list();
+  for (std::size_t i = list.size(); i-- > 0;) {
+    Layer& layer = list[i];
+    ImGui::PushID(layer.name.c_str());
+    ImGui::Checkbox(layer.name.c_str(), &layer.isVisible);
+    ImGui::SameLine(9.5f * em());
+    ImGui::PushItemWidth(4 * em());
+    slider("##opacity", layer.opacity, 0, 1, "%.2f");
+    tip("Opacity.");
+    ImGui::PopItemWidth();
+    if (auto* contours = std::get_if<Contours>(&layer.content)) {
+      // The box is in metres; contours are in the DEM's unit of height.
+      const double range =
+                       (s.subject.box().high.z - s.subject.box().low.z) / s.subject.space().metresPerHeight(),
+                   least = usualContourInterval(range) / 20;
+      slider("##interval", contours->interval, least, std::max(range, 2 * least), "every %.3g", true);
+    }
+    ImGui::SameLine();
+    const bool isRaised = ImGui::ArrowButton("up", ImGuiDir_Up);
+    ImGui::PopID();
+    if (!isRaised) continue;
+    s.layers.move(i, true);
+    break;
+  }
 }
 
 void Panel::cameraSection(ViewerSession& s) {
   if (!section("Camera")) return;
   const Camera& camera = s.rig.camera();
-  row("place", s.places.xy(camera.xy));
-  if (s.places.hasLonLat() && !s.places.isLonLat()) {
-    const std::string lonLat = s.places.lonLat(camera.xy);
-    row("", lonLat.empty() ? "no longitude and latitude" : lonLat);
+  if (s.tools) {
+    const PlaceText& places = s.tools->places;
+    row("place", places.xy(camera.xy));
+    if (places.hasLonLat() && !places.isLonLat()) {
+      const std::string lonLat = places.lonLat(camera.xy);
+      row("", lonLat.empty() ? "no longitude and latitude" : lonLat);
+    }
+    row("height", places.height(camera.height));
+  } else {
+    const Vec3 eye = s.subject.inFile(s.subject.space().position(camera));
+    row("eye", fmt::format("{:.5g}, {:.5g}, {:.5g}", eye.x, eye.y, eye.z));
   }
-  row("height", s.places.height(camera.height));
   if (const auto above = s.rig.metresAboveGround()) row("", fmt::format("{:.1f} m above ground", *above));
   row("heading", fmt::format("{:.1f}°, pitch {:+.1f}°", camera.azimuthDegrees, camera.pitchDegrees));
-  row("speed", fmt::format("{:.1f} m/s", s.rig.lastMetresPerSecond()));
+  const double flown = s.rig.lastMetresPerSecond();
+  row("speed", s.tools ? fmt::format("{:.1f} m/s", flown) : fmt::format("{:.3g} /s", flown));
 
   int mode = s.rig.mode() == CameraMode::orbit ? 0 : 1;
   if (ImGui::RadioButton("orbit", &mode, 0)) s.rig.setMode(CameraMode::orbit);
   ImGui::SameLine();
   if (ImGui::RadioButton("free flight", &mode, 1)) s.rig.setMode(CameraMode::free);
-  ImGui::SameLine();
   bool follows = s.rig.follows();
-  if (ImGui::Checkbox("follow", &follows)) s.rig.follow(follows);
+  if (s.tools) {
+    ImGui::SameLine();
+    if (ImGui::Checkbox("follow", &follows)) s.rig.follow(follows);
+  }
   if (s.rig.mode() == CameraMode::free) {
     // Speed and floor are of the free flight. The speed's range follows the size of the terrain.
     double speed = s.rig.metresPerSecond();
-    const double diagonal = s.picker.box().diagonal();
-    if (slider("fly at", speed, 1e-5 * diagonal, diagonal, "%.1f m/s", true)) s.rig.setMetresPerSecond(speed);
+    const double diagonal = s.subject.box().diagonal();
+    if (slider("fly at", speed, 1e-5 * diagonal, diagonal, s.tools ? "%.1f m/s" : "%.3g /s", true))
+      s.rig.setMetresPerSecond(speed);
+  }
+  if (s.rig.mode() == CameraMode::free && s.tools) {
     double floor = s.rig.floorMetres();
     if (slider("floor", floor, 0, 200, floor <= 0 ? "none" : "%.1f m", true)) s.rig.setFloorMetres(floor);
     tip("The camera stays so far above the terrain. 0: it may go anywhere, below it too.");
@@ -182,54 +220,58 @@ void Panel::cameraSection(ViewerSession& s) {
       s.home(view);
     }
   }
+  if (!s.tools) return;
   bool goes = ImGui::InputTextWithHint("##goal", isGoalLonLat_ ? "lon,lat or lon,lat,H" : "X,Y or X,Y,H",
                                        &goal_, ImGuiInputTextFlags_EnterReturnsTrue);
   ImGui::SameLine();
   goes = ImGui::Button("go") || goes;
-  if (s.places.hasLonLat()) {
+  if (s.tools->places.hasLonLat()) {
     ImGui::SameLine();
     ImGui::Checkbox("lon,lat", &isGoalLonLat_);
   }
   if (goes && !goal_.empty()) s.goTo(goal_, isGoalLonLat_);
 }
 
-void Panel::pickSection(ViewerSession& s) {
+void Panel::pickSection(ViewerSession& s, TerrainTools& tools) {
   if (!section("Points and sight")) return;
-  if (s.picks.empty()) return dim("Click on the terrain: one point shows its height, two a line of sight.");
-  for (std::size_t i = 0; i < s.picks.size(); ++i) {
-    const TerrainPick& pick = s.picks[i];
-    row(i == 0 ? "A" : "B", s.places.xy(pick.xy));
-    const std::string lonLat = s.places.isLonLat() ? std::string() : s.places.lonLat(pick.xy);
+  if (tools.picks.empty())
+    return dim("Click on the terrain: one point shows its height, two a line of sight.");
+  for (std::size_t i = 0; i < tools.picks.size(); ++i) {
+    const Pick& pick = tools.picks[i];
+    row(i == 0 ? "A" : "B", tools.places.xy(pick.xy));
+    const std::string lonLat = tools.places.isLonLat() ? std::string() : tools.places.lonLat(pick.xy);
     if (!lonLat.empty()) row("", lonLat);
-    row("", s.places.height(pick.height));
+    row("", tools.places.height(pick.height));
   }
-  bool isMoved = slider("A above ground", s.observerAbove, 0, 200, "%.1f", true);
-  isMoved = slider("B above ground", s.targetAbove, 0, 200, "%.1f", true) || isMoved;
-  if (isMoved) s.updateSight();
+  bool isMoved = slider("A above ground", tools.observerAbove, 0, 200, "%.1f", true);
+  isMoved = slider("B above ground", tools.targetAbove, 0, 200, "%.1f", true) || isMoved;
+  if (isMoved) s.say(tools.updateSight());
   // Only the first line, the verdict, has a colour: green for visible, red for blocked, grey for what is
   // open.
-  if (s.sight) {
-    const SightVerdict verdict = s.sight->answer.sight.verdict;
+  if (tools.sight) {
+    const SightVerdict verdict = tools.sight->answer.sight.verdict;
     const ImVec4 color = verdict == SightVerdict::visible   ? ImVec4(0.45f, 0.90f, 0.45f, 1)
                          : verdict == SightVerdict::blocked ? ImVec4(1.00f, 0.45f, 0.40f, 1)
                                                             : ImVec4(0.75f, 0.75f, 0.75f, 1);
     ImGui::PushTextWrapPos(0);
-    for (std::size_t i = 0; i < s.sight->text.size(); ++i)
-      i == 0 ? ImGui::TextColored(color, "%s", s.sight->text[i].c_str()) : line(s.sight->text[i]);
+    for (std::size_t i = 0; i < tools.sight->text.size(); ++i)
+      i == 0 ? ImGui::TextColored(color, "%s", tools.sight->text[i].c_str()) : line(tools.sight->text[i]);
     ImGui::PopTextWrapPos();
   }
-  if (s.viewshed.isRunning()) {
-    ImGui::ProgressBar(float(s.viewshed.progress()), {9.2f * em(), 0});
+  if (tools.viewshed.isRunning()) {
+    ImGui::ProgressBar(float(tools.viewshed.progress()), {9.2f * em(), 0});
     ImGui::SameLine();
-    if (ImGui::Button("cancel")) s.viewshed.cancel();
-  } else if (s.model.isRaster) {
-    if (ImGui::Button(s.picks.size() == 1 ? "viewshed of A" : "viewshed of B")) s.startViewshed();
+    if (ImGui::Button("cancel")) tools.viewshed.cancel();
+  } else if (tools.model().isRaster) {
+    if (ImGui::Button(tools.picks.size() == 1 ? "viewshed of A" : "viewshed of B"))
+      s.say(tools.startViewshed());
     tip("What is seen from there, at the height of A above ground, of targets at the height of B.");
     ImGui::SameLine();
   }
-  if (ImGui::Button("clear")) s.clearPicks();
-  if (s.overlay)
-    dim(fmt::format("viewshed: {} of {} samples seen", grouped(s.overlay->seen), grouped(s.overlay->cells)));
+  if (ImGui::Button("clear")) tools.clear();
+  if (tools.overlay)
+    dim(fmt::format("viewshed: {} of {} samples seen", grouped(tools.overlay->seen),
+                    grouped(tools.overlay->cells)));
 }
 
 void Panel::flightSection(ViewerSession& s) {
@@ -242,14 +284,8 @@ void Panel::flightSection(ViewerSession& s) {
   ImGui::SameLine();
   if (ImGui::Button("forget") && count > 0) deck.clear();
   ImGui::SameLine();
-  if (ImGui::Button("around")) {
-    auto round = roundFlight(s.profiles.heights(), s.picker.space(), s.picker.box());
-    if (round)
-      deck.setPlan(*round);
-    else
-      s.say(round.error().describe());
-  }
-  tip("A flight around the inside of the terrain.");
+  if (ImGui::Button("around")) s.flyAround();
+  tip("A flight around the inside of a terrain, or around a surface.");
   if (deck.isPlaying()) {
     const std::string text = fmt::format("{:.1f} of {:.1f} s", deck.seconds(), deck.duration());
     const double part =
@@ -269,7 +305,9 @@ void Panel::flightSection(ViewerSession& s) {
       }
       ImGui::SameLine();
       const std::string text =
-          fmt::format("{}  {}  {}", i + 1, s.places.xy(key.xy), s.places.height(key.height));
+          s.tools ? fmt::format("{}  {}  {}", i + 1, s.tools->places.xy(key.xy),
+                                s.tools->places.height(key.height))
+                  : fmt::format("{}  {:.4g}, {:.4g}, {:.4g}", i + 1, key.xy.x, key.xy.y, key.height);
       if (ImGui::Selectable(text.c_str())) {
         deck.stop();
         s.rig.place(key);
@@ -279,7 +317,7 @@ void Panel::flightSection(ViewerSession& s) {
     ImGui::EndChild();
     FlightPlan plan = deck.plan();
     double speed = plan.speed.value_or(0);
-    const double diagonal = s.picker.box().diagonal();
+    const double diagonal = s.subject.box().diagonal();
     // A plan has a duration or a speed. With a duration the slider shows it, and moving the slider replaces
     // it.
     const std::string format = plan.duration ? fmt::format("for {:.1f} s", *plan.duration) : "%.1f m/s";
@@ -296,19 +334,20 @@ void Panel::flightSection(ViewerSession& s) {
   }
   // The fields start with the session's paths; from then on what is typed sets these.
   if (!hasSetFlightPath_) {
-    flightPath_ = s.flightPath.string();
-    framesFolder_ = s.framesFolder.string();
+    flightPath_ = s.files.flight.string();
+    framesFolder_ = s.files.framesFolder.string();
     hasSetFlightPath_ = true;
   }
-  if (ImGui::InputText("##path", &flightPath_)) s.flightPath = flightPath_;
+  if (ImGui::InputText("##path", &flightPath_)) s.files.flight = flightPath_;
   ImGui::SameLine();
   if (ImGui::Button("save")) s.apply(Action::saveFlight);
   ImGui::SameLine();
   if (ImGui::Button("load")) s.apply(Action::loadFlight);
-  if (ImGui::InputText("##frames", &framesFolder_)) s.framesFolder = framesFolder_;
+  if (ImGui::InputText("##frames", &framesFolder_)) s.files.framesFolder = framesFolder_;
   tip("The folder for the frames of the flight as PNG files.");
   ImGui::SameLine();
-  if (ImGui::Button(s.wantsFrames ? "stop frames" : "render frames")) s.wantsFrames = !s.wantsFrames;
+  if (ImGui::Button(s.files.wantsFrames ? "stop frames" : "render frames"))
+    s.files.wantsFrames = !s.files.wantsFrames;
 }
 
 }  // namespace arete

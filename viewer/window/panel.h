@@ -18,9 +18,10 @@ class Panel {
   void frameSection(ViewerSession& s);
   void detailSection(ViewerSession& s);
   void lookSection(ViewerSession& s);
+  void layerSection(ViewerSession& s);
   void cameraSection(ViewerSession& s);
   void flightSection(ViewerSession& s);
-  void pickSection(ViewerSession& s);
+  void pickSection(ViewerSession& s, TerrainTools& tools);
 
   std::string goal_;
   bool isGoalLonLat_ = false, hasSetFlightPath_ = false;

@@ -5,14 +5,14 @@
 #include <imgui.h>
 
 #include <string>
+#include <vector>
 
 #include "viewer/window/panel.h"
 
 namespace arete {
 namespace {
 
-constexpr ImU32 kVisible = IM_COL32(90, 220, 90, 190), kBlocked = IM_COL32(240, 70, 60, 200),
-                kBehind = IM_COL32(200, 50, 45, 150), kUnknown = IM_COL32(170, 170, 170, 190);
+constexpr ImU32 kBlocked = IM_COL32(240, 70, 60, 200);
 
 }  // namespace
 
@@ -21,19 +21,17 @@ void drawMarks(const ViewerSession& s, double scale) {
   const float em = ImGui::GetFontSize();
   const auto at = [&](const Vec3& metric) -> std::optional<ImVec2> {
     // ImGui places in points of the screen, the picture in pixels.
-    const auto pixel = s.pixelOf(metric);
+    const auto pixel = pixelOf(s.subject, s.rig.camera(), metric, s.settings);
     if (!pixel) return std::nullopt;
     return ImVec2(float(pixel->x / scale), float(pixel->y / scale));
   };
-  if (s.sight) {
-    const SightPicture& sight = *s.sight;
-    const SightVerdict verdict = sight.answer.sight.verdict;
+  if (!s.tools) return;
+  if (s.tools->sight) {
+    const SightPicture& sight = *s.tools->sight;
     for (const SightPiece& piece : piecesOf(sight)) {
       const auto a = at(piece.from), b = at(piece.to);
       if (!a || !b) continue;
-      const ImU32 color = verdict == SightVerdict::visible   ? kVisible
-                          : verdict == SightVerdict::blocked ? (piece.isBefore ? kBlocked : kBehind)
-                                                             : kUnknown;
+      const ImU32 color = IM_COL32(piece.color[0], piece.color[1], piece.color[2], 190);
       list.AddLine(*a, *b, color, (piece.isBefore ? 0.18f : 0.13f) * em);
     }
     if (const auto cross = sight.obstruction ? at(*sight.obstruction) : std::nullopt) {
@@ -42,12 +40,14 @@ void drawMarks(const ViewerSession& s, double scale) {
       list.AddLine({cross->x - r, cross->y + r}, {cross->x + r, cross->y - r}, kBlocked, 0.2f * em);
     }
   }
-  for (std::size_t i = 0; i < s.picks.size(); ++i) {
-    const auto foot = at(s.picks[i].metric);
+  const std::vector<Pick>& picks = s.tools->picks;
+  for (std::size_t i = 0; i < picks.size(); ++i) {
+    const auto foot = at(picks[i].metric);
     if (!foot) continue;
     list.AddCircleFilled(*foot, 0.36f * em, IM_COL32(255, 255, 255, 230));
     list.AddCircleFilled(*foot, 0.25f * em, i == 0 ? IM_COL32(200, 30, 40, 255) : IM_COL32(30, 80, 200, 255));
-    const std::string text = fmt::format("{}  {}", i == 0 ? "A" : "B", s.places.height(s.picks[i].height));
+    const std::string text =
+        fmt::format("{}  {}", i == 0 ? "A" : "B", s.tools->places.height(picks[i].height));
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     // A dark plate keeps the text readable on any terrain.
     const ImVec2 corner{foot->x + 0.7f * em, foot->y - 1.6f * em};
@@ -63,7 +63,7 @@ void drawHelp(ViewerSession& s) {
   const float em = ImGui::GetFontSize();
   ImGui::SetNextWindowPos({io.DisplaySize.x / 2, io.DisplaySize.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
   ImGui::Begin(
-      "Keys, mouse and gamepad", &s.showsHelp,
+      "Keys, mouse and gamepad", &s.shows.help,
       ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse);
   constexpr ImGuiTableFlags kTable = ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersInnerH;
   const auto cell = [](std::string_view text) {
@@ -85,13 +85,15 @@ void drawHelp(ViewerSession& s) {
   ImGui::Dummy({0, 0.4f * em});
   if (ImGui::BeginTable("keys", 4, kTable)) {
     // The keys fill two pairs of columns, the first half on the left.
-    const auto keys = keyBindings();
+    std::vector<const KeyBinding*> keys;
+    for (const KeyBinding& key : keyBindings())
+      if (s.tools || key.refusal.empty()) keys.push_back(&key);
     const std::size_t half = (keys.size() + 1) / 2;
     for (std::size_t i = 0; i < half; ++i)
       for (const std::size_t k : {i, i + half}) {
         if (k >= keys.size()) continue;
-        cell(keys[k].name);
-        cell(keys[k].help);
+        cell(keys[k]->name);
+        cell(keys[k]->help);
       }
     ImGui::EndTable();
   }

@@ -38,14 +38,22 @@ std::string_view verdictText(const SightAnswer& answer) {
 }  // namespace
 
 std::vector<SightPiece> piecesOf(const SightPicture& picture) {
+  const SightVerdict verdict = picture.answer.sight.verdict;
+  const auto piece = [&](const Vec3& from, const Vec3& to, bool isBefore) {
+    const Rgba color = verdict == SightVerdict::visible   ? Rgba{60, 235, 60, 255}
+                       : verdict != SightVerdict::blocked ? Rgba{190, 190, 190, 255}
+                       : isBefore                         ? Rgba{255, 50, 40, 255}
+                                                          : Rgba{150, 40, 40, 255};
+    return SightPiece{from, to, isBefore, color};
+  };
   std::vector<SightPiece> pieces;
   for (std::size_t i = 1; i < picture.points.size(); ++i) {
     const Vec3 from = picture.points[i - 1], to = picture.points[i];
     if (picture.obstruction && i == picture.pointsBefore) {
-      pieces.push_back({from, *picture.obstruction, true});
-      pieces.push_back({*picture.obstruction, to, false});
+      pieces.push_back(piece(from, *picture.obstruction, true));
+      pieces.push_back(piece(*picture.obstruction, to, false));
     } else {
-      pieces.push_back({from, to, i <= picture.pointsBefore});
+      pieces.push_back(piece(from, to, i <= picture.pointsBefore));
     }
   }
   return pieces;
@@ -63,7 +71,7 @@ SightTool::SightTool(const TerrainModel& model, const Profiles& profiles)
   engine_ = makeSightDescent(model);
 }
 
-Result<SightPicture> SightTool::between(const TerrainPick& from, double fromAbove, const TerrainPick& to,
+Result<SightPicture> SightTool::between(const Pick& from, double fromAbove, const Pick& to,
                                         double toAbove) const {
   const SightPath path{sightPlan(model_, from.xy), sightPlan(model_, to.xy), from.height + fromAbove,
                        to.height + toAbove};

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "terrain/sight/paths.h"
-#include "viewer/window/picking.h"
+#include "terrain/sight/profile.h"
+#include "viewer/scene/subject.h"
 
 namespace arete {
 
@@ -20,10 +21,12 @@ struct SightPicture {
   std::vector<std::string> text;    ///< lines of the description
 };
 
-/// A piece of the line that has one colour.
+/// A piece of the line that has one colour, opaque: green where it is visible, red before what blocks it and
+/// dark red behind, grey where the answer is open.
 struct SightPiece {
   Vec3 from, to;
   bool isBefore;  ///< the obstruction; all pieces are, without one
+  Rgba color;
 };
 /// The pieces of the line, divided at the obstruction.
 std::vector<SightPiece> piecesOf(const SightPicture& picture);
@@ -36,8 +39,7 @@ class SightTool {
   SightTool(const TerrainModel& model, const Profiles& profiles);
 
   /// Heights above the terrain in the DEM's vertical unit. Errors: those of answerPath().
-  Result<SightPicture> between(const TerrainPick& from, double fromAbove, const TerrainPick& to,
-                               double toAbove) const;
+  Result<SightPicture> between(const Pick& from, double fromAbove, const Pick& to, double toAbove) const;
 
   const SightEarth& earth() const { return *earth_; }
   /// "ellipsoid" or "plane".

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace arete {
@@ -14,36 +13,33 @@ namespace {
 
 constexpr double kMessageSeconds = 8;
 
-Camera startOf(const TerrainPicker& picker, const ViewerSession::Start& start) {
-  if (start.camera) return *start.camera;
-  return homeCamera(HomeView::overview, picker.space(), picker.box());
+Camera startOf(const Subject& subject, const ViewerSession::Start& start) {
+  return start.camera ? *start.camera : subject.home(start.home, start.picture, start.settings);
 }
 
 }  // namespace
 
-ViewerSession::ViewerSession(const TerrainModel& terrain, const Start& start)
-    : model(terrain),
-      profiles(terrain),
-      picker(terrain, profiles),
-      rig(picker, profiles.heights(), startOf(picker, start)),
-      deck(picker.space(), rig.metresPerSecond()),
-      places(profiles.heights()),
-      sights(terrain, profiles),
+ViewerSession::ViewerSession(const Subject& shown, Layers& shownLayers, const Start& start)
+    : subject(shown),
+      layers(shownLayers),
+      rig(shown, startOf(shown, start)),
+      deck(shown.space(), rig.metresPerSecond()),
       settings(start.settings),
       wanted{.pixels = start.settings.pixels,
              .maxTriangles = start.settings.maxTriangles,
-             .frameMilliseconds = start.frameMilliseconds},
-      hasDrape(start.hasDrape),
-      canBeCurved(!terrain.georeference.crsWkt.empty()),
-      flightPath(start.flightPath),
-      framesFolder("frames") {
+             .frameMilliseconds = start.frameMilliseconds} {
+  if (const auto* terrain = dynamic_cast<const TerrainSubject*>(&shown)) tools.emplace(*terrain, layers);
+  files.flight = start.flightPath;
   rig.setStretch(settings.stretch);
   settings.waits = false;
-  if (!start.camera && settings.isCurved) rig.home(HomeView::overview, curvedGround());
   if (start.flight) deck.setPlan(*start.flight);
+  // The next home view follows the one that is shown.
+  nextHome_ =
+      std::size_t(std::ranges::find(kHomeViews, start.home) - kHomeViews.begin()) + (start.camera ? 0 : 1);
 }
 
 void ViewerSession::say(std::string sentence) {
+  if (sentence.empty()) return;
   message_ = std::move(sentence);
   messageSeconds_ = kMessageSeconds;
 }
@@ -55,27 +51,42 @@ void ViewerSession::step(const InputState& input) {
   // A hand on the controls takes them back.
   if (rig.step(input)) deck.stop();
   rig.setStretch(settings.stretch);
-  curvedGround();  // marks are drawn on it from the first frame on
-
-  if (auto done = viewshed.take()) {
-    if (*done) {
-      overlay = std::move(**done);
-      isOverlayNew = true;
-      say(fmt::format("{:.1f} % of the samples are seen",
-                      100 * double(overlay->seen) / std::max(1.0, double(overlay->cells))));
-    } else {
-      say(done->error().describe());
-    }
+  // A CRS without an ellipsoid leaves the map flat, and that is said once.
+  if (const Status can = subject.check(settings); !can && settings.isCurved) {
+    settings.isCurved = false;
+    say(can.error().describe());
   }
+  if (tools) say(tools->step());
   if (isFrozen && !frozen) frozen = rig.camera();
   if (!isFrozen) frozen.reset();
+  layMarks();
   // Nothing to learn from a cut that stays as it is.
   if (!isFrozen)
     settings.pixels = control_.next(
         wanted, {.milliseconds = history.lastWork(), .triangles = figures.asked, .pixels = figures.pixels});
 }
 
+void ViewerSession::layMarks() {
+  const auto lay = [&](const char* name, SpaceVertices lines) {
+    if (lines.vertices.empty())
+      layers.remove(name);
+    else
+      layers.put(name, std::move(lines));
+  };
+  // The way of the flight, key by key.
+  SpaceVertices flight;
+  const auto& keys = deck.plan().keys;
+  for (std::size_t i = 1; i < keys.size() && !deck.isPlaying(); ++i)
+    flight.addLine(subject.space().position(keys[i - 1]), subject.space().position(keys[i]),
+                   {250, 200, 60, 255});
+  lay(kMarks[1], std::move(flight));
+  lay(kMarks[2], frozen && shows.frustum
+                     ? frustumEdges(subject.space(), *frozen, subject.box().diagonal() / 2, settings.stretch)
+                     : SpaceVertices{});
+}
+
 void ViewerSession::apply(Action action) {
+  if (!tools && !refusalOf(action).empty()) return say(std::string(refusalOf(action)));
   const auto color = [&](Coloring coloring) { settings.look.coloring = coloring; };
   switch (action) {
     case Action::toggleMode:
@@ -103,25 +114,26 @@ void ViewerSession::apply(Action action) {
         say(played.error().describe());
       break;
     case Action::saveFlight: {
-      const Status saved = deck.save(flightPath, model.georeference);
-      say(saved ? "saved " + flightPath.string() : saved.error().describe());
+      const Status saved = deck.save(files.flight, georeference());
+      say(saved ? "saved " + files.flight.string() : saved.error().describe());
       break;
     }
     case Action::loadFlight: {
       // Longitudes in the file may be a whole turn away from the model's.
-      const Status loaded = deck.load(flightPath, model.georeference, LongitudeTurns(model));
-      say(loaded ? fmt::format("{}: {} key frames", flightPath.string(), deck.plan().keys.size())
+      const Status loaded =
+          deck.load(files.flight, georeference(), tools ? LongitudeTurns(tools->model()) : LongitudeTurns());
+      say(loaded ? fmt::format("{}: {} key frames", files.flight.string(), deck.plan().keys.size())
                  : loaded.error().describe());
       break;
     }
     case Action::wireframe:
       settings.look.hasWireframe = !settings.look.hasWireframe;
       break;
-    case Action::contours: {
-      const double range = (picker.box().high.z - picker.box().low.z) / picker.space().metresPerHeight();
-      settings.look.contourInterval = settings.look.contourInterval > 0 ? 0 : usualContourInterval(range);
+    case Action::contours:
+      if (layers.find("contours")) return layers.remove("contours");
+      layers.put("contours", Contours{usualContourInterval((subject.box().high.z - subject.box().low.z) /
+                                                           subject.space().metresPerHeight())});
       break;
-    }
     case Action::freeze:
       isFrozen = !isFrozen;
       break;
@@ -129,8 +141,8 @@ void ViewerSession::apply(Action action) {
       settings.isGeomorphed = !settings.isGeomorphed;
       say(settings.isGeomorphed ? "geomorphing on" : "geomorphing off");
       break;
-    case Action::colorHeight:
-      return color(Coloring::hypsometric);
+    case Action::colorUsual:
+      return color(subject.colorings().front());
     case Action::colorSlope:
       return color(Coloring::slope);
     case Action::colorAspect:
@@ -140,91 +152,42 @@ void ViewerSession::apply(Action action) {
     case Action::colorError:
       return color(Coloring::error);
     case Action::clearPicks:
-      return clearPicks();
+      return tools->clear();
     case Action::screenshot:
-      wantsScreenshot = true;
+      files.wantsScreenshot = true;
       break;
     case Action::panel:
-      showsPanel = !showsPanel;
+      shows.panel = !shows.panel;
       break;
     case Action::help:
-      showsHelp = !showsHelp;
+      shows.help = !shows.help;
       break;
   }
 }
 
-const CurvedGround* ViewerSession::curvedGround() {
-  if (!settings.isCurved) return nullptr;
-  // The ground is made at its first use. A CRS without an ellipsoid leaves the map flat, and that is said
-  // once.
-  if (!ground_) {
-    Result<CurvedGround> made = CurvedGround::create(model);
-    if (made) {
-      ground_ = std::move(*made);
-    } else {
-      settings.isCurved = false;
-      say(made.error().describe());
-    }
-  }
-  return ground_ ? &*ground_ : nullptr;
-}
-
-std::optional<Vec2> ViewerSession::pixelOf(const Vec3& metric) const {
-  if (settings.isCurved && ground_) return picker.pixelOf(*ground_, rig.camera(), metric, settings.stretch);
-  return arete::pixelOf(picker.space(), rig.camera(), metric, settings.stretch);
+Georeference ViewerSession::georeference() const {
+  return tools ? tools->model().georeference : Georeference{};
 }
 
 void ViewerSession::click(Vec2 pixel) {
-  const CurvedGround* ground = curvedGround();
-  const auto pick = ground ? picker.at(*ground, rig.camera(), pixel, settings.stretch)
-                           : picker.at(rig.camera(), pixel, settings.stretch);
-  if (!pick) return;
-  // A third click begins the next pair.
-  if (picks.size() >= 2) picks.clear();
-  picks.push_back(*pick);
-  updateSight();
-}
-
-void ViewerSession::updateSight() {
-  sight.reset();
-  if (picks.size() < 2) return;
-  auto found = sights.between(picks[0], observerAbove, picks[1], targetAbove);
-  if (found)
-    sight = std::move(*found);
-  else
-    say(found.error().describe());
-}
-
-void ViewerSession::clearPicks() {
-  picks.clear();
-  sight.reset();
-  // The viewshed is seen from a pick, so it goes with the picks, finished or not.
-  viewshed.cancel();
-  overlay.reset();
-  isOverlayNew = true;
-}
-
-void ViewerSession::startViewshed() {
-  if (picks.empty()) return say("a viewshed is seen from a pick: click on the terrain first");
-  const TerrainPick& from = picks.back();
-  viewshed.start(model, sights.earth(), {sightPlan(model, from.xy), from.height + observerAbove}, targetAbove,
-                 mostOverlayPixels);
+  if (const auto pick = subject.pick(rig.camera(), pixel, settings); pick && tools) say(tools->add(*pick));
 }
 
 void ViewerSession::home(HomeView view) {
   deck.stop();
-  rig.home(view, curvedGround());
+  rig.home(view, settings.isCurved);
 }
 
 void ViewerSession::goTo(const std::string& text, bool isLonLat) {
-  const auto goal = places.read(text, isLonLat);
+  if (!tools) return say("places to go to are for terrain");
+  const auto goal = tools->places.read(text, isLonLat);
   if (!goal) return say(goal.error().describe());
   deck.stop();
   // A place without a height is looked at in orbit, from a tenth of the box's diagonal but at most 2 km.
   if (!goal->height) {
-    const double near = std::min(2000.0, picker.box().diagonal() / 10);
+    const double near = std::min(2000.0, subject.box().diagonal() / 10);
     rig.setMode(CameraMode::orbit);
-    return rig.lookAt(picker.space().position(goal->xy, goal->ground), near);
+    return rig.lookAt(subject.space().position(goal->xy, goal->ground), near);
   }
   Camera camera = rig.camera();
   camera.xy = goal->xy;
@@ -232,32 +195,12 @@ void ViewerSession::goTo(const std::string& text, bool isLonLat) {
   rig.place(camera);
 }
 
-std::vector<std::array<Vec3, 2>> frustumEdges(const CameraSpace& space, const Camera& camera, double depth,
-                                              double stretch) {
-  // Rays leave from the eye as it is drawn, stretched; the corners return to heights as they are.
-  Vec3 eye = space.position(camera);
-  eye.z *= stretch;
-  std::array<Vec3, 4> corners;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vec2 pixel{i == 1 || i == 2 ? camera.widthPixels : 0, i >= 2 ? camera.heightPixels : 0};
-    const Vec3 d = directionOfPixel(space, camera, pixel);
-    corners[i] = {eye.x + depth * d.x, eye.y + depth * d.y, (eye.z + depth * d.z) / stretch};
-  }
-  eye.z /= stretch;
-  std::vector<std::array<Vec3, 2>> edges;
-  for (std::size_t i = 0; i < 4; ++i) {
-    edges.push_back({eye, corners[i]});
-    edges.push_back({corners[i], corners[(i + 1) % 4]});
-  }
-  return edges;
-}
-
-double usualContourInterval(double heightRange) {
-  if (!(heightRange > 0)) return 1;
-  // The leading digits become the nearest of 1, 2, 5 and 10.
-  const double rough = heightRange / 12, power = std::pow(10, std::floor(std::log10(rough)));
-  const double lead = rough / power;
-  return power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
+void ViewerSession::flyAround() {
+  auto round = subject.round(rig.camera());
+  if (round)
+    deck.setPlan(*round);
+  else
+    say(round.error().describe());
 }
 
 }  // namespace arete

@@ -10,8 +10,6 @@
 namespace arete {
 namespace {
 
-using Rgba = std::array<std::uint8_t, 4>;
-
 Rgba colorOf(ViewshedCell cell) {
   switch (cell) {
     case ViewshedCell::seen:
@@ -31,7 +29,7 @@ Rgba colorOf(ViewshedCell cell) {
 ViewshedOverlay overlayOf(const Viewshed& viewshed, int mostPixels) {
   const std::uint32_t most = std::uint32_t(std::max(mostPixels, 1));
   const std::uint32_t step = (std::max(viewshed.columns, viewshed.rows) + most - 1) / most;
-  ViewshedOverlay overlay;
+  PlanPicture overlay;
   overlay.width = int((viewshed.columns + step - 1) / step);
   overlay.height = int((viewshed.rows + step - 1) / step);
   overlay.rgba.reserve(std::size_t(overlay.width) * std::size_t(overlay.height));
@@ -44,9 +42,8 @@ ViewshedOverlay overlayOf(const Viewshed& viewshed, int mostPixels) {
   // Sample 0 covers the plan from -1/2 to 1/2.
   overlay.scale = {1.0 / (step * double(overlay.width)), 1.0 / (step * double(overlay.height))};
   overlay.shift = {0.5 * overlay.scale.x, 0.5 * overlay.scale.y};
-  overlay.seen = viewshed.seen;
-  overlay.cells = viewshed.seen + viewshed.hidden + viewshed.unknown + viewshed.undecided;
-  return overlay;
+  return {std::make_shared<const PlanPicture>(std::move(overlay)), viewshed.seen,
+          viewshed.seen + viewshed.hidden + viewshed.unknown + viewshed.undecided};
 }
 
 void ViewshedJob::start(const TerrainModel& model, const SightEarth& earth, const ViewshedObserver& observer,

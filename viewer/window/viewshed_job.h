@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <thread>
-#include <vector>
 
 #include "terrain/viewshed/viewshed.h"
+#include "viewer/scene/layer.h"
 
 namespace arete {
 
-/// A viewshed as a picture over the plan, for TerrainPainter::setOverlay().
+/// A viewshed as a picture over the plan.
 struct ViewshedOverlay {
-  int width = 0, height = 0;
-  std::vector<std::array<std::uint8_t, 4>> rgba;
-  Vec2 scale, shift;  ///< plan to texture
+  std::shared_ptr<const PlanPicture> picture;
   std::uint64_t seen = 0, cells = 0;
 };
 

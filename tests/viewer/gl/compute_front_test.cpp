@@ -15,7 +15,7 @@
 #include "engine/cut/cut.h"
 #include "terrain/builder/build.h"
 #include "viewer/drawn_mesh.h"
-#include "viewer/gl/terrain_view.h"
+#include "viewer/gl/terrain_drawable.h"
 
 namespace arete {
 namespace {
@@ -75,7 +75,7 @@ TEST(ComputeFront, TheDevicesCutIsTheProcessorsNodeForNode) {
   for (const RasterFamily& family : rasterFamilies()) {
     const std::uint64_t seed = 11;
     const TerrainModel model = builtModel(family.make(61, 47, seed));
-    Result<TerrainView> view = TerrainView::create(model, {.mostTriangles = 20000});
+    Result<TerrainDrawable> view = TerrainDrawable::create(model, {.mostTriangles = 20000});
     ASSERT_TRUE(view) << view.error().describe();
     ASSERT_EQ(view->deviceRefusal(), "");
     Random random(seed);
@@ -107,7 +107,7 @@ TEST(ComputeFront, TheDevicesCutIsTheProcessorsNodeForNode) {
 TEST(ComputeFront, ACutThatHasNoRoomLeavesTheLastFrontWhole) {
   ARETE_NEEDS_OPENGL(context);
   const TerrainModel& model = someMountains();
-  Result<TerrainView> view = TerrainView::create(model, {.mostTriangles = 3000});
+  Result<TerrainDrawable> view = TerrainDrawable::create(model, {.mostTriangles = 3000});
   ASSERT_TRUE(view);
   Random random(5);
   const Camera camera = someCamera(random, model);

@@ -12,6 +12,7 @@
 #include "viewer/drawn_mesh.h"
 #include "viewer/gl/drape_on_gpu.h"
 #include "viewer/gl/frame_target.h"
+#include "viewer/gl/terrain_drawable.h"
 
 namespace arete {
 namespace {
@@ -28,7 +29,7 @@ const Transform kDem = {500000, 30, 0, 4000000, 0, -30};
 constexpr std::uint8_t kPlain = 199;  // 0.78 of 255
 
 /// A terrain, a picture over it, and what one camera sees.
-struct Scene {
+struct DrapedView {
   Image image;
   std::vector<Vec2> place;  ///< on the map, of the middle of each pixel; infinite where there is sky
   std::uint32_t tiles = 0;
@@ -39,17 +40,17 @@ struct Scene {
 class Laid {
  public:
   Laid(const TerrainModel& model, const std::string& picture, std::uint32_t tileSide) {
-    auto view = TerrainView::create(model, {});
+    auto view = TerrainDrawable::create(model, {});
     EXPECT_TRUE(view);
     view_.emplace(std::move(*view));
     auto drape = DrapeOnGpu::load(picture, model, {.read = {}, .tileSide = tileSide});
     EXPECT_TRUE(drape) << drape.error().describe();
-    drape_.emplace(std::move(*drape));
-    view_->painter().setDrape(&*drape_);
+    drape_ = std::make_shared<const DrapeOnGpu>(std::move(*drape));
+    layers_.put("drape", drape_);
   }
   const DrapeOnGpu& drape() const { return *drape_; }
 
-  Scene draw(const Camera& camera) {
+  DrapedView draw(const Camera& camera) {
     ViewSettings settings;
     settings.look.isShaded = false;
     settings.look.coloring = Coloring::plain;
@@ -57,9 +58,9 @@ class Laid {
     const auto target = FrameTarget::create(kWidth, kHeight);
     EXPECT_TRUE(target);
     target->begin();
-    EXPECT_TRUE(view_->draw(camera, settings));
+    EXPECT_TRUE(view_->draw(camera, settings, layers_.list()));
     const std::vector<float> depths = target->depths(view_->frameOf(camera, settings)->drawnNear);
-    Scene scene{target->image(), {}, drape_->tiles(), drape_->levels()};
+    DrapedView scene{target->image(), {}, drape_->tiles(), drape_->levels()};
     // The map has metres along both axes, and the camera looks along it.
     const double a = camera.azimuthDegrees * std::numbers::pi / 180,
                  p = camera.pitchDegrees * std::numbers::pi / 180;
@@ -76,8 +77,9 @@ class Laid {
   }
 
  private:
-  std::optional<TerrainView> view_;
-  std::optional<DrapeOnGpu> drape_;
+  std::optional<TerrainDrawable> view_;
+  std::shared_ptr<const DrapeOnGpu> drape_;
+  Layers layers_;
 };
 
 Vec2 inPicture(const Transform& t, Vec2 p) {
@@ -86,7 +88,7 @@ Vec2 inPicture(const Transform& t, Vec2 p) {
 }
 
 /// How far apart in the picture the places of pixels beside this one are, or nothing beside the sky.
-std::optional<double> reachOf(const Scene& scene, const Transform& t, int x, int y) {
+std::optional<double> reachOf(const DrapedView& scene, const Transform& t, int x, int y) {
   const Vec2 here = inPicture(t, scene.placeAt(x, y));
   double reach = 0;
   for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
@@ -131,7 +133,7 @@ TEST(Drape, EveryPixelShowsTheColourOfItsPlaceOnTheMap) {
         const Camera camera = i < 3 ? above(model, {20, 16}, 300 + 250 * i, 40 * i)
                                     : above(model, {random.between(5, 35), random.between(5, 28)}, 400,
                                             random.between(0, 360), -50);
-        const Scene scene = laid.draw(camera);
+        const DrapedView scene = laid.draw(camera);
         for (int y = 1; y + 1 < kHeight; ++y)
           for (int x = 1; x + 1 < kWidth; ++x) {
             const auto reach = reachOf(scene, t, x, y);
@@ -196,7 +198,7 @@ TEST(Drape, ASmoothPictureOverManyTilesHasNoSeamAtAnyZoom) {
   std::size_t compared = 0;
   double worst = 0;
   for (const Camera& camera : cameras) {
-    const Scene scene = laid.draw(camera);
+    const DrapedView scene = laid.draw(camera);
     for (int y = 1; y + 1 < kHeight; ++y)
       for (int x = 1; x + 1 < kWidth; ++x) {
         const auto reach = reachOf(scene, t, x, y);
@@ -239,7 +241,7 @@ TEST(Drape, FarFromItsFirstCornerALongPictureIsAsSharp) {
     const RasterHeightfield samples = model.rasterSamples();
     const Vec2 plan = model.toPlan({x, 3999514});
     camera.height = samples.at(std::uint32_t(plan.x + 0.5), std::uint32_t(plan.y + 0.5)) + 3;
-    const Scene scene = laid.draw(camera);
+    const DrapedView scene = laid.draw(camera);
     for (int y = 1; y + 1 < kHeight; ++y)
       for (int px = 1; px + 1 < kWidth; ++px) {
         const Vec2 p = inPicture(t, scene.placeAt(px, y));
@@ -275,7 +277,7 @@ TEST(Drape, HalfHiddenPixelsLetHalfOfTheColourBelowThrough) {
                                                             : 20; },
            .adjust = [](GDALDataset& d) { d.GetRasterBand(4)->SetColorInterpretation(GCI_AlphaBand); }}),
       0);
-  const Scene scene = laid.draw(above(model, {20, 16}, 700));
+  const DrapedView scene = laid.draw(above(model, {20, 16}, 700));
   std::size_t clear = 0, covered = 0;
   for (int y = 1; y + 1 < kHeight; ++y)
     for (int x = 1; x + 1 < kWidth; ++x) {

@@ -42,7 +42,7 @@ TerrainModel mountains() {
 }
 
 Camera overview(const TerrainModel& model) {
-  return homeCamera(HomeView::overview, CameraSpace(model), metricBox(model));
+  return cameraOnAll(CameraSpace(model), homeShape(metricBox(model)), {0, -30});
 }
 
 TEST(Headless, ABudgetIsUsedNearlyWhollyAndSaidToBindByEitherPath) {
@@ -72,13 +72,13 @@ TEST(Headless, APictureSaysWhetherItShowsTheTerrain) {
       HeadlessView::create(model, {.widthPixels = 160, .heightPixels = 90, .samples = 4, .settings = {}});
   ASSERT_TRUE(view) << view.error().describe();
   Camera camera = overview(model);
-  EXPECT_TRUE(view->draw(camera)->showsTerrain);
+  EXPECT_TRUE(view->draw(camera)->isShown);
   camera.pitchDegrees = 60;
-  EXPECT_FALSE(view->draw(camera)->showsTerrain);
+  EXPECT_FALSE(view->draw(camera)->isShown);
   camera = overview(model);
   camera.xy.x += 1e6;
-  EXPECT_FALSE(view->draw(camera)->showsTerrain);
-  EXPECT_TRUE(view->draw(overview(model))->showsTerrain);
+  EXPECT_FALSE(view->draw(camera)->isShown);
+  EXPECT_TRUE(view->draw(overview(model))->isShown);
 }
 
 TEST(Headless, AFilmHasAFrameForEveryMomentAndItsFigures) {

@@ -13,7 +13,7 @@
 #include "viewer/drawn_mesh.h"
 #include "viewer/gl/frame_target.h"
 #include "viewer/true_earth.h"
-#include "viewer/window/picking.h"
+#include "viewer/viewed_terrain.h"
 #include "viewer/window/viewer_session.h"
 
 namespace arete {
@@ -140,7 +140,7 @@ TEST(CurvedEarth, WithoutACrsItIsRefusedByName) {
 }
 
 /// A frame's depths, curved.
-std::vector<float> depthsOf(TerrainView& view, const Camera& camera, const ViewSettings& settings) {
+std::vector<float> depthsOf(TerrainDrawable& view, const Camera& camera, const ViewSettings& settings) {
   const auto target = FrameTarget::create(int(camera.widthPixels), int(camera.heightPixels));
   EXPECT_TRUE(target);
   EXPECT_TRUE(view.cut(camera, settings));
@@ -152,7 +152,7 @@ std::vector<float> depthsOf(TerrainView& view, const Camera& camera, const ViewS
 TEST(CurvedEarth, TheSeaEndsAtItsHorizon) {
   ARETE_NEEDS_OPENGL(context);
   const Map map = mapOf("sea", 0, {10, 47.7}, 0.01, 101, 271, [](double, double) { return 0.0; });
-  Result<TerrainView> view = TerrainView::create(map.model, {});
+  Result<TerrainDrawable> view = TerrainDrawable::create(map.model, {});
   ASSERT_TRUE(view);
   for (const double height : {100.0, 500.0, 2000.0})
     for (const CutPath path : {CutPath::device, CutPath::processor}) {
@@ -202,7 +202,7 @@ TEST(CurvedEarth, AMountainBeyondTheHorizonIsHiddenToItsHeight) {
     const double x = (lon - 10.5) * std::cos(45 * kRadians), y = lat - (45.01 + far);
     return 6000 * std::exp(-(x * x + y * y) / (2 * 0.06 * 0.06));
   });
-  Result<TerrainView> view = TerrainView::create(map.model, {});
+  Result<TerrainDrawable> view = TerrainDrawable::create(map.model, {});
   ASSERT_TRUE(view);
   const Camera camera{.xy = {10.5, 45.01},
                       .height = 200,
@@ -249,7 +249,7 @@ struct CurvedMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-CurvedMesh readCurved(const TerrainView& view) {
+CurvedMesh readCurved(const TerrainDrawable& view) {
   const TerrainOnGpu& t = view.terrain();
   const MetricFrame &metric = view.mt().arrays().metric, &flat = view.model().mt.arrays().metric;
   std::vector<float> positions(3 * std::size_t(t.vertices)), spots(positions.size()), rises(t.vertices);
@@ -279,7 +279,7 @@ TEST(CurvedEarth, WhatIsDrawnKeepsItsPixelsAtEverySampleInSight) {
     const TerrainModel& model = map.model;
     const RasterHeightfield samples = model.rasterSamples();
     const double middle = model.mt.arrays().metric.origin.z;
-    Result<TerrainView> view = TerrainView::create(model, {});
+    Result<TerrainDrawable> view = TerrainDrawable::create(model, {});
     ASSERT_TRUE(view);
     const Space space(map);
     Random random(55);
@@ -334,7 +334,7 @@ TEST(CurvedEarth, WhatIsDrawnKeepsItsPixelsAtEverySampleInSight) {
 TEST(CurvedEarth, BothPathsTakeTheSameCut) {
   ARETE_NEEDS_OPENGL(context);
   const Map& map = maps()[2];
-  Result<TerrainView> view = TerrainView::create(map.model, {});
+  Result<TerrainDrawable> view = TerrainDrawable::create(map.model, {});
   ASSERT_TRUE(view);
   Random random(8);
   for (int i = 0; i < 8; ++i) {
@@ -367,7 +367,7 @@ TEST(CurvedEarth, TwoMapsOfTheSameGroundLookTheSame) {
   const Map utm = mapOf("UTM", 33, {425000, 5262000}, 1000, 151, 221, smooth);
   std::vector<float> depths[2];
   for (const Map* map : {&lonLat, &utm}) {
-    Result<TerrainView> view = TerrainView::create(map->model, {});
+    Result<TerrainDrawable> view = TerrainDrawable::create(map->model, {});
     ASSERT_TRUE(view);
     const Camera camera{.xy = map->xy({15, 45.8}),
                         .height = 3000,
@@ -396,17 +396,17 @@ TEST(CurvedEarth, AClickFindsWhatIsAtThePixel) {
     SCOPED_TRACE(map.name + std::string(", seed 9"));
     const auto ground = CurvedGround::create(map.model);
     ASSERT_TRUE(ground);
-    const Profiles profiles(map.model);
-    const TerrainPicker picker(map.model, profiles);
+    const TerrainSubject subject(map.model);
+    const GroundHeights& heights = *subject.heights();
     Random random(9);
     int found = 0;
     for (int i = 0; i < 60; ++i) {
       const Camera camera = anyCamera(random, map.model);
       const Vec2 pixel{random.between(0, camera.widthPixels), random.between(0, camera.heightPixels)};
-      const auto pick = picker.at(*ground, camera, pixel);
+      const auto pick = subject.pick(camera, pixel, {.isCurved = true});
       if (!pick) continue;
       ++found;
-      const auto there = profiles.heights().at(pick->xy);
+      const auto there = heights.at(pick->xy);
       ASSERT_TRUE(there);
       EXPECT_NEAR(there->height, pick->height, 1e-3);
       const TrueCamera truth(map, camera);
@@ -423,7 +423,7 @@ TEST(CurvedEarth, AClickFindsWhatIsAtThePixel) {
                      eye.z + part * (place.z - eye.z)};
         const Space space(map);
         const Vec3 source = ground->source(space.in(p));
-        const auto below = profiles.heights().at({source.x, source.y});
+        const auto below = heights.at({source.x, source.y});
         if (below) {
           EXPECT_GT(source.z, below->height - 0.5);
         }
@@ -443,12 +443,14 @@ TEST(CurvedEarth, AMarkIsDrawnWhereTheClickWas) {
                           .pitchDegrees = -20};
     start.settings.isCurved = true;
     start.settings.stretch = 2;
-    ViewerSession session(map.model, start);
+    test::ViewedTerrain viewed(map.model, start);
+    ViewerSession& session = viewed.session;
     const Camera& camera = session.rig.camera();
     const Vec2 pixel{0.3 * camera.widthPixels, 0.7 * camera.heightPixels};
     session.click(pixel);
-    ASSERT_EQ(session.picks.size(), 1u) << session.message();
-    const auto mark = session.pixelOf(session.picks[0].metric);
+    ASSERT_EQ(session.tools->picks.size(), 1u) << session.message();
+    const auto mark =
+        pixelOf(session.subject, session.rig.camera(), session.tools->picks[0].metric, session.settings);
     ASSERT_TRUE(mark);
     EXPECT_NEAR(mark->x, pixel.x, 0.1);
     EXPECT_NEAR(mark->y, pixel.y, 0.1);
@@ -461,7 +463,7 @@ TEST(CurvedEarth, MovingVerticesKeepTheColoursOfTheirHeights) {
   const Map map = mapOf("continent", 0, {-20, 60}, 0.5, 81, 81, [](double lon, double lat) {
     return 500 * std::sin(0.2 * lon) * std::cos(0.2 * lat);
   });
-  Result<TerrainView> view = TerrainView::create(map.model, {});
+  Result<TerrainDrawable> view = TerrainDrawable::create(map.model, {});
   ASSERT_TRUE(view);
   const Camera camera{
       .xy = {0, 40}, .height = 4e6, .pitchDegrees = -90, .widthPixels = 200, .heightPixels = 200};
@@ -495,7 +497,7 @@ TEST(CurvedEarth, MovingVerticesKeepTheColoursOfTheirHeights) {
 TEST(CurvedEarth, ItCanBeSwitchedAtAnyTimeEvenWhereTheCutIsFrozen) {
   ARETE_NEEDS_OPENGL(context);
   const Map& map = maps()[0];
-  Result<TerrainView> view = TerrainView::create(map.model, {});
+  Result<TerrainDrawable> view = TerrainDrawable::create(map.model, {});
   ASSERT_TRUE(view);
   Random random(9);
   const Camera camera = anyCamera(random, map.model, 160, 120);

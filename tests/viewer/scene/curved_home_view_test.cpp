@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/scene/curved_home_view.h"
+#include "viewer/scene/terrain_subject.h"
 
 #include <gtest/gtest.h>
 
@@ -58,14 +58,13 @@ TEST(CurvedHomeView, HasTheWholeTerrainInThePictureAWholePlanetToo) {
   for (const Map& map : all) {
     const auto ground = CurvedGround::create(map.model);
     ASSERT_TRUE(ground) << ground.error().describe();
-    const CameraSpace space(map.model);
-    const MetricBox box = metricBox(map.model);
+    const TerrainSubject subject(map.model);
     for (const HomeView view : kHomeViews)
       for (const double stretch : {1.0, 5.0}) {
         SCOPED_TRACE(std::string(map.name) + " from " + std::string(toString(view)) + ", heights times " +
                      std::to_string(stretch));
-        const Camera camera =
-            curvedHomeCamera(view, *ground, space, box, {.widthPixels = 800, .heightPixels = 450}, stretch);
+        const Camera camera = subject.home(view, {.widthPixels = 800, .heightPixels = 450},
+                                           {.stretch = stretch, .isCurved = true});
         EXPECT_EQ(camera.widthPixels, 800);
         const Seen seen = samplesIn(map, *ground, camera, stretch);
         EXPECT_GT(seen.nearest, 0) << "all of it in front";
@@ -77,11 +76,10 @@ TEST(CurvedHomeView, HasTheWholeTerrainInThePictureAWholePlanetToo) {
 
 TEST(CurvedHomeView, NorthIsUpAboveAPlanet) {
   const Map map = planet(-180);
-  const auto ground = CurvedGround::create(map.model);
-  ASSERT_TRUE(ground);
-  const CameraSpace space(map.model);
+  const TerrainSubject subject(map.model);
+  ASSERT_TRUE(subject.curvedGround());
   for (const HomeView view : {HomeView::overview, HomeView::fromAbove}) {
-    const Camera camera = curvedHomeCamera(view, *ground, space, metricBox(map.model));
+    const Camera camera = subject.home(view, {}, {.isCurved = true});
     EXPECT_NEAR(std::remainder(camera.azimuthDegrees, 360), 0, 1) << toString(view);
     EXPECT_NEAR(camera.xy.x, 0, 1) << "over the middle of the map";
     EXPECT_NEAR(camera.xy.y, view == HomeView::overview ? -60 : 0, 1);
@@ -93,13 +91,11 @@ TEST(CurvedHomeView, IsThatOfTheFlatMapWhereTheTerrainIsSmall) {
   const Map map = mapOf("a valley", 33, {425000, 5262000}, 10, 101, 101, [](double lon, double lat) {
     return 500 * std::sin(3000 * lon) * std::cos(3000 * lat);
   });
-  const auto ground = CurvedGround::create(map.model);
-  ASSERT_TRUE(ground);
-  const CameraSpace space(map.model);
+  const TerrainSubject subject(map.model);
+  ASSERT_TRUE(subject.curvedGround());
   for (const HomeView view : kHomeViews) {
     SCOPED_TRACE(toString(view));
-    const Camera flat = homeCamera(view, space, metricBox(map.model)),
-                 curved = curvedHomeCamera(view, *ground, space, metricBox(map.model));
+    const Camera flat = subject.home(view, {}, {}), curved = subject.home(view, {}, {.isCurved = true});
     EXPECT_NEAR(curved.xy.x, flat.xy.x, 2);
     EXPECT_NEAR(curved.xy.y, flat.xy.y, 2);
     EXPECT_NEAR(curved.height, flat.height, 2);

@@ -5,6 +5,7 @@
 
 #include "surface/builder/build.h"
 #include "surface/families.h"
+#include "viewer/surface/surface_subject.h"
 
 namespace arete {
 namespace {
@@ -44,12 +45,12 @@ TEST(ZUpFrame, GoesToTheFileAndBackAndKeepsRightHandsRight) {
 TEST(ZUpFrame, HomeViewsHaveTheWholeSurfaceInThePicture) {
   const SurfaceModel model = tall("y");
   const ZUpFrame upright(model);
-  const ZUpShape shape = uprightShape(model, upright);
+  const SurfaceSubject subject(model, upright);
   for (const HomeView view : kHomeViews) {
     Camera picture;
     picture.widthPixels = 400;
     picture.heightPixels = 300;
-    const Result<View> seen = uprightView(surfaceHome(view, shape, picture));
+    const Result<View> seen = subject.viewOf(subject.home(view, picture));
     ASSERT_TRUE(seen) << seen.error().describe();
     const Frustum frustum(*seen);
     for (std::uint32_t v = 0; v < model.mt.vertexCount(); ++v) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "viewer/camera_models.h"
+#include "viewer/scene/terrain_subject.h"
 #include "viewer/window/camera_motion.h"
 
 namespace arete {
@@ -17,22 +18,19 @@ using test::cameraModels;
 
 struct Flown {
   const TerrainModel& model;
-  Profiles profiles{model};
-  TerrainPicker picker{model, profiles};
+  TerrainSubject subject{model};
   CameraRig rig;
-  explicit Flown(const TerrainModel& m)
-      : model(m),
-        rig(picker, profiles.heights(), homeCamera(HomeView::overview, picker.space(), picker.box())) {
+  explicit Flown(const TerrainModel& m) : model(m), rig(subject, subject.home(HomeView::overview, {}, {})) {
     rig.setPicture(800, 600);
   }
-  Vec3 eye() const { return picker.space().position(rig.camera()); }
+  Vec3 eye() const { return subject.space().position(rig.camera()); }
 };
 
 TEST(CameraRig, DraggingInAnOrbitTurnsAboutWhatIsInTheMiddle) {
   for (const test::CameraModel& m : cameraModels()) {
     SCOPED_TRACE(m.name);
     Flown f(m.model);
-    const auto hit = f.picker.at(f.rig.camera(), {400, 300});
+    const auto hit = f.subject.pick(f.rig.camera(), {400, 300});
     InputState in;
     in.seconds = 0.02;
     in.leftButton = true;
@@ -40,7 +38,7 @@ TEST(CameraRig, DraggingInAnOrbitTurnsAboutWhatIsInTheMiddle) {
     f.rig.setFloorMetres(0);
     EXPECT_TRUE(f.rig.step(in));
     if (hit) {
-      const auto seen = pixelOf(f.picker.space(), f.rig.camera(), hit->metric);
+      const auto seen = pixelOf(f.subject, f.rig.camera(), hit->metric);
       ASSERT_TRUE(seen);
       EXPECT_NEAR(seen->x, 400, 1e-4);
       EXPECT_NEAR(seen->y, 300, 1e-4);
@@ -56,16 +54,17 @@ TEST(CameraRig, TheWheelInAnOrbitKeepsWhatIsUnderTheMouse) {
     f.rig.setFloorMetres(0);
     // Not everywhere is there terrain.
     Vec2 mouse;
-    std::optional<TerrainPick> under;
+    std::optional<Pick> under;
     for (int i = 0; i < 400 && !under; ++i)
-      under = f.picker.at(f.rig.camera(), mouse = {double(100 + 37 * i % 600), double(100 + 53 * i % 400)});
+      under =
+          f.subject.pick(f.rig.camera(), mouse = {double(100 + 37 * i % 600), double(100 + 53 * i % 400)});
     ASSERT_TRUE(under);
     InputState in;
     in.seconds = 0.02;
     in.wheel = 2;
     in.mouse = mouse;
     EXPECT_TRUE(f.rig.step(in));
-    const auto seen = pixelOf(f.picker.space(), f.rig.camera(), under->metric);
+    const auto seen = pixelOf(f.subject, f.rig.camera(), under->metric);
     ASSERT_TRUE(seen);
     EXPECT_NEAR(seen->x, mouse.x, 1e-3);
     EXPECT_NEAR(seen->y, mouse.y, 1e-3);
@@ -76,14 +75,14 @@ TEST(CameraRig, TheWheelInAnOrbitKeepsWhatIsUnderTheMouse) {
 TEST(CameraRig, AnOrbitStaysCentredUnderExaggeration) {
   Flown f(cameraModels()[0].model);
   f.rig.setFloorMetres(0);
-  const auto before = f.picker.at(f.rig.camera(), {400, 300});
+  const auto before = f.subject.pick(f.rig.camera(), {400, 300});
   f.rig.setStretch(3);
   InputState in;
   in.seconds = 0.02;
   in.leftButton = true;
   in.mouseMoved = {50, 20};
   f.rig.step(in);
-  const auto seen = pixelOf(f.picker.space(), f.rig.camera(), before->metric, 3);
+  const auto seen = pixelOf(f.subject, f.rig.camera(), before->metric, {.stretch = 3});
   ASSERT_TRUE(seen);
   EXPECT_NEAR(seen->x, 400, 1e-4);
   EXPECT_NEAR(seen->y, 300, 1e-4);
@@ -97,7 +96,7 @@ TEST(CameraRig, FlyingAheadGoesWhereThePictureLooksWhateverTheFrames) {
       f.rig.setMode(CameraMode::free);
       f.rig.setFloorMetres(0);
       f.rig.setMetresPerSecond(10);
-      const Vec3 from = f.eye(), forward = f.picker.space().forward(lookOf(f.rig.camera()));
+      const Vec3 from = f.eye(), forward = f.subject.space().forward(lookOf(f.rig.camera()));
       InputState in;
       in.ahead = 1;
       in.seconds = 2.0 / frames;

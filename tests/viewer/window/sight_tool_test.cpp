@@ -17,8 +17,8 @@ class SightTools : public ::testing::Test {
   SightTool tool_{model_, profiles_};
   CameraSpace space_{model_};
 
-  TerrainPick pickAt(Vec2 plan) const {
-    TerrainPick pick;
+  Pick pickAt(Vec2 plan) const {
+    Pick pick;
     pick.plan = plan;
     pick.xy = model_.toSource(plan);
     pick.height = profiles_.heights().at(pick.xy)->height;
@@ -38,7 +38,7 @@ TEST_F(SightTools, SeeEverythingFromHighAbove) {
 }
 
 TEST_F(SightTools, DrawTheLineFromEndToEnd) {
-  const TerrainPick from = pickAt({5, 5}), to = pickAt({30, 20});
+  const Pick from = pickAt({5, 5}), to = pickAt({30, 20});
   const auto picture = tool_.between(from, 50, to, 70);
   ASSERT_TRUE(picture);
   const double metres = space_.metresPerHeight();

@@ -11,6 +11,7 @@
 
 #include "terrain/viewshed/viewshed.h"
 #include "viewer/camera_models.h"
+#include "viewer/viewed_terrain.h"
 
 namespace arete {
 namespace {
@@ -31,13 +32,14 @@ std::vector<Vec2> onTerrain(const ViewerSession& s) {
   for (double away = 0; away < 200; away += 13)
     for (const Vec2 d : {Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0}, Vec2{0, -1}}) {
       const Vec2 pixel{400 + away * d.x, 300 + away * d.y};
-      if (s.picker.at(s.rig.camera(), pixel)) pixels.push_back(pixel);
+      if (s.subject.pick(s.rig.camera(), pixel, {})) pixels.push_back(pixel);
     }
   return pixels;
 }
 
 TEST(Session, TheTargetTimeMakesTheToleranceCoarserAndLetsItFinerAgain) {
-  ViewerSession s(northUp(), {});
+  test::ViewedTerrain viewed(northUp());
+  ViewerSession& s = viewed.session;
   s.wanted.frameMilliseconds = 16;
   // A device that takes 20 ms for a pixel and half of it for two.
   for (int i = 0; i < 400; ++i) {
@@ -53,7 +55,8 @@ TEST(Session, TheTargetTimeMakesTheToleranceCoarserAndLetsItFinerAgain) {
 }
 
 TEST(Session, AFrozenCutKeepsItsCameraWhileTheOtherFliesOn) {
-  ViewerSession s(northUp(), {});
+  test::ViewedTerrain viewed(northUp());
+  ViewerSession& s = viewed.session;
   s.apply(Action::freeze);
   s.step(still());
   ASSERT_TRUE(s.frozen);
@@ -68,58 +71,62 @@ TEST(Session, AFrozenCutKeepsItsCameraWhileTheOtherFliesOn) {
 }
 
 TEST(Session, TwoClicksMakeALineOfSightAndAThirdBeginsAnew) {
-  ViewerSession s(northUp(), {});
+  test::ViewedTerrain viewed(northUp());
+  ViewerSession& s = viewed.session;
   s.rig.setPicture(800, 600);
   const std::vector<Vec2> pixels = onTerrain(s);
   ASSERT_GE(pixels.size(), 3u);
   s.click(pixels.front());
-  ASSERT_EQ(s.picks.size(), 1u);
-  EXPECT_FALSE(s.sight);
+  ASSERT_EQ(s.tools->picks.size(), 1u);
+  EXPECT_FALSE(s.tools->sight);
   s.click(pixels.back());
-  ASSERT_EQ(s.picks.size(), 2u);
-  ASSERT_TRUE(s.sight);
-  EXPECT_FALSE(s.sight->text.empty());
+  ASSERT_EQ(s.tools->picks.size(), 2u);
+  ASSERT_TRUE(s.tools->sight);
+  EXPECT_FALSE(s.tools->sight->text.empty());
   // The line begins and ends above the picks, by what was asked for.
-  const double up = s.observerAbove * s.picker.space().metresPerHeight();
-  EXPECT_NEAR(s.sight->points.front().z, s.picks[0].metric.z + up, 1e-6);
-  EXPECT_NEAR(s.sight->points.back().x, s.picks[1].metric.x, 1e-6);
-  EXPECT_EQ(s.sight->obstruction.has_value(), s.sight->answer.sight.verdict == SightVerdict::blocked);
-  s.observerAbove = s.targetAbove = 1e5;
-  s.updateSight();
-  EXPECT_EQ(s.sight->answer.sight.verdict, SightVerdict::visible);
+  const double up = s.tools->observerAbove * s.subject.space().metresPerHeight();
+  EXPECT_NEAR(s.tools->sight->points.front().z, s.tools->picks[0].metric.z + up, 1e-6);
+  EXPECT_NEAR(s.tools->sight->points.back().x, s.tools->picks[1].metric.x, 1e-6);
+  EXPECT_EQ(s.tools->sight->obstruction.has_value(),
+            s.tools->sight->answer.sight.verdict == SightVerdict::blocked);
+  s.tools->observerAbove = s.tools->targetAbove = 1e5;
+  s.tools->updateSight();
+  EXPECT_EQ(s.tools->sight->answer.sight.verdict, SightVerdict::visible);
   s.click(pixels[1]);
-  EXPECT_EQ(s.picks.size(), 1u);
-  EXPECT_FALSE(s.sight);
+  EXPECT_EQ(s.tools->picks.size(), 1u);
+  EXPECT_FALSE(s.tools->sight);
   s.click({2, 2});
-  EXPECT_EQ(s.picks.size(), 1u) << "the sky is no place";
+  EXPECT_EQ(s.tools->picks.size(), 1u) << "the sky is no place";
 }
 
 TEST(Session, AViewshedFromAPickIsThatOfTheMaker) {
-  ViewerSession s(northUp(), {});
+  test::ViewedTerrain viewed(northUp());
+  ViewerSession& s = viewed.session;
   s.rig.setPicture(800, 600);
-  s.startViewshed();
+  s.say(s.tools->startViewshed());
   EXPECT_FALSE(s.message().empty()) << "there is no pick yet";
   const std::vector<Vec2> pixels = onTerrain(s);
   ASSERT_FALSE(pixels.empty());
   s.click(pixels.front());
-  ASSERT_EQ(s.picks.size(), 1u);
-  s.startViewshed();
-  for (int i = 0; i < 3000 && s.viewshed.isRunning(); ++i) {
+  ASSERT_EQ(s.tools->picks.size(), 1u);
+  s.say(s.tools->startViewshed());
+  for (int i = 0; i < 3000 && s.tools->viewshed.isRunning(); ++i) {
     s.step(still());
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  ASSERT_TRUE(s.overlay) << s.message();
-  const auto maker = ViewshedMaker::make(s.model, s.sights.earth());
+  ASSERT_TRUE(s.tools->overlay) << s.message();
+  const auto maker = ViewshedMaker::make(s.tools->model(), s.tools->sights.earth());
   ASSERT_TRUE(maker);
   ViewshedOptions options;
-  options.targetHeight = s.targetAbove;
-  const auto viewshed =
-      maker->from({sightPlan(s.model, s.picks[0].xy), s.picks[0].height + s.observerAbove}, options);
+  options.targetHeight = s.tools->targetAbove;
+  const auto viewshed = maker->from(
+      {sightPlan(s.tools->model(), s.tools->picks[0].xy), s.tools->picks[0].height + s.tools->observerAbove},
+      options);
   ASSERT_TRUE(viewshed);
-  EXPECT_EQ(s.overlay->seen, viewshed->seen);
-  ASSERT_EQ(s.overlay->rgba.size(), viewshed->cells.size());
+  EXPECT_EQ(s.tools->overlay->seen, viewshed->seen);
+  ASSERT_EQ(s.tools->overlay->picture->rgba.size(), viewshed->cells.size());
   // Of every sample the pixel that the texture has in its place.
-  const auto& o = *s.overlay;
+  const PlanPicture& o = *s.tools->overlay->picture;
   for (std::uint32_t row = 0; row < viewshed->rows; ++row)
     for (std::uint32_t column = 0; column < viewshed->columns; ++column) {
       const int x = int(std::floor((column * o.scale.x + o.shift.x) * o.width));
@@ -129,12 +136,13 @@ TEST(Session, AViewshedFromAPickIsThatOfTheMaker) {
           viewshed->cells[std::size_t(row) * viewshed->columns + column] == ViewshedCell::seen;
       ASSERT_EQ(pixel[0] == 255, isSeen) << column << ", " << row;
     }
-  s.clearPicks();
-  EXPECT_FALSE(s.overlay);
+  s.apply(Action::clearPicks);
+  EXPECT_FALSE(s.tools->overlay);
 }
 
 TEST(Session, AFlightIsSetPlayedStoppedByAHandAndKeptInAFile) {
-  ViewerSession s(northUp(), {});
+  test::ViewedTerrain viewed(northUp());
+  ViewerSession& s = viewed.session;
   s.apply(Action::playFlight);
   EXPECT_FALSE(s.message().empty()) << "a flight without key frames is a sentence";
   EXPECT_FALSE(s.deck.isPlaying());
@@ -157,25 +165,26 @@ TEST(Session, AFlightIsSetPlayedStoppedByAHandAndKeptInAFile) {
   EXPECT_FALSE(s.deck.isPlaying()) << "it ends by itself";
   EXPECT_NEAR(s.rig.camera().azimuthDegrees, 90, 1e-6);
 
-  s.flightPath = std::filesystem::temp_directory_path() / "arete-window-flight.json";
+  s.files.flight = std::filesystem::temp_directory_path() / "arete-window-flight.json";
   s.apply(Action::saveFlight);
   s.deck.clear();
   s.apply(Action::loadFlight);
   EXPECT_EQ(s.deck.plan().keys.size(), 2u) << s.message();
-  std::filesystem::remove(s.flightPath);
+  std::filesystem::remove(s.files.flight);
   s.apply(Action::loadFlight);
   EXPECT_NE(s.message().find("flight.json"), std::string::npos) << "a file that is not there is named";
   EXPECT_EQ(s.deck.plan().keys.size(), 2u);
 }
 
 TEST(Session, GoToLooksAtAPlaceOrStandsAtAPosition) {
-  ViewerSession s(northUp(), {});
+  test::ViewedTerrain viewed(northUp());
+  ViewerSession& s = viewed.session;
   s.rig.setPicture(800, 600);
   s.rig.setFloorMetres(0);
-  const Vec2 xy = s.model.toSource({20, 15});
+  const Vec2 xy = s.tools->model().toSource({20, 15});
   s.goTo(std::to_string(xy.x) + "," + std::to_string(xy.y), false);
   EXPECT_TRUE(s.message().empty()) << s.message();
-  const auto seen = s.picker.at(s.rig.camera(), {400, 300});
+  const auto seen = s.subject.pick(s.rig.camera(), {400, 300}, {});
   ASSERT_TRUE(seen);
   EXPECT_LE(seen->metres, 2000 + 1e-6);
   s.goTo(std::to_string(xy.x) + ", " + std::to_string(xy.y) + ", 5000msl", false);
@@ -192,13 +201,14 @@ TEST(Session, GoToLooksAtAPlaceOrStandsAtAPosition) {
 TEST(Session, GoToFindsALongitudeThatIsWholeTurnsOff) {
   const TerrainModel& geographic = test::cameraModels()[5].model;
   ASSERT_TRUE(geographic.georeference.isGeographic);
-  ViewerSession s(geographic, {});
+  test::ViewedTerrain viewed(geographic);
+  ViewerSession& s = viewed.session;
   s.rig.setFloorMetres(0);
   const Vec2 xy = geographic.toSource({20, 15});
   for (const double turns : {-1.0, 0.0, 1.0, 2.0}) {
     SCOPED_TRACE(turns);
     const std::string place = std::to_string(xy.x + 360 * turns) + "," + std::to_string(xy.y);
-    const auto goal = s.places.read(place, false);
+    const auto goal = s.tools->places.read(place, false);
     ASSERT_TRUE(goal) << goal.error().describe();
     EXPECT_NEAR(goal->xy.x, xy.x, 1e-6);
     s.goTo(place + ",5000msl", false);
@@ -220,12 +230,12 @@ TEST(Session, ContourIntervalsAreRoundAndAboutADozen) {
 
 TEST(Session, TheEdgesOfAFrustumAreSeenAtTheCornersOfItsPicture) {
   for (const test::CameraModel& m : test::cameraModels()) {
-    const CameraSpace space(m.model);
-    const Camera camera = homeCamera(HomeView::overview, space, metricBox(m.model));
-    const auto edges = frustumEdges(space, camera, 100, 2);
-    ASSERT_EQ(edges.size(), 8u);
-    for (std::size_t i = 0; i < 8; i += 2) {
-      const auto seen = pixelOf(space, camera, edges[i][1], 2);
+    const TerrainSubject subject(m.model);
+    const Camera camera = subject.home(HomeView::overview, {}, {});
+    const SpaceVertices edges = frustumEdges(subject.space(), camera, 100, 2);
+    ASSERT_EQ(edges.vertices.size(), 16u);
+    for (std::size_t i = 1; i < 16; i += 4) {
+      const auto seen = pixelOf(subject, camera, edges.vertices[i].place, {.stretch = 2});
       ASSERT_TRUE(seen);
       EXPECT_NEAR(std::min(seen->x, camera.widthPixels - seen->x), 0, 1e-4);
       EXPECT_NEAR(std::min(seen->y, camera.heightPixels - seen->y), 0, 1e-4);

@@ -24,7 +24,7 @@ TEST(ViewshedJob, AnOverlayTooLargeForTheDeviceShowsSomeOfTheSamplesWhereTheyAre
   for (std::uint32_t row = 0; row < 37; ++row)
     for (std::uint32_t column = 60; column < 100; ++column)
       viewshed.cells[row * 100 + column] = ViewshedCell::seen;
-  const ViewshedOverlay o = overlayOf(viewshed, 30);
+  const PlanPicture o = *overlayOf(viewshed, 30).picture;
   EXPECT_LE(o.width, 30);
   EXPECT_LE(o.height, 30);
   for (int x = 0; x < o.width; ++x) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/window/terrain_window.h"
+#include "viewer/window/window.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,6 +9,7 @@
 #include <set>
 
 #include "viewer/camera_models.h"
+#include "viewer/gl/terrain_drawable.h"
 #include "viewer/under_xvfb.h"
 
 namespace arete {
@@ -16,6 +17,13 @@ namespace {
 
 const TerrainModel& northernView() {
   return test::cameraModels()[0].model;
+}
+
+FillScene terrain(const TerrainModel& model) {
+  return [&model](Scene& scene) -> Status {
+    ARETE_TRY(TerrainDrawable made, TerrainDrawable::create(model, {}));
+    return scene.add(std::make_unique<TerrainDrawable>(std::move(made)));
+  };
 }
 
 struct Folder {
@@ -39,9 +47,9 @@ TEST(Window, ShowsTheTerrainAndThePanelAndAnswersWhatIsAsked) {
     if (frame == 1) s.click(middle);
     if (frame == 2) s.click({middle.x + 40, middle.y + 10});
     if (frame == 3) {
-      EXPECT_EQ(s.picks.size(), 2u);
-      EXPECT_TRUE(s.sight);
-      s.startViewshed();
+      EXPECT_EQ(s.tools->picks.size(), 2u);
+      EXPECT_TRUE(s.tools->sight);
+      s.say(s.tools->startViewshed());
     }
     for (const Action action : {Action::wireframe, Action::contours, Action::help, Action::colorError})
       if (frame == 4) s.apply(action);
@@ -50,9 +58,9 @@ TEST(Window, ShowsTheTerrainAndThePanelAndAnswersWhatIsAsked) {
     if (frame == 7) s.settings.path = CutPath::processor;
     if (frame == 8) s.settings.stretch = 2;
     // On, until the viewshed is there.
-    return frame < 10 || (s.viewshed.isRunning() && frame < 2000);
+    return frame < 10 || (s.tools->viewshed.isRunning() && frame < 2000);
   };
-  const Status shown = runWindow(northernView(), options);
+  const Status shown = runWindow(terrain(northernView()), options);
   ASSERT_TRUE(shown) << shown.error().describe();
   EXPECT_GT(triangles, 2u);
   EXPECT_GT(std::filesystem::file_size(options.lastPicture), 10000u) << "an empty picture is smaller";
@@ -72,13 +80,13 @@ TEST(Window, RendersAFlightIntoAFolderOfFrames) {
       plan.framesPerSecond = 5;
       plan.duration = 1;
       s.deck.setPlan(plan);
-      s.framesFolder = folder.path / "frames";
-      s.wantsFrames = isAsked = true;
+      s.files.framesFolder = folder.path / "frames";
+      s.files.wantsFrames = isAsked = true;
       return true;
     }
-    return s.wantsFrames && frame < 200;
+    return s.files.wantsFrames && frame < 200;
   };
-  const Status shown = runWindow(northernView(), options);
+  const Status shown = runWindow(terrain(northernView()), options);
   ASSERT_TRUE(shown) << shown.error().describe();
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path / "frames"))
@@ -114,7 +122,7 @@ TEST(Window, GoesBackFromWhereACurvedEarthCannotBeSeen) {
       }
       return frame < 5;
     };
-    const Status shown = runWindow(model, options);
+    const Status shown = runWindow(terrain(model), options);
     EXPECT_TRUE(shown) << shown.error().describe();
     EXPECT_TRUE(isChecked);
   }
@@ -122,7 +130,7 @@ TEST(Window, GoesBackFromWhereACurvedEarthCannotBeSeen) {
 
 TEST(Window, AnOpenGlBelow45IsASentenceThatNamesIt) {
   ARETE_UNDER_XVFB("MESA_GL_VERSION_OVERRIDE=3.3");
-  const Status shown = runWindow(northernView(), {.title = "test", .frames = 1});
+  const Status shown = runWindow(terrain(northernView()), {.title = "test", .frames = 1});
   ASSERT_FALSE(shown);
   EXPECT_EQ(shown.error().code, ErrorCode::unsupported);
   EXPECT_NE(shown.error().message.find("OpenGL 4.5 is needed"), std::string::npos) << shown.error().message;
@@ -132,7 +140,7 @@ TEST(Window, AnOpenGlBelow45IsASentenceThatNamesIt) {
 TEST(Window, NoDisplayIsASentence) {
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
-  const Status shown = runWindow(northernView(), {.title = "test", .frames = 1});
+  const Status shown = runWindow(terrain(northernView()), {.title = "test", .frames = 1});
   ASSERT_FALSE(shown);
   EXPECT_EQ(shown.error().code, ErrorCode::unsupported);
   EXPECT_NE(shown.error().describe().find("display"), std::string::npos) << shown.error().describe();
@@ -141,10 +149,8 @@ TEST(Window, NoDisplayIsASentence) {
 TEST(Window, WhatGoesWrongBeforeTheFirstFrameClosesItWithItsReason) {
   ARETE_UNDER_XVFB("");
   WindowOptions options{.title = "test", .frames = 3};
-  options.onReady = [](TerrainView&) -> Status {
-    return failure(ErrorCode::invalidData, "does not overlap", "drape");
-  };
-  const Status shown = runWindow(northernView(), options);
+  const Status shown = runWindow(
+      [](Scene&) -> Status { return failure(ErrorCode::invalidData, "does not overlap", "drape"); }, options);
   ASSERT_FALSE(shown);
   EXPECT_EQ(shown.error().describe(), "drape: does not overlap");
 }

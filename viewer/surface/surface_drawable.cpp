@@ -2,7 +2,7 @@
 //
 // A cut that changed is written to the device as a whole: its triangles sorted by material, each as three
 // drawn vertices.
-#include "viewer/surface/surface_view.h"
+#include "viewer/surface/surface_drawable.h"
 
 #include <algorithm>
 #include <utility>
@@ -12,6 +12,7 @@
 #include "engine/cut/cut.h"
 #include "engine/follow/incremental_cut.h"
 #include "surface/displacement/displaced_places.h"
+#include "viewer/surface/surface_painter.h"
 
 namespace arete {
 namespace {
@@ -21,10 +22,10 @@ constexpr double kNearestPlane = 1e-4;
 
 }  // namespace
 
-struct SurfaceView::State {
+struct SurfaceDrawable::State {
   const SurfaceModel* model = nullptr;
+  std::shared_ptr<const SurfaceSubject> subject;
   ZUpFrame upright;
-  ZUpShape shape;
   IncrementalCut cut;
   SurfaceOnGpu surface;
   MaterialsOnGpu materials;
@@ -86,34 +87,37 @@ struct SurfaceView::State {
   }
 };
 
-Result<SurfaceView> SurfaceView::create(const SurfaceModel& model, const ZUpFrame& upright) {
+Result<SurfaceDrawable> SurfaceDrawable::create(const SurfaceModel& model,
+                                                std::shared_ptr<const SurfaceSubject> subject) {
   ARETE_TRY(SurfacePainter painter, SurfacePainter::create());
-  return SurfaceView(std::make_unique<State>(State{.model = &model,
-                                                   .upright = upright,
-                                                   .shape = uprightShape(model, upright),
-                                                   .cut = IncrementalCut(model.mt),
-                                                   .surface = uploadSurface(model, upright),
-                                                   .materials = MaterialsOnGpu::load(model),
-                                                   .painter = std::move(painter)}));
+  const ZUpFrame upright = subject->upright();
+  return SurfaceDrawable(std::make_unique<State>(State{.model = &model,
+                                                       .subject = std::move(subject),
+                                                       .upright = upright,
+                                                       .cut = IncrementalCut(model.mt),
+                                                       .surface = uploadSurface(model, upright),
+                                                       .materials = MaterialsOnGpu::load(model),
+                                                       .painter = std::move(painter)}));
 }
 
-SurfaceView::SurfaceView(std::unique_ptr<State> state) : state_(std::move(state)) {}
-SurfaceView::SurfaceView(SurfaceView&&) noexcept = default;
-SurfaceView& SurfaceView::operator=(SurfaceView&&) noexcept = default;
-SurfaceView::~SurfaceView() = default;
+SurfaceDrawable::SurfaceDrawable(std::unique_ptr<State> state) : state_(std::move(state)) {}
+SurfaceDrawable::SurfaceDrawable(SurfaceDrawable&&) noexcept = default;
+SurfaceDrawable& SurfaceDrawable::operator=(SurfaceDrawable&&) noexcept = default;
+SurfaceDrawable::~SurfaceDrawable() = default;
 
-Result<SurfaceFigures> SurfaceView::cut(const Camera& camera, const SurfaceViewSettings& settings,
-                                        const RunContext& context) {
+Result<FrameFigures> SurfaceDrawable::cut(const Camera& camera, const ViewSettings& settings,
+                                          const RunContext& context) {
   State& s = *state_;
-  ARETE_TRY(const View view, uprightView(camera));
+  ARETE_CHECK(s.subject->check(settings));
+  ARETE_TRY(const View view, s.subject->viewOf(camera));
   const Stopwatch watch;
   const MultiTriangulation& mt = s.model->mt;
   const ViewError criterion({.view = s.upright.turnedBack(view), .pixels = settings.pixels}, mt.metric());
   IncrementalOptions options;
   if (settings.maxTriangles > 0) options.maxTriangles = settings.maxTriangles;
   ARETE_TRY(const IncrementalCut::Update update, s.cut.update(criterion, options, context));
-  SurfaceFigures figures;
-  figures.triangles = static_cast<std::uint32_t>(s.cut.triangles().size());
+  FrameFigures figures;
+  figures.triangles = figures.asked = static_cast<std::uint32_t>(s.cut.triangles().size());
   figures.isComplete = update.isComplete;
   figures.pixels = settings.pixels;
   // A budget may end the cut early: the figure is then the worst error that is drawn.
@@ -126,35 +130,39 @@ Result<SurfaceFigures> SurfaceView::cut(const Camera& camera, const SurfaceViewS
   return figures;
 }
 
-Status SurfaceView::draw(const Camera& camera, const SurfaceViewSettings& settings) {
-  State& s = *state_;
-  ARETE_TRY(const View view, uprightView(camera));
+Result<FrameView> SurfaceDrawable::frameOf(const Camera& camera, const ViewSettings&) const {
   FrameView frame;
-  frame.view = view;
-  frame.pixels = s.pixels;
+  ARETE_TRY(frame.view, state_->subject->viewOf(camera));
+  frame.pixels = state_->pixels;
   // A surface has no usual unit, so the near plane follows its size.
-  frame.drawnNear = kNearestPlane * s.shape.box.diagonal();
+  frame.drawnNear = kNearestPlane * state_->subject->box().diagonal();
+  return frame;
+}
+
+Status SurfaceDrawable::draw(const Camera& camera, const ViewSettings& settings, std::span<const Layer>) {
+  State& s = *state_;
+  ARETE_TRY(const FrameView frame, frameOf(camera, settings));
   glBeginQuery(GL_ANY_SAMPLES_PASSED, s.anySample);
   s.painter.draw(s.surface, s.materials, {s.indices, s.errors, s.ranges}, frame, settings.look);
   glEndQuery(GL_ANY_SAMPLES_PASSED);
-  s.painter.drawBackground();
   return {};
 }
 
-bool SurfaceView::showsSurface() const {
+void SurfaceDrawable::drawBackground(const ViewSettings&) {
+  state_->painter.drawBackground();
+}
+
+bool SurfaceDrawable::isShown() const {
   GLuint any = 0;
   glGetQueryObjectuiv(state_->anySample, GL_QUERY_RESULT, &any);
   return any != 0;
 }
 
-const Warnings& SurfaceView::warnings() const {
+Warnings SurfaceDrawable::warnings() const {
   return state_->materials.warnings();
 }
-const ZUpFrame& SurfaceView::upright() const {
-  return state_->upright;
-}
-const ZUpShape& SurfaceView::shape() const {
-  return state_->shape;
+const SurfaceSubject& SurfaceDrawable::subject() const {
+  return *state_->subject;
 }
 
 }  // namespace arete

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Pictures are judged by their pixels: where a surface is, what colour it has there, and where it is not.
-#include "viewer/surface/surface_view.h"
+#include "viewer/surface/surface_drawable.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "surface/builder/build.h"
 #include "surface/families.h"
 #include "viewer/drawn_mesh.h"
-#include "viewer/surface/headless.h"
+#include "viewer/headless/headless.h"
 #include "viewer/surface/shading_normals.h"
 
 namespace arete {
@@ -42,9 +42,22 @@ SurfaceMesh twoColors() {
   return mesh;
 }
 
-Result<HeadlessSurface> viewOf(const SurfaceModel& model) {
-  return HeadlessSurface::create(model, ZUpFrame(model),
-                                 {.widthPixels = 200, .heightPixels = 160, .samples = 1});
+ViewSettings byMaterial(double pixels = 1) {
+  ViewSettings settings;
+  settings.pixels = pixels;
+  settings.look.coloring = Coloring::material;
+  settings.look.isShaded = false;
+  return settings;
+}
+
+Result<HeadlessView> viewOf(const SurfaceModel& model, const ViewSettings& settings = byMaterial()) {
+  return HeadlessView::create(
+      {.widthPixels = 200, .heightPixels = 160, .samples = 1, .settings = settings},
+      [&](Scene& scene) -> Status {
+        ARETE_TRY(SurfaceDrawable made,
+                  SurfaceDrawable::create(model, std::make_shared<SurfaceSubject>(model, ZUpFrame(model))));
+        return scene.add(std::make_unique<SurfaceDrawable>(std::move(made)));
+      });
 }
 
 Camera fromAbove(const SurfaceModel& model) {
@@ -62,20 +75,17 @@ bool isGreen(Rgb c) {
   return c.g > 200 && c.r < 160 && c.b < 40;
 }
 
-TEST(SurfaceView, ShowsTheMaterialOfEveryFaceAtEveryTolerance) {
+TEST(SurfaceDrawable, ShowsTheMaterialOfEveryFaceAtEveryTolerance) {
   ARETE_NEEDS_OPENGL(probe);
   const Result<SurfaceModel> model = buildSurface(twoColors());
   ASSERT_TRUE(model) << model.error().describe();
-  Result<HeadlessSurface> view = viewOf(*model);
-  ASSERT_TRUE(view) << view.error().describe();
-  SurfaceViewSettings settings;
-  settings.look.isShaded = false;
   std::uint32_t before = ~0u;
   for (const double pixels : {0.01, 1.0, 1000.0}) {
-    settings.pixels = pixels;
-    const auto figures = view->draw(fromAbove(*model), settings);
+    Result<HeadlessView> view = viewOf(*model, byMaterial(pixels));
+    ASSERT_TRUE(view) << view.error().describe();
+    const auto figures = view->draw(fromAbove(*model));
     ASSERT_TRUE(figures) << figures.error().describe();
-    EXPECT_TRUE(figures->showsSurface);
+    EXPECT_TRUE(figures->isShown);
     EXPECT_LE(figures->triangles, before);
     before = figures->triangles;
     const Image image = view->image();
@@ -87,7 +97,7 @@ TEST(SurfaceView, ShowsTheMaterialOfEveryFaceAtEveryTolerance) {
   EXPECT_LE(before, 12u);
 }
 
-TEST(SurfaceView, ShowsAPictureTheRightWayUpAndRound) {
+TEST(SurfaceDrawable, ShowsAPictureTheRightWayUpAndRound) {
   ARETE_NEEDS_OPENGL(probe);
   SurfaceMesh mesh(shapes::sheet(9, 9));
   Material material;
@@ -103,19 +113,17 @@ TEST(SurfaceView, ShowsAPictureTheRightWayUpAndRound) {
   mesh.vertexAttributes = {coords};
   const Result<SurfaceModel> model = buildSurface(mesh);
   ASSERT_TRUE(model) << model.error().describe();
-  Result<HeadlessSurface> view = viewOf(*model);
+  Result<HeadlessView> view = viewOf(*model);
   ASSERT_TRUE(view) << view.error().describe();
-  EXPECT_TRUE(view->view().warnings().empty()) << view->view().warnings().front().sentence;
-  SurfaceViewSettings settings;
-  settings.look.isShaded = false;
-  ASSERT_TRUE(view->draw(fromAbove(*model), settings));
+  EXPECT_TRUE(view->warnings().empty()) << view->warnings().front().sentence;
+  ASSERT_TRUE(view->draw(fromAbove(*model)));
   const Image image = view->image();
   const Rgb left = image.at(60, 80), right = image.at(140, 80);
   EXPECT_TRUE(isRed(left)) << int(left.r) << ' ' << int(left.g) << ' ' << int(left.b);
   EXPECT_TRUE(isGreen(right)) << int(right.r) << ' ' << int(right.g) << ' ' << int(right.b);
 }
 
-TEST(SurfaceView, SaysWhichPictureCannotBeShown) {
+TEST(SurfaceDrawable, SaysWhichPictureCannotBeShown) {
   ARETE_NEEDS_OPENGL(probe);
   SurfaceMesh mesh(shapes::sheet(4, 4));
   Material material;
@@ -125,28 +133,30 @@ TEST(SurfaceView, SaysWhichPictureCannotBeShown) {
   mesh.pictures = {{.name = "broken.png", .mimeType = "image/png", .bytes = {std::byte{1}, std::byte{2}}}};
   const Result<SurfaceModel> model = buildSurface(mesh);
   ASSERT_TRUE(model) << model.error().describe();
-  Result<HeadlessSurface> view = viewOf(*model);
+  Result<HeadlessView> view = viewOf(*model);
   ASSERT_TRUE(view) << view.error().describe();
-  ASSERT_EQ(view->view().warnings().size(), 1u);
-  EXPECT_NE(view->view().warnings()[0].sentence.find("broken.png"), std::string::npos)
-      << view->view().warnings()[0].sentence;
+  ASSERT_EQ(view->warnings().size(), 1u);
+  EXPECT_NE(view->warnings()[0].sentence.find("broken.png"), std::string::npos)
+      << view->warnings()[0].sentence;
 }
 
-TEST(SurfaceView, KeepsABudgetAndSaysWhichToleranceIsReached) {
+TEST(SurfaceDrawable, KeepsABudgetAndSaysWhichToleranceIsReached) {
   ARETE_NEEDS_OPENGL(probe);
   const Result<SurfaceModel> model =
       buildSurface(SurfaceMesh(shapes::shaken(shapes::globe(40, 30), 3, 0.02)));
   ASSERT_TRUE(model);
-  Result<HeadlessSurface> view = viewOf(*model);
+  ViewSettings settings = byMaterial(0.01);
+  settings.maxTriangles = 400;
+  Result<HeadlessView> view = viewOf(*model, settings);
   ASSERT_TRUE(view) << view.error().describe();
-  const auto figures = view->draw(fromAbove(*model), {.pixels = 0.01, .maxTriangles = 400});
+  const auto figures = view->draw(fromAbove(*model));
   ASSERT_TRUE(figures) << figures.error().describe();
   EXPECT_LE(figures->triangles, 400u);
   EXPECT_FALSE(figures->isComplete);
   EXPECT_GT(figures->pixels, 0.01);
   Camera away = fromAbove(*model);
   away.pitchDegrees = 90;
-  EXPECT_FALSE(view->draw(away, {})->showsSurface);
+  EXPECT_FALSE(view->draw(away)->isShown);
 }
 
 TEST(ShadingNormals, AreThoseOfTheSourceAndNoneOnSharpEdges) {

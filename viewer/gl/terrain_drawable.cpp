@@ -2,17 +2,17 @@
 //
 // Combines the front of the device or of the processor with the painter, and rebuilds both when the space
 // that is drawn changes (curvature, exaggeration).
-#include "viewer/gl/terrain_view.h"
+#include "viewer/gl/terrain_drawable.h"
 
 #include <algorithm>
 
 #include "engine/base/stopwatch.h"
 #include "engine/morph/geomorph.h"
 #include "viewer/gl/processor_front.h"
-#include "viewer/scene/curved_ground.h"
 
 namespace arete {
-struct TerrainView::State {
+struct TerrainDrawable::State {
+  std::shared_ptr<const TerrainSubject> subject;
   const TerrainModel* model = nullptr;
   MultiTriangulation mt;  // what is drawn, the model's or a curved one
   TerrainOnGpu terrain;
@@ -23,18 +23,8 @@ struct TerrainView::State {
   bool hasRises = false;  // of vertices that the device's cut would not put to rest
   CutPath drawn = CutPath::device;
   GlQuery anySample = makeQuery(GL_ANY_SAMPLES_PASSED);  // of the terrain, when it was drawn last
-  std::optional<DrapeOnGpu> drape = {};
-  std::optional<CurvedGround> ground = {};  // made at its first use
   bool isBent = false;
   double bentStretch = 1;
-
-  Result<const CurvedGround*> curvedGround() {
-    if (!ground) {
-      ARETE_TRY(CurvedGround made, CurvedGround::create(*model));
-      ground = std::move(made);
-    }
-    return &*ground;
-  }
 
   bool isReadyFor(const ViewSettings& settings) const {
     return settings.isCurved == isBent && (!isBent || settings.stretch == bentStretch);
@@ -44,7 +34,7 @@ struct TerrainView::State {
     if (isReadyFor(settings)) return {};
     MultiTriangulation wanted = model->mt;
     if (settings.isCurved) {
-      ARETE_TRY(const CurvedGround* const made, curvedGround());
+      ARETE_TRY(const CurvedGround* const made, subject->curvedGround());
       ARETE_TRY(MultiTriangulation curved, made->curvedMt(settings.stretch));
       wanted = std::move(curved);
     }
@@ -62,10 +52,17 @@ struct TerrainView::State {
   }
 };
 
-Result<TerrainView> TerrainView::create(const TerrainModel& model, const Options& options,
-                                        const RunContext& context) {
+Result<TerrainDrawable> TerrainDrawable::create(const TerrainModel& model, const Options& options,
+                                                const RunContext& context) {
+  return create(std::make_shared<TerrainSubject>(model), options, context);
+}
+
+Result<TerrainDrawable> TerrainDrawable::create(std::shared_ptr<const TerrainSubject> subject,
+                                                const Options& options, const RunContext& context) {
+  const TerrainModel& model = subject->model();
   ARETE_TRY(TerrainPainter painter, TerrainPainter::create(model));
-  auto state = std::make_unique<State>(State{.model = &model,
+  auto state = std::make_unique<State>(State{.subject = std::move(subject),
+                                             .model = &model,
                                              .mt = model.mt,
                                              .terrain = uploadTerrain(model.mt, nullptr, context),
                                              .painter = std::move(painter)});
@@ -78,27 +75,18 @@ Result<TerrainView> TerrainView::create(const TerrainModel& model, const Options
     else
       state->terrain.refusal = device.error().describe();
   }
-  return TerrainView(std::move(state));
+  return TerrainDrawable(std::move(state));
 }
 
-TerrainView::TerrainView(std::unique_ptr<State> state) : state_(std::move(state)) {}
-TerrainView::TerrainView(TerrainView&&) noexcept = default;
-TerrainView& TerrainView::operator=(TerrainView&&) noexcept = default;
-TerrainView::~TerrainView() = default;
+TerrainDrawable::TerrainDrawable(std::unique_ptr<State> state) : state_(std::move(state)) {}
+TerrainDrawable::TerrainDrawable(TerrainDrawable&&) noexcept = default;
+TerrainDrawable& TerrainDrawable::operator=(TerrainDrawable&&) noexcept = default;
+TerrainDrawable::~TerrainDrawable() = default;
 
-Result<FrameView> TerrainView::frameOf(const Camera& camera, const ViewSettings& settings) const {
+Result<FrameView> TerrainDrawable::frameOf(const Camera& camera, const ViewSettings& settings) const {
   FrameView frame;
-  if (settings.isCurved) {
-    ARETE_TRY(const CurvedGround* const ground, state_->curvedGround());
-    ARETE_TRY(View view, ground->viewOf(camera, settings.stretch));
-    frame.view = view;
-    frame.earthRadius = ground->radius();
-  } else {
-    // On a flat map the device multiplies heights when it draws, so only the eye is raised here.
-    ARETE_TRY(View view, viewOf(camera, *state_->model));
-    frame.view = view;
-    frame.view.eye.z *= settings.stretch;
-  }
+  ARETE_TRY(frame.view, state_->subject->viewOf(camera, settings));
+  if (settings.isCurved) frame.earthRadius = (*state_->subject->curvedGround())->radius();
   const Vec3 ground = metricPosition(camera.xy, camera.height, *state_->model);
   frame.eyeGround = {ground.x, ground.y};
   frame.isMirrored = state_->model->isFlipped();
@@ -113,8 +101,10 @@ Result<FrameView> TerrainView::frameOf(const Camera& camera, const ViewSettings&
   return frame;
 }
 
-Result<FrameFigures> TerrainView::cut(const Camera& camera, const ViewSettings& settings) {
+Result<FrameFigures> TerrainDrawable::cut(const Camera& camera, const ViewSettings& settings,
+                                          const RunContext&) {
   State& s = *state_;
+  ARETE_CHECK(s.subject->check(settings));
   ARETE_TRY(FrameView frame, frameOf(camera, settings));
   ARETE_CHECK(s.prepare(settings));
   FrameFigures figures;
@@ -165,20 +155,14 @@ Result<FrameFigures> TerrainView::cut(const Camera& camera, const ViewSettings& 
   return figures;
 }
 
-Result<Vec3> TerrainView::drawnPosition(Vec2 xy, double height, const ViewSettings& settings) const {
-  // On a flat Earth the device multiplies heights.
-  if (!settings.isCurved) return metricPosition(xy, height, *state_->model);
-  ARETE_TRY(const CurvedGround* const ground, state_->curvedGround());
-  return ground->position(xy, height, settings.stretch);
-}
-
-DrawnFront TerrainView::front() const {
+DrawnFront TerrainDrawable::front() const {
   const State& s = *state_;
   if (s.drawn == CutPath::device && s.device) return s.device->front();
   return s.processor ? s.processor->front() : DrawnFront{};
 }
 
-Status TerrainView::draw(const Camera& camera, const ViewSettings& settings) {
+Status TerrainDrawable::draw(const Camera& camera, const ViewSettings& settings,
+                             std::span<const Layer> layers) {
   State& s = *state_;
   ARETE_TRY(FrameView frame, frameOf(camera, settings));
   // A change of the curvature makes new buffers without a front, so a whole cut is waited for.
@@ -190,52 +174,49 @@ Status TerrainView::draw(const Camera& camera, const ViewSettings& settings) {
   s.painter.setFrame(frame);
   if (settings.look.coloring == Coloring::error && s.terrain.triangleErrors == 0)
     uploadErrors(s.terrain, s.model->mt);
-  // The query counts the terrain alone, so the sky is drawn after it.
+  ARETE_CHECK(s.painter.setLayers(layers));
   glBeginQuery(GL_ANY_SAMPLES_PASSED, s.anySample);
   s.painter.draw(s.terrain, front(), settings.look);
   glEndQuery(GL_ANY_SAMPLES_PASSED);
-  s.painter.drawSky(settings.look);
   return {};
 }
 
-bool TerrainView::showsTerrain() const {
+void TerrainDrawable::drawBackground(const ViewSettings& settings) {
+  state_->painter.drawSky(settings.look);
+}
+
+bool TerrainDrawable::isShown() const {
   GLuint any = 0;
   glGetQueryObjectuiv(state_->anySample, GL_QUERY_RESULT, &any);
   return any != 0;
 }
 
-const std::string& TerrainView::deviceRefusal() const {
+std::string TerrainDrawable::deviceRefusal() const {
   return state_->terrain.refusal;
 }
-std::uint32_t TerrainView::capacity() const {
+std::uint32_t TerrainDrawable::capacity() const {
   return state_->device ? state_->device->capacity() : 0;
 }
-Status TerrainView::setDrape(const std::string& path, const DrapeOptions& options,
-                             const RunContext& context) {
-  State& s = *state_;
-  ARETE_TRY(DrapeOnGpu drape, DrapeOnGpu::load(path, *s.model, options, context));
-  s.drape = std::move(drape);
-  s.painter.setDrape(&*s.drape);
-  return {};
+bool TerrainDrawable::keepsBudget(const ViewSettings& settings) const {
+  return settings.path == CutPath::processor;
 }
 
-const DrapeOnGpu* TerrainView::drape() const {
-  return state_->drape ? &*state_->drape : nullptr;
+const TerrainSubject& TerrainDrawable::subject() const {
+  return *state_->subject;
 }
-
-TerrainPainter& TerrainView::painter() {
+TerrainPainter& TerrainDrawable::painter() {
   return state_->painter;
 }
-const TerrainOnGpu& TerrainView::terrain() const {
+const TerrainOnGpu& TerrainDrawable::terrain() const {
   return state_->terrain;
 }
-const TerrainModel& TerrainView::model() const {
+const TerrainModel& TerrainDrawable::model() const {
   return *state_->model;
 }
-const MultiTriangulation& TerrainView::mt() const {
+const MultiTriangulation& TerrainDrawable::mt() const {
   return state_->mt;
 }
-const ComputeFront* TerrainView::computeFront() const {
+const ComputeFront* TerrainDrawable::computeFront() const {
   return state_->device ? &*state_->device : nullptr;
 }
 

@@ -2,7 +2,7 @@
 //
 // What the device cuts and draws, against the engine's own cuts, a rasteriser that shares no code with
 // OpenGL, and every sample.
-#include "viewer/gl/terrain_view.h"
+#include "viewer/gl/terrain_drawable.h"
 
 #include <gtest/gtest.h>
 
@@ -89,10 +89,10 @@ std::vector<double> heightsAtSamples(const DrawnMesh& mesh, const TerrainModel& 
   return heights;
 }
 
-TEST(TerrainView, BothPathsDrawTheSameSurface) {
+TEST(TerrainDrawable, BothPathsDrawTheSameSurface) {
   ARETE_NEEDS_OPENGL(context);
   const TerrainModel& model = mountains();
-  Result<TerrainView> view = TerrainView::create(model, {});
+  Result<TerrainDrawable> view = TerrainDrawable::create(model, {});
   ASSERT_TRUE(view);
   Random random(8);
   for (int i = 0; i < 10; ++i) {
@@ -119,10 +119,10 @@ TEST(TerrainView, BothPathsDrawTheSameSurface) {
   }
 }
 
-TEST(TerrainView, PicturesAgreeWithARasteriserOfAnotherKind) {
+TEST(TerrainDrawable, PicturesAgreeWithARasteriserOfAnotherKind) {
   ARETE_NEEDS_OPENGL(context);
   const TerrainModel& model = mountains();
-  Result<TerrainView> view = TerrainView::create(model, {});
+  Result<TerrainDrawable> view = TerrainDrawable::create(model, {});
   ASSERT_TRUE(view);
   double low = 1e300, high = -1e300;
   for (std::uint32_t v = 0; v < model.mt.vertexCount(); ++v) {
@@ -184,10 +184,10 @@ TEST(TerrainView, PicturesAgreeWithARasteriserOfAnotherKind) {
   }
 }
 
-TEST(TerrainView, NoBackgroundShowsThroughFromAHundredCameras) {
+TEST(TerrainDrawable, NoBackgroundShowsThroughFromAHundredCameras) {
   ARETE_NEEDS_OPENGL(context);
   const TerrainModel& model = mountains();
-  Result<TerrainView> view = TerrainView::create(model, {});
+  Result<TerrainDrawable> view = TerrainDrawable::create(model, {});
   ASSERT_TRUE(view);
   const auto target = FrameTarget::create(320, 200);
   ASSERT_TRUE(target);
@@ -224,11 +224,11 @@ TEST(TerrainView, NoBackgroundShowsThroughFromAHundredCameras) {
   EXPECT_GT(inside, 1000000u);
 }
 
-TEST(TerrainView, WhatIsDrawnKeepsItsPixelsAtEverySampleInSight) {
+TEST(TerrainDrawable, WhatIsDrawnKeepsItsPixelsAtEverySampleInSight) {
   ARETE_NEEDS_OPENGL(context);
   const TerrainModel& model = mountains();
   const RasterHeightfield samples = model.rasterSamples();
-  Result<TerrainView> view = TerrainView::create(model, {});
+  Result<TerrainDrawable> view = TerrainDrawable::create(model, {});
   ASSERT_TRUE(view);
   Random random(55);
   double largestPart = 0;
@@ -263,10 +263,10 @@ TEST(TerrainView, WhatIsDrawnKeepsItsPixelsAtEverySampleInSight) {
   EXPECT_GT(largestPart, 0.3) << "the test sees next to nothing";
 }
 
-TEST(TerrainView, NothingJumpsFurtherThanReportedAlongASlowFlight) {
+TEST(TerrainDrawable, NothingJumpsFurtherThanReportedAlongASlowFlight) {
   ARETE_NEEDS_OPENGL(context);
   const TerrainModel& model = mountains();
-  Result<TerrainView> view = TerrainView::create(model, {});
+  Result<TerrainDrawable> view = TerrainDrawable::create(model, {});
   ASSERT_TRUE(view);
   Random random(77);
   for (const bool isGeomorphed : {true, false}) {
@@ -305,7 +305,7 @@ TEST(TerrainView, NothingJumpsFurtherThanReportedAlongASlowFlight) {
   }
 }
 
-TEST(TerrainView, FarAndNearFitIntoOneDepthBuffer) {
+TEST(TerrainDrawable, FarAndNearFitIntoOneDepthBuffer) {
   ARETE_NEEDS_OPENGL(context);
   // 200 km across, a camera a metre above the ground.
   RasterHeightfield field = rasterFamilies()[1].make(101, 101, 3);
@@ -314,7 +314,7 @@ TEST(TerrainView, FarAndNearFitIntoOneDepthBuffer) {
     field.heights[i] = 2000 * std::exp(-(x * x + y * y) / 200) + 400 * std::sin(0.3 * x) * std::cos(0.2 * y);
   }
   const TerrainModel model = modelOf(field, 2000);
-  Result<TerrainView> view = TerrainView::create(model, {});
+  Result<TerrainDrawable> view = TerrainDrawable::create(model, {});
   ASSERT_TRUE(view);
   Camera camera{.xy = model.toSource({50.0, 98.0}),
                 .azimuthDegrees = 2,

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/window/picking.h"
+#include "viewer/scene/terrain_subject.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,9 +35,9 @@ TerrainModel plane(double perColumn, double perRow) {
 }
 
 /// Where a ray meets the surface, found by walking: a ten-thousandth of the way at a time, then by halves.
-std::optional<Vec3> walked(const TerrainPicker& picker, const GroundHeights& heights, const Vec3& eye,
-                           const Vec3& d, double far) {
-  const CameraSpace& space = picker.space();
+std::optional<Vec3> walked(const TerrainSubject& subject, const Vec3& eye, const Vec3& d, double far) {
+  const CameraSpace& space = subject.space();
+  const GroundHeights& heights = *subject.heights();
   const auto above = [&](double t) -> std::optional<double> {
     const Vec3 p{eye.x + t * d.x, eye.y + t * d.y, eye.z + t * d.z};
     const auto ground = heights.at(space.xy(p));
@@ -66,8 +67,7 @@ std::optional<Vec3> walked(const TerrainPicker& picker, const GroundHeights& hei
 
 TEST(Picking, OnAPlaneItIsWhereTheRayMeetsThePlane) {
   const TerrainModel model = plane(2, -1.5);
-  const Profiles profiles(model);
-  const TerrainPicker picker(model, profiles);
+  const TerrainSubject subject(model);
   Random random(3);
   int hits = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -78,14 +78,14 @@ TEST(Picking, OnAPlaneItIsWhereTheRayMeetsThePlane) {
                         .widthPixels = 800,
                         .heightPixels = 600};
     const Vec2 pixel{random.between(0, 800), random.between(0, 600)};
-    const auto pick = picker.at(camera, pixel);
+    const auto pick = subject.pick(camera, pixel);
     if (!pick) continue;
     ++hits;
     // The height of the plane there, in terms of the source.
     const double column = (pick->xy.x - 500015) / 30, row = (3999985 - pick->xy.y) / 30;
     EXPECT_NEAR(pick->height, 100 + 2 * column - 1.5 * row, 1e-6) << "camera " << i;
     EXPECT_NEAR(pick->plan.x, column, 1e-6);
-    const auto seen = pixelOf(picker.space(), camera, pick->metric);
+    const auto seen = pixelOf(subject, camera, pick->metric);
     ASSERT_TRUE(seen);
     EXPECT_NEAR(seen->x, pixel.x, 1e-4);
     EXPECT_NEAR(seen->y, pixel.y, 1e-4);
@@ -96,34 +96,33 @@ TEST(Picking, OnAPlaneItIsWhereTheRayMeetsThePlane) {
 TEST(Picking, OnEveryKindOfGridItIsTheFirstPlaceThatAWalkAlongTheRayFinds) {
   for (const test::CameraModel& m : cameraModels()) {
     SCOPED_TRACE(m.name);
-    const Profiles profiles(m.model);
-    const TerrainPicker picker(m.model, profiles);
-    const double far = 3 * picker.box().diagonal();
+    const TerrainSubject subject(m.model);
+    const double far = 3 * subject.box().diagonal();
     Random random(17);
     int hits = 0;
     for (int i = 0; i < 60; ++i) {
-      Camera camera = homeCamera(HomeView::overview, picker.space(), picker.box(),
+      Camera camera = homeCamera(HomeView::overview, subject.space(), subject.box(),
                                  {.widthPixels = 800, .heightPixels = 600});
-      const Vec3 c = picker.box().centre();
-      camera = picker.space().at(
+      const Vec3 c = subject.box().centre();
+      camera = subject.space().at(
           camera, {c.x + random.between(-0.5, 0.5) * far / 3, c.y + random.between(-0.5, 0.5) * far / 3,
-                   picker.box().high.z + random.between(0.01, 0.5) * far / 3});
+                   subject.box().high.z + random.between(0.01, 0.5) * far / 3});
       camera.azimuthDegrees = random.between(0, 360);
       camera.pitchDegrees = random.between(-80, 0);
       const Vec2 pixel{random.between(0, 800), random.between(0, 600)};
-      Vec3 d = directionOfPixel(picker.space(), camera, pixel);
+      Vec3 d = directionOfPixel(*viewOf(camera, subject.space()), subject.space().isMirrored(), pixel);
       const double length = std::hypot(d.x, d.y, d.z);
       d = {d.x / length, d.y / length, d.z / length};
-      const auto found = walked(picker, profiles.heights(), picker.space().position(camera), d, far);
-      const auto pick = picker.at(camera, pixel);
+      const auto found = walked(subject, subject.space().position(camera), d, far);
+      const auto pick = subject.pick(camera, pixel);
       if (!found) continue;  // the walk may step over a crest that the ray meets
       ++hits;
       ASSERT_TRUE(pick) << "camera " << i;
-      const double there = test::apart(picker.space().position(camera), *found);
+      const double there = test::apart(subject.space().position(camera), *found);
       EXPECT_LE(pick->metres, there + 1e-6 * far);
       const bool isThere = pick->metres > there - 1e-6 * far;
       EXPECT_LT(isThere ? test::apart(pick->metric, *found) : 0, 1e-6 * far);
-      const auto ground = profiles.heights().at(pick->xy);
+      const auto ground = subject.heights()->at(pick->xy);
       ASSERT_TRUE(ground);
       EXPECT_NEAR(ground->height, pick->height, 1e-6 * far) << "a pick lies on the terrain";
     }
@@ -133,41 +132,50 @@ TEST(Picking, OnEveryKindOfGridItIsTheFirstPlaceThatAWalkAlongTheRayFinds) {
 
 TEST(Picking, ExaggeratedHeightsArePickedWhereTheyAreDrawn) {
   const TerrainModel& model = cameraModels()[0].model;
-  const Profiles profiles(model);
-  const TerrainPicker picker(model, profiles);
-  const Camera camera = homeCamera(HomeView::overview, picker.space(), picker.box());
+  const TerrainSubject subject(model);
+  const Camera camera = homeCamera(HomeView::overview, subject.space(), subject.box());
   for (const double stretch : {0.5, 1.0, 4.0}) {
-    const auto pick = picker.at(camera, {960, 560}, stretch);
+    const auto pick = subject.pick(camera, {960, 560}, {.stretch = stretch});
     if (!pick) continue;
-    const auto seen = pixelOf(picker.space(), camera, pick->metric, stretch);
+    const auto seen = pixelOf(subject, camera, pick->metric, {.stretch = stretch});
     ASSERT_TRUE(seen);
     EXPECT_NEAR(seen->x, 960, 1e-4);
     EXPECT_NEAR(seen->y, 560, 1e-4);
-    EXPECT_NEAR(profiles.heights().at(pick->xy)->height, pick->height, 1e-6);
+    EXPECT_NEAR(subject.heights()->at(pick->xy)->height, pick->height, 1e-6);
   }
 }
 
 TEST(Picking, StraightDownIsTheGroundBelowAndTheSkyIsNothing) {
   for (const test::CameraModel& m : cameraModels()) {
     SCOPED_TRACE(m.name);
-    const Profiles profiles(m.model);
-    const TerrainPicker picker(m.model, profiles);
-    const Vec3 c = picker.box().centre();
-    const Vec3 eye{c.x, c.y, picker.box().high.z + 100};
-    const auto pick = picker.along(eye, {0, 0, -3});
-    const auto ground = profiles.heights().at(picker.space().xy(eye));
+    const TerrainSubject subject(m.model);
+    const Vec3 c = subject.box().centre();
+    const Vec3 eye{c.x, c.y, subject.box().high.z + 100};
+    const auto pick = subject.along(eye, {0, 0, -3});
+    const auto ground = subject.heights()->at(subject.space().xy(eye));
     ASSERT_EQ(pick.has_value(), ground.has_value());
     if (pick) {
       EXPECT_NEAR(pick->height, ground->height, 1e-9 * std::abs(ground->height) + 1e-9);
     }
-    EXPECT_FALSE(picker.along(eye, {0, 0, 1}));
-    EXPECT_FALSE(picker.along(eye, {1, 0, 0.2}));
+    EXPECT_FALSE(subject.along(eye, {0, 0, 1}));
+    EXPECT_FALSE(subject.along(eye, {1, 0, 0.2}));
   }
+}
+
+/// The direction of a pixel, by the axes of the camera.
+Vec3 directionIn(const CameraSpace& space, const Camera& camera, Vec2 pixel) {
+  const double slope = std::tan(camera.verticalFieldOfViewDegrees * std::numbers::pi / 360);
+  const double aspect = camera.widthPixels / camera.heightPixels;
+  const double x = (2 * pixel.x / camera.widthPixels - 1) * slope * aspect;
+  const double y = (1 - 2 * pixel.y / camera.heightPixels) * slope;
+  return space.forward(lookOf(camera)) + x * space.right(camera.azimuthDegrees) +
+         y * space.up(lookOf(camera));
 }
 
 /// Cameras at every zoom: from far outside down to a hundredth of a sample above the ground, with wide and
 /// narrow lenses, level, steep and from below.
-Camera anyCamera(Random& random, const TerrainPicker& picker, const GroundHeights& heights) {
+Camera anyCamera(Random& random, const TerrainSubject& picker) {
+  const GroundHeights& heights = *picker.heights();
   const MetricBox& box = picker.box();
   const double size = box.diagonal(), zoom = std::pow(10, random.between(-5, 1)) * size;
   Vec3 eye{random.between(box.low.x, box.high.x), random.between(box.low.y, box.high.y), box.high.z};
@@ -186,25 +194,25 @@ Camera anyCamera(Random& random, const TerrainPicker& picker, const GroundHeight
 
 /// Picks until there are so many on the ground, and checks each.
 void checkPicks(const std::string& name, const TerrainModel& model, int wanted, std::uint64_t seed) {
-  const Profiles profiles(model);
-  const TerrainPicker picker(model, profiles);
+  const TerrainSubject picker(model);
   Random random(seed);
   int hits = 0;
   for (int tries = 0; hits < wanted && tries < 60 * wanted; ++tries) {
-    const Camera camera = anyCamera(random, picker, profiles.heights());
+    const Camera camera = anyCamera(random, picker);
     const double stretch = random.below(2) == 0 ? 1 : std::pow(10, random.between(-0.5, 1));
     for (int k = 0; k < 8; ++k) {
       const Vec2 pixel{random.between(0, camera.widthPixels), random.between(0, camera.heightPixels)};
-      const auto pick = picker.at(camera, pixel, stretch);
+      const auto pick = picker.pick(camera, pixel, {.stretch = stretch});
       if (!pick) continue;
       ++hits;
-      const auto ground = profiles.heights().at(pick->xy);
+      const auto ground = picker.heights()->at(pick->xy);
       ASSERT_TRUE(ground) << name << ", seed " << seed << ", pick " << hits;
       ASSERT_EQ(pick->height, ground->height) << name << ", seed " << seed << ", pick " << hits;
       // The place is on the ray but for rounding: of heights, of coordinates in the source, and of the angle
       // that a pixel is.
       const CameraSpace& space = picker.space();
-      Vec3 eye = space.position(camera), d = directionOfPixel(space, camera, pixel), to = pick->metric - eye;
+      const Vec3 d = directionIn(space, camera, pixel);
+      Vec3 to = pick->metric - space.position(camera);
       to.z *= stretch;
       const Vec3 off = cross(to, d);
       const double away = norm(off) / norm(d);
@@ -279,17 +287,16 @@ TEST(Picking, TheFirstTriangleOfAllThatTheRayMeetsIsPickedAndRaysThatMeetNoneMis
   std::uint64_t seed = 100;
   for (const RasterFamily& family : rasterFamilies()) {
     const TerrainModel model = test::modelOn(family, {500000, 30, 0, 4000000, 0, -30});
-    const Profiles profiles(model);
-    const TerrainPicker picker(model, profiles);
+    const TerrainSubject picker(model);
     Random random(++seed);
     const std::vector<Triangle3> triangles = finestTrianglesOf(model);
     int hits = 0, misses = 0;
     for (int i = 0; i < 300; ++i) {
-      const Camera camera = anyCamera(random, picker, profiles.heights());
+      const Camera camera = anyCamera(random, picker);
       const Vec2 pixel{random.between(0, camera.widthPixels), random.between(0, camera.heightPixels)};
-      const Vec3 eye = picker.space().position(camera), d = directionOfPixel(picker.space(), camera, pixel);
+      const Vec3 eye = picker.space().position(camera), d = directionIn(picker.space(), camera, pixel);
       const auto first = firstTriangle(triangles, eye, d);
-      const auto pick = picker.at(camera, pixel);
+      const auto pick = picker.pick(camera, pixel);
       (first ? hits : misses) += 1;
       const bool isSame = first.has_value() == pick.has_value() &&
                           (!first || std::abs(pick->metres - *first * norm(d)) <=

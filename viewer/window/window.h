@@ -7,6 +7,7 @@
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
+#include "viewer/gl/scene.h"
 #include "viewer/window/viewer_session.h"
 
 namespace arete {
@@ -14,13 +15,10 @@ namespace arete {
 struct WindowOptions {
   std::string title = "arete";
   ViewerSession::Start start = {};
-  int width = 1280, height = 800;           ///< of the window at first, in the screen's own units
-  int samples = 4;                          ///< per pixel, to smooth edges
-  bool waitsForScreen = true;               ///< vertical synchronisation
-  std::uint32_t mostTriangles = 4'000'000;  ///< room on the device
+  int width = 1280, height = 800;  ///< of the window at first, in the screen's own units
+  int samples = 4;                 ///< per pixel, to smooth edges
+  bool waitsForScreen = true;      ///< vertical synchronisation
 
-  /// Once, with the context current: what else is to be drawn (a drape) is handed to the view. May be empty.
-  std::function<Status(TerrainView&)> onReady = {};
   /// Before every frame, counted from 0; false ends. May be empty.
   std::function<bool(ViewerSession&, int frame)> onFrame = {};
   /// Saved when the window closes: what it shows, panel and all. Empty = nothing.
@@ -28,11 +26,11 @@ struct WindowOptions {
   int frames = 0;  ///< the window closes by itself after so many; 0 = never
 };
 
-/// Opens a window on a terrain and shows it until the user closes it (docs/topics/viewer.md, "In the
-/// window").
+/// Opens a window on a scene and shows it until the user closes it (docs/topics/viewer.md, "In the window").
 ///
+/// @param fill adds what is shown, a model at least, once the window has its context.
 /// On the thread of main(); one window at a time. Errors: unsupported (no display; OpenGL below 4.5, naming
-/// what was found; a terrain too large for the device), interrupted, those of onReady and of saving.
-Status runWindow(const TerrainModel& model, const WindowOptions& options, const RunContext& context = {});
+/// what was found), interrupted, those of `fill` and of saving.
+Status runWindow(const FillScene& fill, const WindowOptions& options, const RunContext& context = {});
 
 }  // namespace arete

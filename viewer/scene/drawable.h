@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "engine/base/result.h"
+#include "engine/base/warning.h"
+#include "engine/parallel/run_context.h"
+#include "viewer/scene/subject.h"
+
+namespace arete {
+
+/// A model in an OpenGL context: takes its cut for a camera and draws it.
+class Drawable {
+ public:
+  Drawable() = default;
+  Drawable(Drawable&&) = default;
+  Drawable& operator=(Drawable&&) = default;
+  virtual ~Drawable() = default;
+
+  /// Its geometry; outlives it.
+  virtual const Subject& subject() const = 0;
+  /// The frame that a camera and settings make. Errors: those of Subject::viewOf().
+  virtual Result<FrameView> frameOf(const Camera& camera, const ViewSettings& settings) const = 0;
+
+  /// Takes the cut, without drawing; to freeze a cut, do not call it. Errors: usage, of the camera or the
+  /// budget; those of Subject::check(); interrupted.
+  virtual Result<FrameFigures> cut(const Camera& camera, const ViewSettings& settings,
+                                   const RunContext& context = {}) = 0;
+  /// Draws the last cut for the camera into the framebuffer that is bound; `layers`: of which those on the
+  /// ground are painted on it. Errors: usage, of the camera; unsupported: more layers than can be painted.
+  virtual Status draw(const Camera& camera, const ViewSettings& settings,
+                      std::span<const Layer> layers = {}) = 0;
+  /// Draws what is behind all models, where nothing has been drawn. Precondition: draw() for the same frame.
+  virtual void drawBackground(const ViewSettings& settings) = 0;
+  /// Whether a sample of the last picture shows the model. Waits for the drawing.
+  virtual bool isShown() const = 0;
+
+  /// Whether cut() itself makes the error grow until a budget of triangles is kept.
+  virtual bool keepsBudget(const ViewSettings& settings) const = 0;
+  /// Triangles that there is room for; 0 = any number.
+  virtual std::uint32_t capacity() const { return 0; }
+  /// Why the device cannot take cuts, or empty.
+  virtual std::string deviceRefusal() const { return {}; }
+  /// What is not shown, as sentences.
+  virtual Warnings warnings() const { return {}; }
+};
+
+}  // namespace arete

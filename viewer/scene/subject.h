@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "terrain/locate/ground_height.h"
+#include "viewer/camera/camera_space.h"
+#include "viewer/camera/flight.h"
+#include "viewer/camera/home_view.h"
+#include "viewer/scene/layer.h"
+#include "viewer/scene/view_settings.h"
+
+namespace arete {
+
+/// A place of a model that was picked with the mouse.
+struct Pick {
+  Vec2 plan;                  ///< plan coordinates of the model
+  Vec2 xy;                    ///< source coordinates
+  double height = 0;          ///< of the model at full resolution, in the source's vertical unit
+  Vec3 metric;                ///< heights as they are, not exaggerated
+  double metres = 0;          ///< from the eye, in a straight line
+  std::string material = {};  ///< of a surface; empty: none
+};
+
+/// What a camera looks at and moves around: a model without its graphics, at full resolution. Its metric
+/// space (CameraSpace) is that of cameras, layers and picks. What is of one kind of model alone is nothing,
+/// or is refused by name, with the other.
+class Subject {
+ public:
+  virtual ~Subject() = default;
+
+  /// "terrain" or "surface".
+  virtual std::string_view kind() const = 0;
+  bool isTerrain() const { return kind() == "terrain"; }
+  const CameraSpace& space() const { return space_; }
+  /// Holds all of the model, in metric space.
+  const MetricBox& box() const { return box_; }
+
+  /// What a camera sees, in the space that is drawn with these settings. Errors: usage, culprit "camera";
+  /// those of CurvedGround.
+  virtual Result<View> viewOf(const Camera& camera, const ViewSettings& settings) const = 0;
+  /// Where a place of metric space is drawn, heights exaggerated; not finite where a CRS does not reach.
+  virtual Vec3 drawn(const Vec3& metric, const ViewSettings& settings) const = 0;
+  /// The nearest camera of a direction that has the whole model in what is free of its picture. `picture`:
+  /// its size and field of view.
+  virtual Camera home(HomeView view, const Camera& picture, const ViewSettings& settings,
+                      const CoveredEdges& covered = {}) const = 0;
+  /// The place of the model at a pixel of a camera, whichever cut is drawn; nothing where there is none.
+  virtual std::optional<Pick> pick(const Camera& camera, Vec2 pixel, const ViewSettings& settings) const = 0;
+  /// A closed flight around the model. `from`: a camera that has it in its picture. Errors: usage.
+  virtual Result<FlightPlan> round(const Camera& from) const = 0;
+  /// Of a place of metric space: what its file calls it, x, y and height.
+  virtual Vec3 inFile(const Vec3& metric) const = 0;
+  /// A length below which cameras do not come nearer to what they orbit.
+  virtual double leastRadius() const = 0;
+  /// The ground that cameras follow; null where there is none.
+  virtual const GroundHeights* heights() const { return nullptr; }
+
+  /// What the model can be coloured by, the usual one first.
+  virtual std::span<const Coloring> colorings() const = 0;
+  /// Errors: what of the settings it cannot show: usage, as "slopes are for terrain"; those of CurvedGround.
+  virtual Status check(const ViewSettings& settings) const = 0;
+  /// Errors: usage: a layer that it cannot show, as "contours are for terrain", with its name as the culprit.
+  Status check(const Layer& layer) const;
+
+ protected:
+  Subject(const CameraSpace& space, const MetricBox& box) : space_(space), box_(box) {}
+  Status checkColoring(Coloring coloring) const;
+
+  CameraSpace space_;
+  MetricBox box_;
+};
+
+std::string_view toString(Coloring coloring);
+
+/// The direction, in the space of the view, of a pixel of its picture. `isMirrored`: as of CameraSpace.
+Vec3 directionOfPixel(const View& view, bool isMirrored, Vec2 pixel);
+
+/// The pixel of a metric point in a camera's picture; nothing where it is not in front of it.
+std::optional<Vec2> pixelOf(const Subject& subject, const Camera& camera, const Vec3& metric,
+                            const ViewSettings& settings = {});
+
+/// The edges of what a camera sees, up to a depth in metres, as lines in metric space.
+SpaceVertices frustumEdges(const CameraSpace& space, const Camera& camera, double depth, double stretch);
+
+}  // namespace arete

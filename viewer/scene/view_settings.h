@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "engine/criteria/view.h"
+
+namespace arete {
+
+/// What a model's colours stand for. A model offers some of them (Subject::colorings()).
+enum class Coloring { height, slope, aspect, plain, error, material };
+
+/// What computes the cut.
+enum class CutPath { device, processor };
+
+/// Where the light comes from, in degrees: clockwise from north and above the horizon.
+struct Sun {
+  double azimuthDegrees = 315, elevationDegrees = 40;
+};
+
+/// Colours and light.
+struct ViewLook {
+  Coloring coloring = Coloring::height;
+  bool isShaded = true;
+  std::optional<Sun> sun =
+      {};                     ///< nothing: as Sun has it; of a surface, from above the viewer's left shoulder
+  double hazeKilometres = 0;  ///< distance at which haze hides about two thirds; 0 = none
+  bool hasWireframe = false;
+  /// The error of the hottest colour, in the unit of heights; 0 = as many pixels as the cut allows.
+  double heatError = 0;
+};
+
+/// How the models of a scene are drawn. What a model does not know is refused by Subject::check().
+struct ViewSettings {
+  double pixels = 1;               ///< tolerance of what is drawn, moving or not
+  std::uint32_t maxTriangles = 0;  ///< 0 = any number that there is room for
+  /// The processor's cut stops after this time and continues in the next frame; 0 = no limit.
+  double cutMilliseconds = 0;
+  CutPath path = CutPath::device;
+  bool isGeomorphed = true;
+  bool waits = true;      ///< draw waits for the processor's cut of this frame; else it draws the last one
+  double stretch = 1;     ///< vertical exaggeration
+  bool isCurved = false;  ///< the Earth curves away (viewer/scene/curved_ground.h): for DEMs with a CRS
+  ViewLook look = {};
+};
+
+/// What a frame took, and what it shows.
+struct FrameFigures {
+  std::uint32_t triangles = 0;  ///< drawn
+  std::uint32_t asked = 0;      ///< of the whole cut at this tolerance
+  std::uint32_t moving = 0;     ///< vertices that are being geomorphed
+  double pixels = 0;            ///< tolerance of the cut; larger than asked where a budget ended it
+  bool isComplete = true;       ///< false: a budget, a deadline or the room ended the cut
+  /// The largest jump of this frame that geomorphing leaves, by the processor's cut; NaN by the device's,
+  /// which takes the same nodes and does not compute it.
+  double jumpPixels = std::numeric_limits<double>::quiet_NaN();
+  double cutMilliseconds = 0, drawMilliseconds = 0;
+  bool isShown = true;  ///< false: nothing but the background; of pictures without a window
+};
+
+/// The parameters of a frame of one model: its cut and its projection.
+struct FrameView {
+  View view;  ///< in metric space, heights multiplied by `stretch`; or in that of a CurvedGround
+  bool isMirrored = false;  ///< metric space turns the other way round than the map
+  double stretch = 1;       ///< vertical exaggeration, > 0
+  double pixels = 1;        ///< tolerance of the cut, for vertices at rest
+  double morphPixels = 0;   ///< additional error of moving vertices; 0 = no geomorphing
+  Vec2 eyeGround;           ///< x and y of the eye in the flat metric space
+  double earthRadius = 0;   ///< metres, on a CurvedGround, whose places are exaggerated already; 0 = flat
+  double drawnNear = 0.1;   ///< depth of the near plane that clips what is drawn, metric units, > 0
+};
+
+}  // namespace arete
