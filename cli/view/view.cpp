@@ -139,6 +139,8 @@ Status runView(ViewArguments a, Session& session) {
   ARETE_TRY(const FramesFolder framesFolder, FramesFolder::of(a.pictures));
   ARETE_TRY(const auto size, a.pictures.size());
   const bool isSurface = container.isOfSurface();
+  if (isSurface && a.viewpoint.isRound && a.pictures.frames.empty())
+    return failure(ErrorCode::usage, "requires --frames, where the file is of a surface", "--round");
   ARETE_TRY(const Viewed viewed,
             isSurface ? readSurface(a, container, session) : readTerrain(a, std::move(container), session));
   const Subject& subject = *viewed.subject;

@@ -35,8 +35,6 @@ class OrbitCamera {
   void pan(double right, double up);
   /// Moves camera and target horizontally.
   void slide(double right, double ahead);
-  /// Sets another target; direction and radius stay.
-  void lookAt(const Vec3& target) { orbit_.target = target; }
 
   /// Sets the limits of zoom(); the current radius stays. Precondition: 0 < least <= most.
   void limitRadius(double least, double most);

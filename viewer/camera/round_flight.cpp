@@ -105,16 +105,4 @@ Result<FlightPlan> turnAround(const CameraSpace& space, const Vec3& middle, cons
   return plan;
 }
 
-double leastHeightAboveGround(const Flight& flight, const GroundHeights& heights, const CameraSpace& space,
-                              std::size_t looks) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i <= looks; ++i) {
-    const Camera camera = flight.at(flight.duration() * static_cast<double>(i) /
-                                    static_cast<double>(std::max<std::size_t>(looks, 1)));
-    if (const auto ground = heights.at(camera.xy))
-      least = std::min(least, (camera.height - ground->height) * space.metresPerHeight());
-  }
-  return least;
-}
-
 }  // namespace arete

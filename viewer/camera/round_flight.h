@@ -31,9 +31,4 @@ Result<FlightPlan> roundFlight(const GroundHeights& heights, const CameraSpace& 
 Result<FlightPlan> turnAround(const CameraSpace& space, const Vec3& middle, const Camera& from,
                               double durationSeconds = 8);
 
-/// The least height of a flight above the ground in metres, over so many looks at even times; infinite where
-/// there is no terrain under any of them.
-double leastHeightAboveGround(const Flight& flight, const GroundHeights& heights, const CameraSpace& space,
-                              std::size_t looks = 10000);
-
 }  // namespace arete

@@ -52,9 +52,9 @@ Status Scene::draw(const Camera& camera, const ViewSettings& settings) {
     const auto* space = std::get_if<SpaceVertices>(&layer.content);
     if (!space || !layer.isVisible) continue;
     ARETE_TRY(const FrameView frame, drawables_.front()->frameOf(camera, settings));
-    std::vector<SpaceVertices::Vertex> drawn = space->vertices;
-    for (auto& vertex : drawn) vertex.place = subject().drawn(vertex.place, settings);
-    painter_.drawLines(drawn, frame, layer.opacity, space->isAlwaysSeen);
+    SpaceVertices drawn = *space;
+    for (auto& vertex : drawn.vertices) vertex.place = subject().drawn(vertex.place, settings);
+    painter_.draw(drawn, frame, layer.opacity);
   }
   return {};
 }

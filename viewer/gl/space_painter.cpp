@@ -2,6 +2,7 @@
 #include "viewer/gl/space_painter.h"
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "viewer/gl/frame_block.h"
@@ -31,8 +32,8 @@ Result<SpacePainter> SpacePainter::create() {
   return painter;
 }
 
-void SpacePainter::drawLines(std::span<const SpaceVertices::Vertex> vertices, const FrameView& stated,
-                             double opacity, bool isAlwaysSeen) {
+void SpacePainter::draw(const SpaceVertices& drawn, const FrameView& stated, double opacity) {
+  const std::span<const SpaceVertices::Vertex> vertices = drawn.vertices;
   std::vector<DrawnVertex> ends;
   for (std::size_t i = 0; i + 1 < vertices.size(); i += 2) {
     if (!isThere(vertices[i].place) || !isThere(vertices[i + 1].place)) continue;
@@ -56,7 +57,7 @@ void SpacePainter::drawLines(std::span<const SpaceVertices::Vertex> vertices, co
   glUseProgram(program_);
   glBindVertexArray(array_);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
-  isAlwaysSeen ? glDisable(GL_DEPTH_TEST) : glEnable(GL_DEPTH_TEST);
+  drawn.isAlwaysSeen ? glDisable(GL_DEPTH_TEST) : glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GEQUAL);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <span>
-
 #include "engine/base/result.h"
 #include "viewer/gl/gl_objects.h"
 #include "viewer/scene/layer.h"
@@ -16,10 +14,9 @@ class SpacePainter {
   /// Errors: unsupported, by the driver.
   static Result<SpacePainter> create();
 
-  /// Lines between pairs of places. `vertices`: where they are drawn (Subject::drawn()); `frame`: of a model
-  /// of the scene. What is not finite is left out, with its line.
-  void drawLines(std::span<const SpaceVertices::Vertex> vertices, const FrameView& frame, double opacity,
-                 bool isAlwaysSeen);
+  /// `drawn`: its places are where they are drawn (Subject::drawn()); `frame`: of a model of the scene. What
+  /// is not finite is left out, with its line.
+  void draw(const SpaceVertices& drawn, const FrameView& frame, double opacity);
 
  private:
   SpacePainter() = default;

@@ -3,13 +3,16 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
 #include "terrain/model/camera.h"
 #include "terrain/model/terrain_model.h"
 #include "viewer/gl/compute_front.h"
+#include "viewer/gl/processor_front.h"
 #include "viewer/gl/terrain_painter.h"
 #include "viewer/scene/drawable.h"
 #include "viewer/scene/terrain_subject.h"
@@ -30,35 +33,53 @@ class TerrainDrawable final : public Drawable {
   /// With a subject of its own.
   static Result<TerrainDrawable> create(const TerrainModel& model, const Options& options,
                                         const RunContext& context = {});
-  TerrainDrawable(TerrainDrawable&&) noexcept;
-  TerrainDrawable& operator=(TerrainDrawable&&) noexcept;
-  ~TerrainDrawable() override;
-
-  const TerrainSubject& subject() const override;
+  const TerrainSubject& subject() const override { return *subject_; }
   Result<FrameView> frameOf(const Camera& camera, const ViewSettings& settings) const override;
   Result<FrameFigures> cut(const Camera& camera, const ViewSettings& settings,
                            const RunContext& context = {}) override;
   Status draw(const Camera& camera, const ViewSettings& settings,
               std::span<const Layer> layers = {}) override;
-  void drawBackground(const ViewSettings& settings) override;
+  void drawBackground(const ViewSettings& settings) override { painter_.drawSky(settings.look); }
   bool isShown() const override;
-  bool keepsBudget(const ViewSettings& settings) const override;
-  std::uint32_t capacity() const override;
-  std::string deviceRefusal() const override;
+  bool keepsBudget(const ViewSettings& settings) const override {
+    return settings.path == CutPath::processor;
+  }
+  std::uint32_t capacity() const override { return device_ ? device_->capacity() : 0; }
+  std::string deviceRefusal() const override { return terrain_.refusal; }
 
-  TerrainPainter& painter();
-  const TerrainOnGpu& terrain() const;
+  TerrainPainter& painter() { return painter_; }
+  const TerrainOnGpu& terrain() const { return terrain_; }
   DrawnFront front() const;
   /// The multitriangulation that is cut: the model's or a curved one.
-  const MultiTriangulation& mt() const;
-  const TerrainModel& model() const;
+  const MultiTriangulation& mt() const { return mt_; }
+  const TerrainModel& model() const { return subject_->model(); }
   /// Of the device's last cut: for tests.
-  const ComputeFront* computeFront() const;
+  const ComputeFront* computeFront() const { return device_ ? &*device_ : nullptr; }
 
  private:
-  struct State;
-  explicit TerrainDrawable(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  TerrainDrawable(std::shared_ptr<const TerrainSubject> subject, TerrainOnGpu terrain, TerrainPainter painter)
+      : subject_(std::move(subject)),
+        mt_(subject_->model().mt),
+        terrain_(std::move(terrain)),
+        painter_(std::move(painter)) {}
+  bool isReadyFor(const ViewSettings& settings) const {
+    return settings.isCurved == isBent_ && (!isBent_ || settings.stretch == bentStretch_);
+  }
+  /// Makes the buffers that the settings need.
+  Status prepare(const ViewSettings& settings);
+
+  std::shared_ptr<const TerrainSubject> subject_;
+  MultiTriangulation mt_;  // what is drawn, the model's or a curved one
+  TerrainOnGpu terrain_;
+  TerrainPainter painter_;
+  std::optional<ComputeFront> device_;
+  std::optional<ProcessorFront> processor_;
+  double processorStretch_ = 1;
+  bool hasRises_ = false;  // of vertices that the device's cut would not put to rest
+  CutPath drawn_ = CutPath::device;
+  GlQuery anySample_ = makeQuery(GL_ANY_SAMPLES_PASSED);  // of the terrain, when it was drawn last
+  bool isBent_ = false;
+  double bentStretch_ = 1;
 };
 
 }  // namespace arete

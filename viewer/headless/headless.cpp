@@ -19,8 +19,6 @@
 
 #include "engine/base/stopwatch.h"
 #include "io/files/text_scan.h"
-#include "viewer/gl/frame_target.h"
-#include "viewer/gl/offscreen.h"
 #include "viewer/gl/terrain_drawable.h"
 
 extern char** environ;
@@ -28,33 +26,26 @@ extern char** environ;
 namespace arete {
 namespace {
 
+using namespace std::string_literals;
+
 constexpr std::uint64_t kMostFrames = 1'000'000;
 
 }  // namespace
-
-struct HeadlessView::State {
-  OffscreenContext context;  // the last to go
-  FrameTarget target;
-  Scene scene;
-  HeadlessOptions options;
-  Warnings warnings;
-};
 
 Result<HeadlessView> HeadlessView::create(const HeadlessOptions& options, const FillScene& fill) {
   ARETE_TRY(OffscreenContext gl, OffscreenContext::create());
   ARETE_TRY(FrameTarget target,
             FrameTarget::create(options.widthPixels, options.heightPixels, options.samples));
   ARETE_TRY(Scene scene, Scene::create());
-  auto state =
-      std::make_unique<State>(State{std::move(gl), std::move(target), std::move(scene), options, {}});
-  ARETE_CHECK(fill(state->scene));
-  state->warnings = state->scene.warnings();
-  const std::string refusal = state->scene.deviceRefusal();
+  HeadlessView view(std::move(gl), std::move(target), std::move(scene), options.settings);
+  ARETE_CHECK(fill(view.scene_));
+  view.warnings_ = view.scene_.warnings();
+  const std::string refusal = view.scene_.deviceRefusal();
   if (options.settings.path == CutPath::device && !refusal.empty()) {
-    state->warnings.push_back({WarningCode::display, "the processor takes the cuts: " + refusal});
-    state->options.settings.path = CutPath::processor;
+    view.warnings_.push_back({WarningCode::display, "the processor takes the cuts: " + refusal});
+    view.settings_.path = CutPath::processor;
   }
-  return HeadlessView(std::move(state));
+  return view;
 }
 
 Result<HeadlessView> HeadlessView::create(const TerrainModel& model, const HeadlessOptions& options,
@@ -65,29 +56,23 @@ Result<HeadlessView> HeadlessView::create(const TerrainModel& model, const Headl
   });
 }
 
-HeadlessView::HeadlessView(std::unique_ptr<State> state) : state_(std::move(state)) {}
-HeadlessView::HeadlessView(HeadlessView&&) noexcept = default;
-HeadlessView& HeadlessView::operator=(HeadlessView&&) noexcept = default;
-HeadlessView::~HeadlessView() = default;
-
 Result<FrameFigures> HeadlessView::draw(const Camera& stated, const RunContext& context) {
-  State& s = *state_;
   Camera camera = stated;
-  camera.widthPixels = s.options.widthPixels;
-  camera.heightPixels = s.options.heightPixels;
-  ViewSettings settings = s.options.settings;
+  camera.widthPixels = target_.width();
+  camera.heightPixels = target_.height();
+  ViewSettings settings = settings_;
   settings.waits = true;
-  Result<FrameFigures> figures = s.scene.cut(camera, settings, context);
+  Result<FrameFigures> figures = scene_.cut(camera, settings, context);
   if (!figures) return figures;
   // The device's cut knows its number of triangles beforehand, but not which tolerance has fewer: doubled
   // until there are few enough, halved between (on a logarithmic scale) until nearly all of the budget is
   // used.
-  const std::uint32_t most = settings.maxTriangles > 0 ? settings.maxTriangles : s.scene.capacity();
+  const std::uint32_t most = settings.maxTriangles > 0 ? settings.maxTriangles : scene_.capacity();
   const auto fits = [&] { return figures->isComplete && figures->asked <= most; };
-  if (!s.scene.keepsBudget(settings) && !fits()) {
+  if (!scene_.keepsBudget(settings) && !fits()) {
     const auto cutAt = [&](double pixels) -> Status {
       settings.pixels = pixels;
-      figures = s.scene.cut(camera, settings, context);
+      figures = scene_.cut(camera, settings, context);
       return figures ? Status() : tl::unexpected(figures.error());
     };
     constexpr int kDoublings = 60, kHalvings = 12;
@@ -109,25 +94,12 @@ Result<FrameFigures> HeadlessView::draw(const Camera& stated, const RunContext& 
   }
   // The time of drawing ends when the device has finished, and not when the last call returns.
   const Stopwatch watch;
-  s.target.begin();
-  ARETE_CHECK(s.scene.draw(camera, settings));
+  target_.begin();
+  ARETE_CHECK(scene_.draw(camera, settings));
   glFinish();
-  figures->isShown = s.scene.isShown();
+  figures->isShown = scene_.isShown();
   figures->drawMilliseconds = watch.milliseconds();
   return figures;
-}
-
-Image HeadlessView::image() const {
-  return state_->target.image();
-}
-Scene& HeadlessView::scene() {
-  return state_->scene;
-}
-const std::string& HeadlessView::description() const {
-  return state_->context.description();
-}
-const Warnings& HeadlessView::warnings() const {
-  return state_->warnings;
 }
 
 /// A flight of too many frames is refused before the first one is drawn.
@@ -200,28 +172,11 @@ Status encodeFilm(const std::filesystem::path& folder, std::size_t frames, doubl
   const std::string rate = fmt::format("{}", framesPerSecond), count = std::to_string(frames),
                     pattern = (folder / "frame_%05d.png").string(), output = part.string();
   // Only the frames of this flight; sides of the picture rounded to even numbers, which H.264 needs.
-  std::vector<std::string> words = {"ffmpeg",
-                                    "-v",
-                                    "error",
-                                    "-nostdin",
-                                    "-y",
-                                    "-framerate",
-                                    rate,
-                                    "-start_number",
-                                    "0",
-                                    "-i",
-                                    pattern,
-                                    "-vf",
-                                    "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-                                    "-frames:v",
-                                    count,
-                                    "-c:v",
-                                    "libx264",
-                                    "-pix_fmt",
-                                    "yuv420p",
-                                    "-movflags",
-                                    "+faststart",
-                                    output};
+  std::vector<std::string> words = {"ffmpeg", "-v", "error", "-nostdin", "-y", "-framerate", rate};
+  for (const std::string& more :
+       {"-start_number"s, "0"s, "-i"s, pattern, "-vf"s, "pad=ceil(iw/2)*2:ceil(ih/2)*2"s, "-frames:v"s, count,
+        "-c:v"s, "libx264"s, "-pix_fmt"s, "yuv420p"s, "-movflags"s, "+faststart"s, output})
+    words.push_back(more);
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);

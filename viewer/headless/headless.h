@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -12,6 +12,8 @@
 #include "engine/parallel/run_context.h"
 #include "terrain/model/camera.h"
 #include "viewer/camera/flight.h"
+#include "viewer/gl/frame_target.h"
+#include "viewer/gl/offscreen.h"
 #include "viewer/gl/scene.h"
 #include "viewer/picture/picture.h"
 
@@ -34,26 +36,30 @@ class HeadlessView {
   /// the device.
   static Result<HeadlessView> create(const TerrainModel& model, const HeadlessOptions& options,
                                      const RunContext& context = {});
-  HeadlessView(HeadlessView&&) noexcept;
-  HeadlessView& operator=(HeadlessView&&) noexcept;
-  ~HeadlessView();
-
   /// The scene as the camera sees it. The size of the picture is that of the options, not of the camera. With
   /// a budget, the tolerance grows until the cut fits. Errors: those of Scene.
   Result<FrameFigures> draw(const Camera& camera, const RunContext& context = {});
   /// The picture that was drawn last.
-  Image image() const;
+  Image image() const { return target_.image(); }
 
-  Scene& scene();
+  Scene& scene() { return scene_; }
   /// The renderer's name and the version of OpenGL.
-  const std::string& description() const;
+  const std::string& description() const { return context_.description(); }
   /// What is not shown, and settings that the device does not support, as sentences.
-  const Warnings& warnings() const;
+  const Warnings& warnings() const { return warnings_; }
 
  private:
-  struct State;
-  explicit HeadlessView(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  HeadlessView(OffscreenContext context, FrameTarget target, Scene scene, const ViewSettings& settings)
+      : context_(std::move(context)),
+        target_(std::move(target)),
+        scene_(std::move(scene)),
+        settings_(settings) {}
+
+  OffscreenContext context_;  // the last to go
+  FrameTarget target_;
+  Scene scene_;
+  ViewSettings settings_;
+  Warnings warnings_;
 };
 
 struct FilmOptions {

@@ -164,7 +164,7 @@ const std::map<std::string, Tried>& triedCommands() {
         {{"--camera", {"--camera PLACE,50agl", "", "--camera 3,0,0,0,0,0"}},
          {"--lonlat", {"--lonlat", "--camera PLACE,50agl"}},
          {"--home", {"--home south"}},
-         {"--path", {"--path flight.json"}},
+         {"--path", {"--path flight.json", "", "--path turn.json"}},
          {"--round", {"--round"}},
          {"--up", {"--up y"}},
          {"--pixel-error", {"--pixel-error 20"}},
@@ -233,6 +233,13 @@ class OptionsOfBothKinds : public Balls {
                middle = field.georeference.toSource(15.3, 15.4);
     box_ = fmt::format("{},{},{},{}", low.x, low.y, high.x, high.y);
     place_ = fmt::format("{},{}", middle.x, middle.y);
+    for (const auto& [name, at, height] :
+         {std::tuple{"flight.json", middle, 3000.0}, {"turn.json", Vec2{0, -3}, 0.0}}) {
+      Json key = {{"x", at.x}, {"y", at.y}, {"height", height}, {"azimuth", 5}, {"pitch", 0}}, other = key;
+      if (height > 0) key["pitch"] = other["pitch"] = -90;
+      other["azimuth"] = 40;
+      write(name, Json{{"frames", {key, other}}, {"duration", 1}}.dump());
+    }
     for (const char* line :
          {"build dem.tif -o dem.amt", "build ball.obj -o ball.amt",
           "extract dem.amt -o tin.ply --max-error 2%", "extract ball.amt -o small.ply --max-error 2%"})

@@ -387,6 +387,17 @@ TEST_F(SurfaceCommands, AreDrawnWithoutAScreen) {
   ASSERT_EQ(turn.code, 0) << turn.err;
   EXPECT_EQ(readJson("figures.json")["frames"].size(), 4u);
   EXPECT_TRUE(exists("frames/frame_00003.png"));
+  // Key frames count from the middle of the surface.
+  const Json key = {{"x", 0}, {"y", -3}, {"height", 0}, {"azimuth", 0}, {"pitch", 0}};
+  Json other = key;
+  other["y"] = -5;
+  write("flight.json", Json{{"frames", {key, other}}, {"duration", 1}}.dump());
+  const Outcome flown = run({"view", "ball.amt", "--path", "flight.json", "--frames", "flown", "--fps", "2",
+                             "--size", "80x60", "--json"});
+  ASSERT_EQ(flown.code, 0) << flown.err;
+  EXPECT_EQ(flown.json()["frames"].size(), 3u);
+  EXPECT_NEAR(flown.json()["frames"][0]["camera"]["eye"][1].get<double>(), -3, 1e-2);
+  EXPECT_EQ(flown.json()["frames"][2]["showsSurface"], true);
   for (const std::vector<std::string>& more : {std::vector<std::string>{"--contours", "1"},
                                                {"--color", "slope"},
                                                {"--curvature"},

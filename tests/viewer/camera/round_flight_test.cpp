@@ -3,10 +3,26 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "viewer/camera_models.h"
 
 namespace arete {
 namespace {
+
+/// The least height of a flight above the ground in metres, over many looks at even times; infinite where
+/// there is no terrain under any of them.
+double leastHeightAboveGround(const Flight& flight, const GroundHeights& heights, const CameraSpace& space) {
+  constexpr int kLooks = 10000;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kLooks; ++i) {
+    const Camera camera = flight.at(flight.duration() * i / kLooks);
+    if (const auto ground = heights.at(camera.xy))
+      least = std::min(least, (camera.height - ground->height) * space.metresPerHeight());
+  }
+  return least;
+}
 
 TEST(RoundFlight, StaysAboveTheGroundInsideTheBoxOnEveryTerrain) {
   for (const RasterFamily& family : rasterFamilies())
