@@ -47,6 +47,8 @@ HomeShape homeShape(const MetricBox& box);
 /// adds up to less than 1.
 struct CoveredEdges {
   double left = 0, right = 0, top = 0, bottom = 0;
+
+  bool operator==(const CoveredEdges&) const = default;
 };
 
 /// Views of the whole terrain.

@@ -52,6 +52,15 @@ class Subject {
                       const CoveredEdges& covered = {}) const = 0;
   /// The place of the model at a pixel of a camera, whichever cut is drawn; nothing where there is none.
   virtual std::optional<Pick> pick(const Camera& camera, Vec2 pixel, const ViewSettings& settings) const = 0;
+  /// Whether the ray of a pixel goes down through all heights of the model and meets none of it: there is
+  /// NODATA.
+  virtual bool isVoid(const Camera&, Vec2, const ViewSettings&) const { return false; }
+  /// How far a cut may be from the model at a place that was picked, if the triangle of the cut there has at most
+  /// an error of `allowed`, as the model stores it: of terrain vertically and between samples too, of a surface in
+  /// any direction. In the source's vertical unit. O(depth * degree).
+  virtual double boundAt(const Pick& pick, double allowed) const = 0;
+  /// The unit of heights; empty: not known.
+  virtual std::string heightUnit() const = 0;
   /// A closed flight around the model. `from`: a camera that has it in its picture. Errors: usage.
   virtual Result<FlightPlan> round(const Camera& from) const = 0;
   /// Of a place of metric space: what its file calls it, x, y and height.

@@ -194,6 +194,30 @@ std::optional<Pick> TerrainSubject::pick(const Camera& camera, Vec2 pixel,
   return along(space_.position(camera), direction);
 }
 
+// The triangle of a cut there is one of those over the place, from the coarsest that the error allows down to the
+// finest. What the model stores as the error is at samples; the signed bounds hold between them as well.
+double TerrainSubject::boundAt(const Pick& pick, double allowed) const {
+  const TriangleLocator& locator = profiles_.heights().locator();
+  double bound = 0;
+  for (auto t = locator.inRoot(pick.plan); t && !locator.isFinest(*t); t = locator.finer(*t, pick.plan))
+    if (model_.mt.error(t->triangle) <= allowed)
+      bound = std::max({bound, model_.mt.decoded(kAbove, t->triangle), model_.mt.decoded(kBelow, t->triangle)});
+  return bound;
+}
+
+// A ray that meets the terrain nowhere and leaves its box through the bottom has gone through a hole in it.
+bool TerrainSubject::isVoid(const Camera& camera, Vec2 pixel, const ViewSettings& settings) const {
+  const Result<View> view = viewOf(camera, settings);
+  if (!view || settings.isCurved || pick(camera, pixel, settings)) return false;
+  Vec3 direction = directionOfPixel(*view, space_.isMirrored(), pixel);
+  direction.z /= settings.stretch;
+  const Vec3 eye = space_.position(camera);
+  if (!(direction.z < 0) || eye.z < rayBox_.low.z) return false;
+  const double down = (rayBox_.low.z - eye.z) / direction.z;
+  const Vec3 at = eye + down * direction;
+  return at.x >= rayBox_.low.x && at.x <= rayBox_.high.x && at.y >= rayBox_.low.y && at.y <= rayBox_.high.y;
+}
+
 std::optional<Pick> TerrainSubject::pickCurved(const View& view, Vec2 pixel, const Camera& camera,
                                                double stretch) const {
   const CurvedGround& ground = *ground_;  // viewOf() made it

@@ -31,6 +31,9 @@ class TerrainSubject final : public Subject {
   /// O(triangles below the ray * depth).
   std::optional<Pick> pick(const Camera& camera, Vec2 pixel,
                            const ViewSettings& settings = {}) const override;
+  bool isVoid(const Camera& camera, Vec2 pixel, const ViewSettings& settings = {}) const override;
+  double boundAt(const Pick& pick, double allowed) const override;
+  std::string heightUnit() const override { return model_.georeference.verticalUnit; }
   Result<FlightPlan> round(const Camera& from) const override;
   Vec3 inFile(const Vec3& metric) const override;
   double leastRadius() const override { return 0.5; }

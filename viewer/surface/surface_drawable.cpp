@@ -99,10 +99,10 @@ Result<FrameFigures> SurfaceDrawable::cut(const Camera& camera, const ViewSettin
   FrameFigures figures;
   figures.triangles = figures.asked = static_cast<std::uint32_t>(cut_.triangles().size());
   figures.isComplete = update.isComplete;
-  figurepixels_ = settings.pixels;
+  figures.pixels = settings.pixels;
   // A budget may end the cut early: the figure is then the worst error that is drawn.
   if (!update.isComplete)
-    figurepixels_ = std::max(settings.pixels, worstSeverity(mt, criterion, cut_.front()));
+    figures.pixels = std::max(settings.pixels, worstSeverity(mt, criterion, cut_.front()));
   pixels_ = figures.pixels;
   if (!isUploaded_ || !cut_.lastSteps().empty()) upload();
   if (!model_->displacement.isEmpty()) displace(criterion);

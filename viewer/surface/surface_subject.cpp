@@ -14,7 +14,9 @@ SurfaceSubject::SurfaceSubject(const SurfaceModel& model, const ZUpFrame& uprigh
     : Subject(CameraSpace(), shape.box),
       upright_(upright),
       shape_(std::move(shape)),
-      picker_(model, upright) {}
+      picker_(model, upright),
+      largestError_(model.mt.largestError()),
+      unit_(model.verticalUnit) {}
 
 Result<View> SurfaceSubject::viewOf(const Camera& camera, const ViewSettings&) const {
   return arete::viewOf(camera, space_);

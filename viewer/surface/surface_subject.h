@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <string>
+
 #include "viewer/scene/subject.h"
 #include "viewer/surface/surface_picker.h"
 #include "viewer/surface/z_up_frame.h"
@@ -24,6 +27,8 @@ class SurfaceSubject final : public Subject {
   /// Its height is the coordinate of the file that counts upwards.
   std::optional<Pick> pick(const Camera& camera, Vec2 pixel,
                            const ViewSettings& settings = {}) const override;
+  double boundAt(const Pick&, double allowed) const override { return std::min(allowed, largestError_); }
+  std::string heightUnit() const override { return unit_; }
   /// One turn, with the camera's distance from the middle of the surface and its height.
   Result<FlightPlan> round(const Camera& from) const override;
   Vec3 inFile(const Vec3& metric) const override { return upright_.toFile(metric); }
@@ -40,6 +45,8 @@ class SurfaceSubject final : public Subject {
   ZUpFrame upright_;
   HomeShape shape_;
   SurfacePicker picker_;
+  double largestError_;
+  std::string unit_;
 };
 
 }  // namespace arete

@@ -77,10 +77,10 @@ void CameraRig::setMode(CameraMode mode) {
   enter(camera_);
 }
 
-void CameraRig::home(HomeView view, bool isCurved) {
+void CameraRig::home(HomeView view, bool isCurved, const CoveredEdges& covered) {
   mode_ = CameraMode::orbit;
   follows_ = false;
-  enter(subject_.home(view, camera_, {.stretch = stretch_, .isCurved = isCurved}));
+  enter(subject_.home(view, camera_, {.stretch = stretch_, .isCurved = isCurved}, covered));
 }
 
 // The target stays in the middle of the picture, at the stated distance or the present one.
