@@ -348,13 +348,17 @@ Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model) {
 Result<DemRead> DemArguments::read(const Session& session) const {
   Result<DemRead> dem = (staysPoints ? readDemAsItIs : readDem)(inputPath(path), reading, session.context());
   if (dem && path == kStandardStream) std::visit([&](auto& field) { field.source = path; }, dem->heightfield);
-  if (dem)
-    session.warn(dem->warnings, path);
-  else if (!reading.crs.empty() && dem.error().culprit == reading.crs)
-    dem.error().culprit = fmt::format("--crs {}", reading.crs);
-  else if (!reading.verticalUnit.empty() && dem.error().culprit == reading.verticalUnit)
-    dem.error().culprit = fmt::format("--vertical-unit {}", reading.verticalUnit);
+  if (!dem) return tl::unexpected(named(std::move(dem.error())));
+  session.warn(dem->warnings, path);
   return dem;
+}
+
+Error DemArguments::named(Error error) const {
+  if (!reading.crs.empty() && error.culprit == reading.crs)
+    error.culprit = fmt::format("--crs {}", reading.crs);
+  else if (!reading.verticalUnit.empty() && error.culprit == reading.verticalUnit)
+    error.culprit = fmt::format("--vertical-unit {}", reading.verticalUnit);
+  return error;
 }
 
 /// An output that is an input, or another output under a second name or link, is found before any work

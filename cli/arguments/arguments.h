@@ -89,6 +89,8 @@ struct DemArguments {
   std::vector<std::string> files() const;
   /// Reads the DEM and writes its warnings. An error names the option that caused it, if one did.
   Result<DemRead> read(const Session& session) const;
+  /// An error of reading, with the option that caused it.
+  Error named(Error error) const;
 };
 
 /// "-" stands for stdin, which GDAL reads under a name of its own.

@@ -30,6 +30,7 @@
 #include "io/geo/crs/names.h"
 #include "io/geo/dem/dem_reader.h"
 #include "io/geo/table/plan_point_reader.h"
+#include "io/query/source/build_terrain.h"
 #include "io/query/surface/mesh_input.h"
 #include "io/store/amt/file.h"
 #include "terrain/builder/build.h"
@@ -59,9 +60,6 @@ struct BuildArguments {
   OptionKinds kinds;
   ExpectedAmtSize expected;  // once the source is read
 };
-
-/// What a build needs at the least; rough terrain takes up to twice as much (terrain/builder/build.h).
-constexpr double kLeastBuildBytesPerSample = 164;
 
 struct Seconds {
   double read = 0, features = 0, build = 0, write = 0;
@@ -186,19 +184,6 @@ Status buildFrom(BuildArguments& arguments, const FixedVertexOptions& fixedChoic
   arguments.options.fixedVertices = fixed.vertices;
   seconds.features = choosing.seconds();
 
-  // Samples without data take no memory.
-  const double valid = static_cast<double>(
-      field.heights.size() - static_cast<std::size_t>(std::ranges::count_if(
-                                 field.heights, [](double height) { return std::isnan(height); })));
-  if (Status memory = checkMemory(
-          valid * kLeastBuildBytesPerSample + static_cast<double>(field.heights.size() * sizeof(double)),
-          fmt::format("a build of {} samples would", grouped(static_cast<std::uint64_t>(valid))));
-      !memory)
-    return failure(memory.error().code,
-                   memory.error().message +
-                       ": build a part of it (gdal_translate -srcwin) or a coarser DEM (gdalwarp -tr)",
-                   arguments.dem.path);
-
   Stopwatch building;
   ARETE_TRY(TerrainModel model, build(field, std::move(finest)..., arguments.options, session.context()));
   seconds.build += building.seconds();
@@ -243,21 +228,19 @@ Status runBuild(BuildArguments& arguments, Session& session) {
   std::vector<std::string> inputs = arguments.dem.files();
   inputs.push_back(arguments.fixedPath);
   ARETE_CHECK(checkOutput("--output", arguments.output, inputs));
-  if (isMesh(arguments.dem) && (arguments.kind.empty() || arguments.kind == "surface")) {
-    // A mesh without faces is read anew, as points.
-    Stopwatch reading;
-    Result<MeshInput> input = readMeshInput(arguments.dem.path, session.context());
-    if (input && !input->file.mesh.triangles.empty()) ARETE_CHECK(warnOfGaps(*input, session.context()));
-    if (input) session.warn(input->file.warnings, arguments.dem.path);
-    if (input && !input->file.mesh.triangles.empty())
-      return runSurfaceBuild(arguments, std::move(*input), reading.seconds(), session);
-  }
-  ARETE_CHECK(arguments.kinds.refuseOther(ModelKind::terrain));
+  const bool mayBeSurface = isMeshSource(arguments.dem.path, arguments.dem.reading) &&
+                            (arguments.kind.empty() || arguments.kind == "surface");
+  if (!mayBeSurface) ARETE_CHECK(arguments.kinds.refuseOther(ModelKind::terrain));
   Seconds seconds;
   Stopwatch reading;
-  ARETE_TRY(DemRead dem, readSource(arguments.dem, arguments.kind, session));
+  ARETE_TRY(Source source, readSource(arguments.dem, arguments.kind, session));
+  if (auto* const mesh = std::get_if<MeshInput>(&source))
+    return runSurfaceBuild(arguments, std::move(*mesh), reading.seconds(), session);
+  ARETE_CHECK(arguments.kinds.refuseOther(ModelKind::terrain));
+  const DemRead dem = std::get<DemRead>(std::move(source));
   seconds.read = reading.seconds();
   arguments.expected = announceSize(dem, arguments.output, arguments.isPacked, session);
+  ARETE_CHECK(checkBuildMemory(dem.heightfield, arguments.dem.path));
   return std::visit(
       [&](const auto& field) -> Status {
         ARETE_TRY(const auto fixedChoice,

@@ -45,6 +45,7 @@ constexpr std::array kNames = {
     Name{"isDepth", "--positive"},
     Name{"isLonLat", "--lonlat"},
     Name{"keepBorders", "--keep-borders"},
+    Name{"kind", "--as"},
     Name{"layer", "--layer"},
     Name{"like", "--like"},
     Name{"lonLat", "--lonlat"},

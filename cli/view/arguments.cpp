@@ -275,7 +275,13 @@ Result<std::pair<int, int>> PictureArguments::size() const {
 }
 
 void ViewArguments::addTo(CLI::App& command) {
-  command.add_option("FILE.amt", model, "Multitriangulation")->required()->type_name("");
+  command
+      .add_option(
+          "FILE", model,
+          "Multitriangulation (.amt), or a DEM, points or a mesh, of which the model is built in memory\n"
+          "as 'arete build' builds it by default")
+      ->required()
+      ->type_name("");
   viewpoint.addTo(command, kinds);
   detail.addTo(command, kinds);
   appearance.addTo(command, kinds);

@@ -19,16 +19,19 @@
 #include "cli/view/arguments.h"
 #include "cli/view/layers.h"
 #include "cli/view/pictures.h"
+#include "engine/base/stopwatch.h"
+#include "io/files/shell_text.h"
 #include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/query/extract/camera_argument.h"
+#include "io/query/extract/model.h"
 #include "io/query/extract/model_file.h"
-#include "io/store/amt/file.h"
-#include "io/store/amt/surface_file.h"
+#include "io/query/source/any_model.h"
 #include "viewer/camera/flight_json.h"
 #include "viewer/gl/terrain_drawable.h"
 #include "viewer/headless/headless.h"
 #include "viewer/surface/surface_drawable.h"
+#include "viewer/window/opening.h"
 #include "viewer/window/window.h"
 
 namespace arete {
@@ -47,10 +50,8 @@ struct Viewed {
   FillScene addModel;  ///< keeps the model
 };
 
-Result<Viewed> readTerrain(const ViewArguments& a, AmtContainer container, Session& session) {
-  ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
-  ARETE_TRY(TerrainModel read, file.read({}, session.context()));
-  const auto model = std::make_shared<const TerrainModel>(std::move(read));
+Result<Viewed> viewedOf(const ViewArguments& a, TerrainModel opened, Session& session) {
+  const auto model = std::make_shared<const TerrainModel>(std::move(opened));
   const auto subject = std::make_shared<const TerrainSubject>(*model);
   ARETE_CHECK(checkGroundUnits(model->georeference, {a.appearance.hazeWithUnit}));
   Viewed viewed{.subject = subject,
@@ -92,9 +93,8 @@ Result<Viewed> readTerrain(const ViewArguments& a, AmtContainer container, Sessi
   return viewed;
 }
 
-Result<Viewed> readSurface(const ViewArguments& a, const AmtContainer& file, Session& session) {
-  ARETE_TRY(SurfaceModel read, loadSurfaceAmt(file, AmtVerify::all, session.context()));
-  const auto model = std::make_shared<const SurfaceModel>(std::move(read));
+Result<Viewed> viewedOf(const ViewArguments& a, SurfaceModel opened, Session&) {
+  const auto model = std::make_shared<const SurfaceModel>(std::move(opened));
   const auto subject = std::make_shared<const SurfaceSubject>(*model, ZUpFrame(*model, a.viewpoint.up));
   Viewed viewed{.subject = subject,
                 .finestTriangles = model->mt.finestTriangleCount(),
@@ -137,18 +137,75 @@ Result<std::optional<Flight>> flightOf(const ViewArguments& a, const Viewed& vie
   return std::optional<Flight>(std::move(*flight));
 }
 
+/// A DEM or a mesh that takes longer than this to build is worth a file.
+constexpr double kSecondsWorthAFile = 5;
+
+/// "arete build 'my dem.tif' -o 'my dem.amt'".
+std::string buildCommandOf(const std::string& path) {
+  const std::string name = std::filesystem::path(path).filename().replace_extension(".amt").string();
+  return fmt::format("arete build {} -o {}", shellQuoted(path), shellQuoted(name));
+}
+
+ModelKind kindOf(const Model& model) {
+  return std::holds_alternative<SurfaceModel>(model) ? ModelKind::surface : ModelKind::terrain;
+}
+
+/// The model, read or built behind a bar in the window, if there is one. Nothing: the window was closed.
+///
+/// @param file of a model; nothing: it is to be built.
+Result<std::optional<Model>> openModelOf(const ViewArguments& a, std::optional<AmtContainer> file,
+                                         GlfwWindow* window, Session& session) {
+  const Stopwatch opening;
+  std::optional<AnyModel> opened;
+  const auto open = [&](const RunContext& context) -> Status {
+    if (file) {
+      ARETE_TRY(Model model, readModel(std::move(*file), context));
+      opened = AnyModel{std::move(model)};
+      return {};
+    }
+    ARETE_TRY(opened, openAnyModel(a.model, {}, context));
+    return {};
+  };
+  const std::string name = std::filesystem::path(a.model).filename().string();
+  if (window) {
+    const std::string hint =
+        file ? "" : fmt::format("{} keeps the model for the next time.", buildCommandOf(a.model));
+    ARETE_TRY(const bool isDone, showWhile(*window, {name, hint}, open, session.context()));
+    if (!isDone) return std::optional<Model>();
+  } else {
+    ARETE_CHECK(open(session.context()));
+  }
+  session.warn(opened->warnings, a.model);
+  if (opened->isBuilt && opening.seconds() > kSecondsWorthAFile)
+    session.note(fmt::format("{} was built in {:.0f} s; '{}' keeps the model for the next time", name,
+                             opening.seconds(), buildCommandOf(a.model)));
+  ARETE_CHECK(a.kinds.refuseOther(kindOf(opened->model)));
+  return std::optional(std::move(opened->model));
+}
+
 Status runView(ViewArguments a, Session& session) {
   ARETE_CHECK(a.completePictures());
-  ARETE_TRY(AmtContainer container, openModelFile(a.model));
-  ARETE_CHECK(a.kinds.refuseOther(kindOf(container)));
+  std::optional<AmtContainer> file;
+  if (isModelFile(a.model)) {
+    ARETE_TRY(file, openModelFile(a.model));
+    ARETE_CHECK(a.kinds.refuseOther(kindOf(*file)));
+  }
   ARETE_CHECK(a.check());
   ARETE_TRY(const FramesFolder framesFolder, FramesFolder::of(a.pictures));
   ARETE_TRY(const auto size, a.pictures.size());
-  const bool isSurface = container.isOfSurface();
+  WindowOptions window{.title = fmt::format("arete - {}", a.model)};
+  if (!a.pictures.sizeText.empty()) std::tie(window.width, window.height) = size;
+  std::optional<GlfwWindow> shown;
+  if (!a.pictures.isHeadless) {
+    ARETE_TRY(shown, GlfwWindow::open(window.title, window.width, window.height, window.waitsForScreen));
+  }
+  ARETE_TRY(std::optional<Model> model, openModelOf(a, std::move(file), shown ? &*shown : nullptr, session));
+  if (!model) return {};
+  const bool isSurface = kindOf(*model) == ModelKind::surface;
   if (isSurface && a.viewpoint.isRound && a.pictures.frames.empty())
     return failure(ErrorCode::usage, "requires --frames, where the file is of a surface", "--round");
   ARETE_TRY(const Viewed viewed,
-            isSurface ? readSurface(a, container, session) : readTerrain(a, std::move(container), session));
+            std::visit([&](auto&& one) { return viewedOf(a, std::move(one), session); }, std::move(*model)));
   const Subject& subject = *viewed.subject;
   ARETE_CHECK(a.detail.findBudget(viewed.finestTriangles));
   ARETE_TRY(ViewSettings settings, a.settings(subject.colorings()));
@@ -181,20 +238,17 @@ Status runView(ViewArguments a, Session& session) {
 
   const Camera start = flight && !a.viewpoint.statesCamera() ? flight->at(0) : camera;
   if (!a.pictures.isHeadless) {
-    WindowOptions window;
-    window.title = fmt::format("arete - {}", a.model);
     window.start.settings = settings;
     window.start.frameMilliseconds = a.detail.frameTime;
     window.start.home = a.viewpoint.homeView();
     if (viewed.camera || flight) window.start.camera = start;
     if (flight) window.start.flight = flight->plan();
     if (!a.viewpoint.path.empty()) window.start.flightPath = a.viewpoint.path;
-    if (!a.pictures.sizeText.empty()) std::tie(window.width, window.height) = size;
     window.samples = a.pictures.samples;
     window.start.showsDecorations = !a.appearance.isPlainPicture;
     window.lastPicture = a.pictures.windowScreenshot;
     window.frames = a.pictures.windowFrames;
-    return runWindow(viewed.addModel, window, session.context());
+    return runWindow(std::move(*shown), viewed.addModel, window, session.context());
   }
 
   ARETE_TRY(HeadlessView view,
@@ -215,12 +269,13 @@ Status runView(ViewArguments a, Session& session) {
 
 void addViewCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<ViewArguments>();
-  CLI::App* command =
-      session.addCommand(app, "view", "Show a terrain or a surface in a window, or draw pictures without one",
-                         "  arete view dem.amt\n"
-                         "  arete view dem.amt --screenshot view.png --camera 409050,3801450,300,20,-10\n"
-                         "  arete view dem.amt --round --film flight.mp4",
-                         [arguments](Session& s) { return runView(*arguments, s); });
+  CLI::App* command = session.addCommand(
+      app, "view", "Show a terrain or a surface in a window, or draw pictures without one",
+      "  arete view dem.amt\n"
+      "  arete view dem.tif                                        built first; so is a mesh\n"
+      "  arete view dem.amt --screenshot view.png --camera 409050,3801450,300,20,-10\n"
+      "  arete view dem.amt --round --film flight.mp4",
+      [arguments](Session& s) { return runView(*arguments, s); });
   arguments->addTo(*command);
 }
 

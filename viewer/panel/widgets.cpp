@@ -81,28 +81,57 @@ void tip(const char* text) {
 // The column stands at one side of the window, has a fixed width and is never higher than the window.
 void beginColumn(const char* name, bool isRight) {
   const ImGuiIO& io = ImGui::GetIO();
-  const float gap = 0.5f * em(), width = 20 * em();
+  const float gap = 0.5f * em(), width = std::min(20 * em(), io.DisplaySize.x / 2 - 2 * gap);
   ImGui::SetNextWindowPos({isRight ? io.DisplaySize.x - gap : gap, gap}, ImGuiCond_Always,
                           {isRight ? 1.0f : 0.0f, 0});
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(io.DisplaySize.y - 2 * gap, 4 * em())});
   ImGui::Begin(name, nullptr, kColumn);
-  ImGui::PushItemWidth(9.2f * em());
+  ImGui::PushItemWidth(std::min(9.2f * em(), 0.46f * width));
 }
 
-void endColumn() {
+double endColumn() {
+  const ImGuiIO& io = ImGui::GetIO();
+  const ImVec2 size = ImGui::GetWindowSize();
   ImGui::PopItemWidth();
   ImGui::End();
+  return size.y > io.DisplaySize.y / 2 ? double((size.x + 0.5f * em()) / io.DisplaySize.x) : 0;
 }
 
 // A message lies at the lower edge and takes no input, so that it is never in the way of the mouse.
 void showMessage(const std::string& text) {
   const ImGuiIO& io = ImGui::GetIO();
-  ImGui::SetNextWindowPos({io.DisplaySize.x / 2, io.DisplaySize.y - em()}, ImGuiCond_Always, {0.5f, 1});
+  ImGui::SetNextWindowPos({io.DisplaySize.x / 2, io.DisplaySize.y - 3 * em()}, ImGuiCond_Always, {0.5f, 1});
   ImGui::Begin("message", nullptr, kColumn | ImGuiWindowFlags_NoInputs);
   ImGui::PushTextWrapPos(std::max(io.DisplaySize.x - 42 * em(), 24 * em()));
   line(text);
   ImGui::PopTextWrapPos();
   ImGui::End();
+}
+
+void showStatus(const std::string& text) {
+  const ImGuiIO& io = ImGui::GetIO();
+  ImGui::SetNextWindowPos({io.DisplaySize.x / 2, io.DisplaySize.y - 0.4f * em()}, ImGuiCond_Always,
+                          {0.5f, 1});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {io.DisplaySize.x, io.DisplaySize.y});
+  ImGui::Begin("status", nullptr, kColumn | ImGuiWindowFlags_NoInputs);
+  line(text);
+  ImGui::End();
+}
+
+std::optional<bool> askQuestion(const std::string& text, const char* yes, const char* no) {
+  const ImGuiIO& io = ImGui::GetIO();
+  ImGui::SetNextWindowPos({io.DisplaySize.x / 2, io.DisplaySize.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowFocus();
+  ImGui::Begin("question", nullptr, kColumn);
+  ImGui::PushTextWrapPos(std::min(36 * em(), io.DisplaySize.x - 3 * em()));
+  line(text);
+  ImGui::PopTextWrapPos();
+  std::optional<bool> answer;
+  if (ImGui::Button(yes)) answer = true;
+  ImGui::SameLine();
+  if (ImGui::Button(no) || ImGui::IsKeyPressed(ImGuiKey_Escape)) answer = false;
+  ImGui::End();
+  return answer;
 }
 
 }  // namespace arete::widget

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace arete::widget {
@@ -12,9 +13,12 @@ namespace arete::widget {
 /// The height of a letter.
 float em();
 
-/// A column of sections at the left or right edge of the picture.
+/// A column of sections at the left or right edge of the picture; in a narrow window no wider than half of
+/// it.
 void beginColumn(const char* name, bool isRight);
-void endColumn();
+/// @return how much of the picture's width the column covers: 0 where it leaves more than half of the height
+/// free.
+double endColumn();
 /// @return whether the section is open.
 bool section(const char* name, bool isOpen = true);
 
@@ -29,8 +33,15 @@ bool slider(const char* name, double& value, double low, double high, const char
             bool isLogarithmic = false);
 /// Shown while the mouse is over the last widget.
 void tip(const char* text);
-/// In the middle of the lower edge.
+/// In the middle of the lower edge, over the status.
 void showMessage(const std::string& text);
+/// A line at the lower edge.
+void showStatus(const std::string& text);
+/// A question in the middle, with the words of its two answers; the keys are Return on a chosen button and
+/// Escape for "no".
+///
+/// @return the answer, once it is there.
+std::optional<bool> askQuestion(const std::string& text, const char* yes, const char* no);
 
 /// "12 345".
 std::string grouped(std::uint64_t value);

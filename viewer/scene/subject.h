@@ -19,11 +19,12 @@ namespace arete {
 
 /// A place of a model that was picked with the mouse.
 struct Pick {
-  Vec2 plan;          ///< plan coordinates of the model
-  Vec2 xy;            ///< source coordinates
-  double height = 0;  ///< of the model, in the source's vertical unit
-  Vec3 metric;        ///< heights as they are, not exaggerated
-  double metres = 0;  ///< from the eye, in a straight line
+  Vec2 plan;                  ///< plan coordinates of the model
+  Vec2 xy;                    ///< source coordinates
+  double height = 0;          ///< of the model at full resolution, in the source's vertical unit
+  Vec3 metric;                ///< heights as they are, not exaggerated
+  double metres = 0;          ///< from the eye, in a straight line
+  std::string material = {};  ///< of a surface; empty: none
 };
 
 /// What a camera looks at and moves around: a model without its graphics, at full resolution. Its metric
@@ -45,11 +46,21 @@ class Subject {
   virtual Result<View> viewOf(const Camera& camera, const ViewSettings& settings) const = 0;
   /// Where a place of metric space is drawn, heights exaggerated; not finite where a CRS does not reach.
   virtual Vec3 drawn(const Vec3& metric, const ViewSettings& settings) const = 0;
-  /// The nearest camera of a direction that has the whole model in its picture. `picture`: its size and field
-  /// of view.
-  virtual Camera home(HomeView view, const Camera& picture, const ViewSettings& settings) const = 0;
+  /// The nearest camera of a direction that has the whole model in what is free of its picture. `picture`:
+  /// its size and field of view.
+  virtual Camera home(HomeView view, const Camera& picture, const ViewSettings& settings,
+                      const CoveredEdges& covered = {}) const = 0;
   /// The place of the model at a pixel of a camera, whichever cut is drawn; nothing where there is none.
   virtual std::optional<Pick> pick(const Camera& camera, Vec2 pixel, const ViewSettings& settings) const = 0;
+  /// Whether the ray of a pixel goes down through all heights of the model and meets none of it: there is
+  /// NODATA.
+  virtual bool isVoid(const Camera&, Vec2, const ViewSettings&) const { return false; }
+  /// How far a cut may be from the model at a place that was picked, if the triangle of the cut there has at most
+  /// an error of `allowed`, as the model stores it: of terrain vertically and between samples too, of a surface in
+  /// any direction. In the source's vertical unit. O(depth * degree).
+  virtual double boundAt(const Pick& pick, double allowed) const = 0;
+  /// The unit of heights; empty: not known.
+  virtual std::string heightUnit() const = 0;
   /// A closed flight around the model. `from`: a camera that has it in its picture. Errors: usage.
   virtual Result<FlightPlan> round(const Camera& from) const = 0;
   /// Of a place of metric space: what its file calls it, x, y and height.

@@ -4,9 +4,8 @@
 // profile at full resolution has every edge that it crosses; height above the terrain is linear between two
 // of them, so its first change of sign is the intersection.
 //
-// On a curved Earth the box of the terrain bends with the ground, so its corners alone do not bound it for a
-// home view. A grid over its bottom and its top does: it is dense enough that the ground between neighbours
-// rises by far less than the free margin of the picture, even for a whole planet.
+// A home view of the curved Earth is found over the same points of the terrain as that of the flat map, where
+// they lie on the ellipsoid.
 #include "viewer/scene/terrain_subject.h"
 
 #include <algorithm>
@@ -20,7 +19,6 @@
 namespace arete {
 namespace {
 
-constexpr int kCells = 32;
 constexpr double kMostTilt = 5;  // degrees
 
 struct Stretch {
@@ -100,26 +98,27 @@ Vec3 TerrainSubject::drawn(const Vec3& metric, const ViewSettings& settings) con
   return {metric.x, metric.y, metric.z * settings.stretch};
 }
 
-Camera TerrainSubject::home(HomeView view, const Camera& picture, const ViewSettings& settings) const {
+Camera TerrainSubject::home(HomeView view, const Camera& picture, const ViewSettings& settings,
+                            const CoveredEdges& covered) const {
+  if (!shape_) shape_ = homeShape(model_);
   const CurvedGround* const ground = groundOf(settings);
-  if (!ground) return homeCamera(view, space_, box_, picture, settings.stretch);
+  if (!ground) return homeCamera(view, space_, *shape_, picture, settings.stretch, covered);
   std::vector<Vec3> points;
-  for (int j = 0; j <= kCells; ++j)
-    for (int i = 0; i <= kCells; ++i)
-      for (const double z : {box_.low.z, box_.high.z}) {
-        const Vec3 p = drawn({box_.low.x + (box_.high.x - box_.low.x) * i / kCells,
-                              box_.low.y + (box_.high.y - box_.low.y) * j / kCells, z},
-                             settings);
-        if (std::isfinite(p.x + p.y + p.z)) points.push_back(p);
-      }
+  for (const Vec3& flat : shape_->points)
+    if (const Vec3 p = drawn(flat, settings); std::isfinite(p.x + p.y + p.z)) points.push_back(p);
+  Look home = homeLook(view);
+  if (view == HomeView::overview && !points.empty())
+    home = filling(
+        home, points, [&](Look look) { return axesOf(space_, look); }, picture, covered);
   for (double tilt = 0; tilt <= kMostTilt && !points.empty(); ++tilt) {
-    Look look = homeLook(view);
+    Look look = home;
     look.pitchDegrees = std::max(look.pitchDegrees - tilt, -90.0);
     const PictureAxes axes = axesOf(space_, look);
-    const auto camera = ground->cameraAt(eyeOnAll(points, axes, picture), axes, picture, settings.stretch);
+    const auto camera =
+        ground->cameraAt(eyeOnAll(points, axes, picture, covered), axes, picture, settings.stretch);
     if (camera) return *camera;
   }
-  return homeCamera(view, space_, box_, picture, settings.stretch);
+  return homeCamera(view, space_, *shape_, picture, settings.stretch, covered);
 }
 
 Result<FlightPlan> TerrainSubject::round(const Camera&) const {
@@ -131,9 +130,17 @@ Vec3 TerrainSubject::inFile(const Vec3& metric) const {
   return {xy.x, xy.y, space_.height(metric)};
 }
 
-Pick TerrainSubject::pickOf(const Vec3& metric, const Vec3& eye) const {
-  const Vec2 xy = space_.xy(metric);
-  return {model_.toPlan(xy), xy, space_.height(metric), metric, norm(metric - eye)};
+// The ray says where; the height there is the terrain's own. On the rim of NODATA rounding may have carried
+// the place off the terrain: then it is taken a little further along the triangle that was hit.
+std::optional<Pick> TerrainSubject::pickOf(const Vec3& hit, const Vec3& inside, const Vec3& eye) const {
+  for (const double step : {0.0, 1e-9, 1e-6, 1e-3}) {
+    const Vec2 xy = space_.xy(hit + step * (inside - hit));
+    const auto ground = profiles_.heights().at(xy);
+    if (!ground) continue;
+    const Vec3 metric = space_.position(xy, ground->height);
+    return Pick{model_.toPlan(xy), xy, ground->height, metric, norm(metric - eye)};
+  }
+  return std::nullopt;
 }
 
 std::optional<Pick> TerrainSubject::along(const Vec3& eye, const Vec3& direction) const {
@@ -151,7 +158,7 @@ std::optional<Pick> TerrainSubject::between(const Vec3& first, const Vec3& last,
     if (!ground) return std::nullopt;
     const Vec3 hit = space_.position(space_.xy(first), ground->height);
     const bool isBetween = (hit.z - first.z) * (hit.z - last.z) <= 0;
-    return isBetween ? std::optional(pickOf(hit, eye)) : std::nullopt;
+    return isBetween ? pickOf(hit, hit, eye) : std::nullopt;
   }
   const auto track = plane_->track(from, to);
   if (!track) return std::nullopt;
@@ -167,9 +174,9 @@ std::optional<Pick> TerrainSubject::between(const Vec3& first, const Vec3& last,
       const double at = isJoined && clearance != clearanceBefore
                             ? before + (t - before) * (clearanceBefore / (clearanceBefore - clearance))
                             : t;
-      const Vec3 hit{first.x + at * (last.x - first.x), first.y + at * (last.y - first.y),
-                     first.z + at * (last.z - first.z)};
-      return pickOf(hit, eye);
+      const Vec3 ray = last - first;
+      const double middle = isJoined ? (before + t) / 2 : at;
+      if (const auto pick = pickOf(first + at * ray, first + middle * ray, eye)) return pick;
     }
     before = t;
     clearanceBefore = clearance;
@@ -185,6 +192,30 @@ std::optional<Pick> TerrainSubject::pick(const Camera& camera, Vec2 pixel,
   Vec3 direction = directionOfPixel(*view, space_.isMirrored(), pixel);
   direction.z /= settings.stretch;
   return along(space_.position(camera), direction);
+}
+
+// The triangle of a cut there is one of those over the place, from the coarsest that the error allows down to the
+// finest. What the model stores as the error is at samples; the signed bounds hold between them as well.
+double TerrainSubject::boundAt(const Pick& pick, double allowed) const {
+  const TriangleLocator& locator = profiles_.heights().locator();
+  double bound = 0;
+  for (auto t = locator.inRoot(pick.plan); t && !locator.isFinest(*t); t = locator.finer(*t, pick.plan))
+    if (model_.mt.error(t->triangle) <= allowed)
+      bound = std::max({bound, model_.mt.decoded(kAbove, t->triangle), model_.mt.decoded(kBelow, t->triangle)});
+  return bound;
+}
+
+// A ray that meets the terrain nowhere and leaves its box through the bottom has gone through a hole in it.
+bool TerrainSubject::isVoid(const Camera& camera, Vec2 pixel, const ViewSettings& settings) const {
+  const Result<View> view = viewOf(camera, settings);
+  if (!view || settings.isCurved || pick(camera, pixel, settings)) return false;
+  Vec3 direction = directionOfPixel(*view, space_.isMirrored(), pixel);
+  direction.z /= settings.stretch;
+  const Vec3 eye = space_.position(camera);
+  if (!(direction.z < 0) || eye.z < rayBox_.low.z) return false;
+  const double down = (rayBox_.low.z - eye.z) / direction.z;
+  const Vec3 at = eye + down * direction;
+  return at.x >= rayBox_.low.x && at.x <= rayBox_.high.x && at.y >= rayBox_.low.y && at.y <= rayBox_.high.y;
 }
 
 std::optional<Pick> TerrainSubject::pickCurved(const View& view, Vec2 pixel, const Camera& camera,

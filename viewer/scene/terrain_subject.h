@@ -26,10 +26,14 @@ class TerrainSubject final : public Subject {
   std::string_view kind() const override { return "terrain"; }
   Result<View> viewOf(const Camera& camera, const ViewSettings& settings) const override;
   Vec3 drawn(const Vec3& metric, const ViewSettings& settings) const override;
-  Camera home(HomeView view, const Camera& picture, const ViewSettings& settings) const override;
+  Camera home(HomeView view, const Camera& picture, const ViewSettings& settings,
+              const CoveredEdges& covered = {}) const override;
   /// O(triangles below the ray * depth).
   std::optional<Pick> pick(const Camera& camera, Vec2 pixel,
                            const ViewSettings& settings = {}) const override;
+  bool isVoid(const Camera& camera, Vec2 pixel, const ViewSettings& settings = {}) const override;
+  double boundAt(const Pick& pick, double allowed) const override;
+  std::string heightUnit() const override { return model_.georeference.verticalUnit; }
   Result<FlightPlan> round(const Camera& from) const override;
   Vec3 inFile(const Vec3& metric) const override;
   double leastRadius() const override { return 0.5; }
@@ -52,13 +56,15 @@ class TerrainSubject final : public Subject {
   std::optional<Pick> pickCurved(const View& view, Vec2 pixel, const Camera& camera, double stretch) const;
   /// Null on a flat map, and if the CRS has no ellipsoid.
   const CurvedGround* groundOf(const ViewSettings& settings) const;
-  Pick pickOf(const Vec3& metric, const Vec3& eye) const;
+  /// @param inside a place of the triangle that was hit, in the plan.
+  std::optional<Pick> pickOf(const Vec3& hit, const Vec3& inside, const Vec3& eye) const;
 
   const TerrainModel& model_;
   Profiles profiles_;
   MetricBox rayBox_;  // a little larger
   std::unique_ptr<SightEarth> plane_;
   mutable std::optional<CurvedGround> ground_;
+  mutable std::optional<HomeShape> shape_;  // made at its first use
 };
 
 }  // namespace arete

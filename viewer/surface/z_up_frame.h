@@ -34,12 +34,7 @@ class ZUpFrame {
   bool isYUp_ = false;
 };
 
-/// Where a surface is in upright space.
-struct ZUpShape {
-  MetricBox box;             ///< the least along the axes that holds all vertices
-  std::vector<Vec3> points;  ///< vertices, those of coarse levels first, 20 000 at most
-};
-/// O(vertices).
-ZUpShape uprightShape(const SurfaceModel& model, const ZUpFrame& upright);
+/// Where a surface is in upright space. O(vertices).
+HomeShape uprightShape(const SurfaceModel& model, const ZUpFrame& upright);
 
 }  // namespace arete

@@ -37,8 +37,9 @@ Camera CameraRig::asIs(Camera camera) const {
 /// Of the camera at hand: as far as the model in the middle of its picture, or, of what lies ahead, the place
 /// nearest to the middle of all.
 double CameraRig::reach() const {
-  const auto hit =
-      subject_.pick(camera_, {camera_.widthPixels / 2, camera_.heightPixels / 2}, {.stretch = stretch_});
+  const Vec2 middle{camera_.widthPixels / 2, camera_.heightPixels / 2};
+  // A surface turns about its own middle, not about the part of it that is in front.
+  const auto hit = subject_.heights() ? subject_.pick(camera_, middle, {.stretch = stretch_}) : std::nullopt;
   Vec3 target = hit ? hit->metric : subject_.box().centre(), eye = space_.position(camera_);
   target.z *= stretch_;
   eye.z *= stretch_;
@@ -76,10 +77,10 @@ void CameraRig::setMode(CameraMode mode) {
   enter(camera_);
 }
 
-void CameraRig::home(HomeView view, bool isCurved) {
+void CameraRig::home(HomeView view, bool isCurved, const CoveredEdges& covered) {
   mode_ = CameraMode::orbit;
   follows_ = false;
-  enter(subject_.home(view, camera_, {.stretch = stretch_, .isCurved = isCurved}));
+  enter(subject_.home(view, camera_, {.stretch = stretch_, .isCurved = isCurved}, covered));
 }
 
 // The target stays in the middle of the picture, at the stated distance or the present one.

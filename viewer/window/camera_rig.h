@@ -33,8 +33,8 @@ class CameraRig {
   void setMode(CameraMode mode);
   /// Sets the camera, as a flight or a key frame does. Picture size and exaggeration stay.
   void place(const Camera& camera);
-  /// A view of the whole model, on the curved Earth if it is shown.
-  void home(HomeView view, bool isCurved = false);
+  /// A view of the whole model in what is free of the picture, on the curved Earth if it is shown.
+  void home(HomeView view, bool isCurved = false, const CoveredEdges& covered = {});
   /// Orbits a place of the model, from where the camera looks now, at `metres` from it (0 = as far as now).
   void lookAt(const Vec3& metric, double metres = 0);
 

@@ -182,6 +182,7 @@ GlfwWindow::Events GlfwWindow::poll(bool isMouseTaken, bool areKeysTaken) {
   const bool isFirst = !h.wasInWindow;
   h.wasInWindow = true;
   in.mouse = mouse;
+  in.isOverPicture = !isMouseTaken && glfwGetWindowAttrib(h.window, GLFW_HOVERED) != 0;
   if (!isFirst) in.mouseMoved = {mouse.x - h.mouse.x, mouse.y - h.mouse.y};
   h.mouse = mouse;
   const auto button = [&](int which) { return glfwGetMouseButton(h.window, which) == GLFW_PRESS; };

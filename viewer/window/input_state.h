@@ -10,9 +10,10 @@ namespace arete {
 struct InputState {
   double seconds = 0;  ///< since the last frame
 
-  Vec2 mouse = {};       ///< in pixels of the picture, from its top left, y downwards
-  Vec2 mouseMoved = {};  ///< since the last frame
-  double wheel = 0;      ///< notches, > 0 away from the user
+  bool isOverPicture = false;  ///< the mouse is in the window and not over a panel
+  Vec2 mouse = {};             ///< in pixels of the picture, from its top left, y downwards
+  Vec2 mouseMoved = {};        ///< since the last frame
+  double wheel = 0;            ///< notches, > 0 away from the user
   bool leftButton = false, middleButton = false, rightButton = false;  ///< held
 
   /// Held keys, each -1, 0 or 1.

@@ -31,24 +31,31 @@ using widget::tip;
 void Panel::draw(ViewerSession& s, double scale) {
   drawMarks(s, scale);
   if (s.shows.help) drawHelp(s);
+  CoveredEdges covered;
   if (s.shows.panel) {
     beginColumn("figures", false);
     frameSection(s);
     detailSection(s);
     lookSection(s);
     layerSection(s);
-    endColumn();
+    covered.left = endColumn();
     beginColumn("places", true);
     cameraSection(s);
     if (s.tools) pickSection(s, *s.tools);
     flightSection(s);
-    endColumn();
+    covered.right = endColumn();
   }
+  // A picture of which hardly anything is free is filled as if all of it were.
+  s.covered = covered.left + covered.right < 0.7 ? covered : CoveredEdges{};
   if (!s.message().empty()) showMessage(s.message());
+  if (!s.cursor.text().empty()) widget::showStatus(s.cursor.text());
+  if (s.question.isWaiting())
+    if (const auto answer = widget::askQuestion(s.question.sentence(), "overwrite", "cancel"))
+      s.answer(*answer);
 }
 
 void Panel::frameSection(ViewerSession& s) {
-  if (!section("Frame")) return;
+  if (!section("Frame", false)) return;
   const FrameHistory& h = s.history;
   // The scale reaches above the longest frame and the wanted time, and covers at least 4 ms.
   const double most = std::max({h.mostWork() * 1.1, s.wanted.frameMilliseconds * 1.5, 4.0});
@@ -77,7 +84,7 @@ void Panel::frameSection(ViewerSession& s) {
 }
 
 void Panel::detailSection(ViewerSession& s) {
-  if (!section("Detail")) return;
+  if (!section("Detail", false)) return;
   slider("tolerance", s.wanted.pixels, 0.25, 32, "%.2f px", true);
   tip("How far anything drawn may be from the model at full resolution, on the screen.");
   // The slider counts thousands of triangles; 0 stands for any number.
@@ -171,7 +178,7 @@ void Panel::layerSection(ViewerSession& s) {
 }
 
 void Panel::cameraSection(ViewerSession& s) {
-  if (!section("Camera")) return;
+  if (!section("Camera", false)) return;
   const Camera& camera = s.rig.camera();
   if (s.tools) {
     const PlaceText& places = s.tools->places;
@@ -346,8 +353,7 @@ void Panel::flightSection(ViewerSession& s) {
   if (ImGui::InputText("##frames", &framesFolder_)) s.files.framesFolder = framesFolder_;
   tip("The folder for the frames of the flight as PNG files.");
   ImGui::SameLine();
-  if (ImGui::Button(s.files.wantsFrames ? "stop frames" : "render frames"))
-    s.files.wantsFrames = !s.files.wantsFrames;
+  if (ImGui::Button(s.files.wantsFrames ? "stop frames" : "render frames")) s.toggleFrames();
 }
 
 }  // namespace arete

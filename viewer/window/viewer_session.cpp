@@ -6,12 +6,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace arete {
 namespace {
 
 constexpr double kMessageSeconds = 8;
+bool isSamePlace(const Camera& a, const Camera& b) {
+  return a.xy.x == b.xy.x && a.xy.y == b.xy.y && a.height == b.height &&
+         a.azimuthDegrees == b.azimuthDegrees && a.pitchDegrees == b.pitchDegrees &&
+         a.verticalFieldOfViewDegrees == b.verticalFieldOfViewDegrees;
+}
+
+bool isSameSize(const Camera& a, const Camera& b) {
+  return a.widthPixels == b.widthPixels && a.heightPixels == b.heightPixels;
+}
 
 Camera startOf(const Subject& subject, const ViewerSession::Start& start) {
   return start.camera ? *start.camera : subject.home(start.home, start.picture, start.settings);
@@ -34,6 +44,7 @@ ViewerSession::ViewerSession(const Subject& shown, Layers& shownLayers, const St
   rig.setStretch(settings.stretch);
   settings.waits = false;
   if (start.flight) deck.setPlan(*start.flight);
+  if (!start.camera) home_ = homeNow(start.home);
   // The next home view follows the one that is shown.
   nextHome_ =
       std::size_t(std::ranges::find(kHomeViews, start.home) - kHomeViews.begin()) + (start.camera ? 0 : 1);
@@ -48,10 +59,7 @@ void ViewerSession::say(std::string sentence) {
 void ViewerSession::step(const InputState& input) {
   messageSeconds_ -= input.seconds;
   if (messageSeconds_ <= 0) message_.clear();
-  if (const auto camera = deck.advance(input.seconds)) rig.place(*camera);
-  // A hand on the controls takes them back.
-  if (rig.step(input)) deck.stop();
-  rig.setStretch(settings.stretch);
+  moveCamera(input);
   // A CRS without an ellipsoid leaves the map flat, and that is said once.
   if (const Status can = subject.check(settings); !can && settings.isCurved) {
     settings.isCurved = false;
@@ -61,10 +69,39 @@ void ViewerSession::step(const InputState& input) {
   if (isFrozen && !frozen) frozen = rig.camera();
   if (!isFrozen) frozen.reset();
   layMarks();
+  readCursor(input);
   // Nothing to learn from a cut that stays as it is.
   if (!isFrozen)
     settings.pixels = control_.next(
         wanted, {.milliseconds = history.lastWork(), .triangles = figures.asked, .pixels = figures.pixels});
+}
+
+ViewerSession::Home ViewerSession::homeNow(HomeView view) const {
+  return {view, rig.camera(), covered, settings.stretch, settings.isCurved};
+}
+
+// A home view that is not left is found anew for another picture or exaggeration.
+void ViewerSession::moveCamera(const InputState& input) {
+  const bool wasAtHome = home_ && isSamePlace(home_->camera, rig.camera());
+  const auto flown = deck.advance(input.seconds);
+  if (flown) rig.place(*flown);
+  // A hand on the controls takes them back.
+  const bool isMoved = rig.step(input);
+  if (isMoved) deck.stop();
+  rig.setStretch(settings.stretch);
+  if (!wasAtHome || isMoved || flown) return;
+  const bool isNew = !isSameSize(home_->camera, rig.camera()) || home_->covered != covered ||
+                     home_->stretch != settings.stretch || home_->isCurved != settings.isCurved;
+  if (isNew) home(home_->view);
+}
+
+void ViewerSession::readCursor(const InputState& input) {
+  cursor.update({.mouse = input.isOverPicture ? std::optional(input.mouse) : std::nullopt,
+                 .camera = rig.camera(),
+                 .cutFor = frozen.value_or(rig.camera()),
+                 .pixels = figures.pixels > 0 ? figures.pixels : std::numeric_limits<double>::infinity(),
+                 .stretch = settings.stretch,
+                 .isCurved = settings.isCurved});
 }
 
 void ViewerSession::layMarks() {
@@ -115,8 +152,7 @@ void ViewerSession::apply(Action action) {
         say(played.error().describe());
       break;
     case Action::saveFlight: {
-      const Status saved = deck.save(files.flight, georeference());
-      say(saved ? "saved " + files.flight.string() : saved.error().describe());
+      if (question.mayDo(Saving::flight, files.flight)) saveFlight(files.flight);
       break;
     }
     case Action::loadFlight: {
@@ -169,6 +205,29 @@ void ViewerSession::apply(Action action) {
   }
 }
 
+void ViewerSession::saveFlight(const std::filesystem::path& path) {
+  const Status saved = deck.save(path, georeference());
+  say(saved ? "saved " + path.string() : saved.error().describe());
+}
+
+void ViewerSession::toggleFrames() {
+  if (files.wantsFrames) {
+    files.wantsFrames = false;
+    return;
+  }
+  if (const auto flight = deck.flight(); !flight) return say(flight.error().describe());
+  files.wantsFrames = question.mayDo(Saving::frames, files.framesFolder);
+}
+
+void ViewerSession::answer(bool isYes) {
+  if (!isYes) return question.no();
+  const auto wish = question.yes();
+  if (!wish) return;
+  if (wish->saving == Saving::flight) return saveFlight(wish->path);
+  files.framesFolder = wish->path;
+  files.wantsFrames = true;
+}
+
 Georeference ViewerSession::georeference() const {
   return tools ? tools->model().georeference : Georeference{};
 }
@@ -179,7 +238,8 @@ void ViewerSession::click(Vec2 pixel) {
 
 void ViewerSession::home(HomeView view) {
   deck.stop();
-  rig.home(view, settings.isCurved);
+  rig.home(view, settings.isCurved, covered);
+  home_ = homeNow(view);
 }
 
 void ViewerSession::goTo(const std::string& text, bool isLonLat) {

@@ -6,12 +6,14 @@
 #include <optional>
 #include <string>
 
+#include "viewer/panel/frame_history.h"
+#include "viewer/panel/overwrite_question.h"
 #include "viewer/scene/layer.h"
 #include "viewer/scene/subject.h"
 #include "viewer/scene/tolerance_control.h"
 #include "viewer/window/camera_rig.h"
+#include "viewer/window/cursor.h"
 #include "viewer/window/flight_deck.h"
-#include "viewer/window/frame_history.h"
 #include "viewer/window/key_bindings.h"
 #include "viewer/window/terrain_tools.h"
 
@@ -46,6 +48,10 @@ class ViewerSession {
   void home(HomeView view);
   /// Moves to a typed place of a terrain; message() says why it cannot.
   void goTo(const std::string& text, bool isLonLat);
+  /// Writes frames of the flight, or ends that. Asks before frames are overwritten.
+  void toggleFrames();
+  /// The answer to the question.
+  void answer(bool isYes);
   /// A flight around the model instead of the one at hand.
   void flyAround();
   /// Shows a message for a few seconds; nothing for an empty one.
@@ -60,6 +66,10 @@ class ViewerSession {
   CameraRig rig;
   FlightDeck deck;
   std::optional<TerrainTools> tools;  ///< nothing for a surface
+  Cursor cursor{subject, tools};
+  OverwriteQuestion question;  ///< waits for answer() before a file is overwritten
+  /// What the panel covers of the picture. A home view fills the rest, and again when that changes.
+  CoveredEdges covered;
 
   ViewSettings settings;            ///< of the next frame; pixels are ToleranceControl's
   ToleranceControl::Wanted wanted;  ///< the user's settings
@@ -85,11 +95,24 @@ class ViewerSession {
 
  private:
   void layMarks();
+  void saveFlight(const std::filesystem::path& path);
+  void moveCamera(const InputState& input);
+  void readCursor(const InputState& input);
   Georeference georeference() const;
 
   std::string message_;
   double messageSeconds_ = 0;
   std::size_t nextHome_ = 0;
+  /// The last home view, and what it was found for.
+  struct Home {
+    HomeView view = HomeView::overview;
+    Camera camera;
+    CoveredEdges covered;
+    double stretch = 1;
+    bool isCurved = false;
+  };
+  Home homeNow(HomeView view) const;
+  std::optional<Home> home_;
   ToleranceControl control_;
 };
 

@@ -24,10 +24,10 @@
 #include "viewer/gl/frame_target.h"
 #include "viewer/headless/headless.h"
 #include "viewer/overlay/decoration_overlay.h"
+#include "viewer/panel/memory_use.h"
 #include "viewer/panel/panel_context.h"
 #include "viewer/picture/picture.h"
 #include "viewer/window/glfw_window.h"
-#include "viewer/window/memory_use.h"
 #include "viewer/window/panel.h"
 
 namespace arete {
@@ -88,6 +88,7 @@ class WindowLoop {
     session_.device.refusal = scene_.deviceRefusal();
     if (!session_.device.refusal.empty()) session_.settings.path = CutPath::processor;
     if (session_.tools) glGetIntegerv(GL_MAX_TEXTURE_SIZE, &session_.tools->mostOverlayPixels);
+    session_.say("drag: turn   wheel: nearer and farther   H: the whole model   F1: all keys");
     for (const Warning& warning : scene_.warnings()) session_.say(warning);
   }
 
@@ -246,7 +247,8 @@ class WindowLoop {
       }
     }
     if (std::exchange(s.files.wantsScreenshot, false)) {
-      const std::string name = nameOfNow();
+      // Two pictures of one second are two files.
+      const std::string name = freePath(nameOfNow()).string();
       const Status saved = savePicture(name);
       s.say(saved ? "saved " + name : saved.error().describe());
     }
@@ -276,6 +278,11 @@ class WindowLoop {
 Status runWindow(const FillScene& fill, const WindowOptions& options, const RunContext& context) {
   ARETE_TRY(GlfwWindow window,
             GlfwWindow::open(options.title, options.width, options.height, options.waitsForScreen));
+  return runWindow(std::move(window), fill, options, context);
+}
+
+Status runWindow(GlfwWindow window, const FillScene& fill, const WindowOptions& options,
+                 const RunContext& context) {
   ARETE_TRY(Scene scene, Scene::create());
   ARETE_CHECK(fill(scene));
   WindowLoop loop(options, std::move(window), std::move(scene));

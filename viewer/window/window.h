@@ -8,6 +8,7 @@
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
 #include "viewer/gl/scene.h"
+#include "viewer/window/glfw_window.h"
 #include "viewer/window/viewer_session.h"
 
 namespace arete {
@@ -32,5 +33,8 @@ struct WindowOptions {
 /// On the thread of main(); one window at a time. Errors: unsupported (no display; OpenGL below 4.5, naming
 /// what was found), interrupted, those of `fill` and of saving.
 Status runWindow(const FillScene& fill, const WindowOptions& options, const RunContext& context = {});
+/// The same in a window that is open, whose size and title stay.
+Status runWindow(GlfwWindow window, const FillScene& fill, const WindowOptions& options,
+                 const RunContext& context = {});
 
 }  // namespace arete

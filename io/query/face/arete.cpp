@@ -20,12 +20,11 @@
 #include "io/geo/dem/dem_reader.h"
 #include "io/query/extract/region_argument.h"
 #include "io/query/extract/tin.h"
+#include "io/query/source/build_terrain.h"
 #include "io/query/surface/build_model.h"
 #include "io/query/surface/take_surface.h"
 #include "io/query/surface/write_model.h"
 #include "io/store/amt/file.h"
-#include "terrain/builder/build.h"
-#include "terrain/features/fixed_vertices.h"
 #include "terrain/locate/ground_height.h"
 #include "terrain/model/plan_region.h"
 
@@ -41,20 +40,6 @@ Status checkEnds(const CutRequest& request) {
   if (request.maxError || request.maxTriangles || request.hasCamera() || request.deadlineMilliseconds)
     return {};
   return failure(ErrorCode::usage, "or maxTriangles, a camera or a deadline is required", "maxError");
-}
-
-Result<TerrainModel> buildTerrain(const std::string& path, const ModelOptions& options,
-                                  const RunContext& context) {
-  ARETE_TRY(DemRead dem, readDem(path, {}, context));
-  BuildOptions build;
-  if (options.isFidelity) build.shape = HoleShape::dataDependent;
-  return std::visit(
-      [&](const auto& field) -> Result<TerrainModel> {
-        ARETE_TRY(FixedVertices fixed, chooseFixedVertices(field, {}, context));
-        build.fixedVertices = std::move(fixed.vertices);
-        return arete::build(field, build, context);
-      },
-      dem.heightfield);
 }
 
 Result<std::optional<Region>> regionIn(const TerrainModel& model, const CutRequest& request,
@@ -141,7 +126,10 @@ Result<Model> build(const std::string& path, const ModelOptions& options, const 
                                                     context));
     return Model(std::move(built.model));
   }
-  ARETE_TRY(TerrainModel model, buildTerrain(path, options, context));
+  ARETE_TRY(const DemRead dem, readDem(path, {}, context));
+  BuildOptions terrain;
+  if (options.isFidelity) terrain.shape = HoleShape::dataDependent;
+  ARETE_TRY(TerrainModel model, buildTerrain(dem.heightfield, path, terrain, context));
   return Model(std::move(model));
 } catch (...) {
   return caughtFailure(path);

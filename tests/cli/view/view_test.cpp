@@ -305,5 +305,50 @@ TEST_F(ViewCommand, AFilmAloneLeavesNoPictures) {
   EXPECT_FALSE(film.json()["frames"][0].contains("file"));
 }
 
+TEST_F(ViewCommand, OpensADemAMeshAndPointsAsBuildTakesThem) {
+  write("hill.obj", "v 0 0 1\nv 10 0 2\nv 10 10 3\nv 0 10 4\nv 5 5 9\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
+  write("points.csv", "x,y,z\n0,0,1\n10,0,2\n10,10,3\n0,10,4\n5,5,9\n");
+  const auto shoot = [&](const std::string& input, const std::string& picture) {
+    return run({"view", input, "--screenshot", picture, "--size", "160x120", "--json"});
+  };
+  const Outcome built = shoot("dem.amt", "built.png"), direct = shoot("dem.tif", "direct.png");
+  if (isWithoutOpenGl(built)) GTEST_SKIP() << built.err;
+  ASSERT_EQ(direct.code, 0) << direct.err;
+  EXPECT_EQ(read("direct.png"), read("built.png")) << "the same model, the same picture";
+  EXPECT_EQ(direct.json()["kind"], "terrain");
+  const Outcome mesh = shoot("hill.obj", "mesh.png"), points = shoot("points.csv", "points.png");
+  ASSERT_EQ(mesh.code, 0) << mesh.err;
+  EXPECT_EQ(mesh.json()["kind"], "surface");
+  EXPECT_EQ(mesh.json()["screenshot"]["figures"]["triangles"], 4);
+  ASSERT_EQ(points.code, 0) << points.err;
+  EXPECT_EQ(points.json()["kind"], "terrain");
+  EXPECT_FALSE(exists("hill.amt"));
+  EXPECT_FALSE(exists("points.amt"));
+}
+
+TEST_F(ViewCommand, OfATinThatWasExtractedDrawsItsOwnTriangles) {
+  ASSERT_EQ(run({"extract", "dem.amt", "-o", "tin.ply", "--max-error", "3", "-q"}).code, 0);
+  const Json mesh = run({"mesh", "info", "tin.ply", "--json"}).json();
+  const Outcome shot = run({"view", "tin.ply", "--screenshot", "tin.png", "--size", "160x120", "--json",
+                            "--pixel-error", "0.001"});
+  if (isWithoutOpenGl(shot)) GTEST_SKIP() << shot.err;
+  ASSERT_EQ(shot.code, 0) << shot.err;
+  EXPECT_EQ(shot.json()["screenshot"]["figures"]["triangles"], mesh["triangles"]) << mesh.dump(1);
+}
+
+TEST_F(ViewCommand, RefusesWhatItCannotOpenWithTheReasonOfTheReader) {
+  write("letter.txt", "dear friend\n");
+  write("broken.amt", "no model");
+  write("hill.obj", "v 0 0 1\nv 10 0 2\nv 10 10 3\nf 1 2 3\n");
+  for (const char* name : {"letter.txt", "broken.amt", "missing.tif"}) {
+    const Outcome refused = run({"view", name, "--screenshot", "x.png"});
+    EXPECT_NE(refused.code, 0) << name;
+    EXPECT_NE(refused.err.find(name), std::string::npos) << refused.err;
+  }
+  const Outcome slopes = run({"view", "hill.obj", "--screenshot", "x.png", "--contours", "5"});
+  EXPECT_EQ(slopes.code, 2);
+  EXPECT_NE(slopes.err.find("--contours"), std::string::npos) << slopes.err;
+}
+
 }  // namespace
 }  // namespace arete::cli_test

@@ -42,7 +42,7 @@ TerrainModel mountains() {
 }
 
 Camera overview(const TerrainModel& model) {
-  return homeCamera(HomeView::overview, CameraSpace(model), metricBox(model));
+  return cameraOnAll(CameraSpace(model), homeShape(metricBox(model)), {0, -30});
 }
 
 TEST(Headless, ABudgetIsUsedNearlyWhollyAndSaidToBindByEitherPath) {

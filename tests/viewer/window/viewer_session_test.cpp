@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -241,6 +243,114 @@ TEST(Session, TheEdgesOfAFrustumAreSeenAtTheCornersOfItsPicture) {
       EXPECT_NEAR(std::min(seen->y, camera.heightPixels - seen->y), 0, 1e-4);
     }
   }
+}
+
+/// A folder that goes with the test.
+struct SessionFolder {
+  std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "arete_session_test";
+  SessionFolder() {
+    std::filesystem::remove_all(path);
+    std::filesystem::create_directories(path);
+  }
+  ~SessionFolder() { std::filesystem::remove_all(path); }
+};
+
+TEST(Session, SavingAFlightAsksBeforeItOverwritesAndWaitsForTheAnswer) {
+  const SessionFolder folder;
+  test::ViewedTerrain viewed(northUp());
+  ViewerSession& s = viewed.session;
+  s.files.flight = folder.path / "flight.json";
+  s.apply(Action::setKeyFrame);
+  s.apply(Action::saveFlight);
+  EXPECT_FALSE(s.question.isWaiting()) << "nothing is there yet";
+  const auto size = std::filesystem::file_size(s.files.flight);
+  s.rig.home(HomeView::fromAbove);
+  s.apply(Action::setKeyFrame);
+  s.apply(Action::saveFlight);
+  ASSERT_TRUE(s.question.isWaiting());
+  EXPECT_NE(s.question.sentence().find("flight.json exists"), std::string::npos) << s.question.sentence();
+  EXPECT_EQ(std::filesystem::file_size(s.files.flight), size);
+  s.step(still());
+  s.answer(false);
+  EXPECT_EQ(std::filesystem::file_size(s.files.flight), size);
+  s.apply(Action::saveFlight);
+  // The answer is about the file that was asked about, whatever the panel says by then.
+  s.files.flight = folder.path / "another.json";
+  s.answer(true);
+  EXPECT_GT(std::filesystem::file_size(folder.path / "flight.json"), size);
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "another.json"));
+  EXPECT_FALSE(s.question.isWaiting());
+}
+
+TEST(Session, FramesAskBeforeTheyOverwriteFrames) {
+  const SessionFolder folder;
+  test::ViewedTerrain viewed(northUp());
+  ViewerSession& s = viewed.session;
+  s.files.framesFolder = folder.path / "frames";
+  s.toggleFrames();
+  EXPECT_FALSE(s.files.wantsFrames) << "there is no flight";
+  s.flyAround();
+  s.toggleFrames();
+  EXPECT_TRUE(s.files.wantsFrames);
+  s.toggleFrames();
+  EXPECT_FALSE(s.files.wantsFrames);
+  std::filesystem::create_directories(folder.path / "frames");
+  std::ofstream(folder.path / "frames" / "frame_00000.png") << "a frame";
+  s.toggleFrames();
+  EXPECT_FALSE(s.files.wantsFrames);
+  EXPECT_NE(s.question.sentence().find("holds 1 frame"), std::string::npos) << s.question.sentence();
+  s.answer(true);
+  EXPECT_TRUE(s.files.wantsFrames);
+}
+
+TEST(Session, AHomeViewFillsWhatThePanelAndTheWindowLeaveUntilACameraMoves) {
+  test::ViewedTerrain viewed(northUp(), {.picture = {.widthPixels = 800, .heightPixels = 600}});
+  ViewerSession& s = viewed.session;
+  s.rig.setPicture(800, 600);
+  s.step(still());
+  const auto isHome = [&] {
+    const Camera home =
+        s.subject.home(HomeView::overview, s.rig.camera(), {.stretch = s.settings.stretch}, s.covered);
+    return home.xy.x == s.rig.camera().xy.x && home.xy.y == s.rig.camera().xy.y &&
+           home.height == s.rig.camera().height;
+  };
+  EXPECT_TRUE(isHome());
+  s.covered = {.left = 0.3};
+  s.step(still());
+  EXPECT_TRUE(isHome()) << "beside a panel";
+  s.rig.setPicture(400, 700);
+  s.step(still());
+  EXPECT_TRUE(isHome()) << "in another window";
+  s.settings.stretch = 3;
+  s.step(still());
+  EXPECT_TRUE(isHome()) << "with higher heights";
+  InputState drag = still();
+  drag.leftButton = true;
+  drag.mouseMoved = {30, 0};
+  s.step(drag);
+  const Camera left = s.rig.camera();
+  s.covered = {};
+  s.rig.setPicture(800, 600);
+  s.step(still());
+  EXPECT_EQ(s.rig.camera().azimuthDegrees, left.azimuthDegrees) << "a view that was chosen stays";
+  EXPECT_EQ(s.rig.camera().xy.x, left.xy.x);
+}
+
+TEST(Session, TheCursorReadsOnlyWhereTheMouseIsOverThePicture) {
+  test::ViewedTerrain viewed(
+      northUp(), {.home = HomeView::fromAbove, .picture = {.widthPixels = 800, .heightPixels = 600}});
+  ViewerSession& s = viewed.session;
+  s.rig.setPicture(800, 600);
+  InputState in = still();
+  in.mouse = {400, 300};
+  s.step(in);
+  EXPECT_EQ(s.cursor.text(), "");
+  in.isOverPicture = true;
+  s.step(in);
+  EXPECT_NE(s.cursor.text().find("drawn"), std::string::npos) << s.cursor.text();
+  const int asked = s.cursor.asked();
+  for (int i = 0; i < 5; ++i) s.step(in);
+  EXPECT_EQ(s.cursor.asked(), asked) << "a mouse at rest costs nothing";
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The resident size comes from /proc/self/statm; the device's from the sizes of all buffers and textures.
-#include "viewer/window/memory_use.h"
+#include "viewer/panel/memory_use.h"
 
 #include <epoxy/gl.h>
 #include <unistd.h>

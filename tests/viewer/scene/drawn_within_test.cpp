@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Cuts for cameras, triangle by triangle: what is drawn over a picked place is no farther from it than is
+// said.
+#include "viewer/scene/drawn_within.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "io/query/face/arete.h"
+#include "viewer/camera_models.h"
+#include "viewer/scene/terrain_subject.h"
+
+namespace arete {
+namespace {
+
+/// The height of a mesh at a place of the plan, by barycentric coordinates of each triangle.
+std::optional<double> heightOf(const SurfaceMesh& mesh, Vec2 at) {
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = mesh.positions[std::size_t(t[0])], b = mesh.positions[std::size_t(t[1])],
+               c = mesh.positions[std::size_t(t[2])];
+    const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+    if (area == 0) continue;
+    const double v = ((at.x - a.x) * (c.y - a.y) - (c.x - a.x) * (at.y - a.y)) / area;
+    const double w = ((b.x - a.x) * (at.y - a.y) - (at.x - a.x) * (b.y - a.y)) / area;
+    constexpr double kEdge = 1e-9;
+    if (v >= -kEdge && w >= -kEdge && v + w <= 1 + kEdge) return a.z + v * (b.z - a.z) + w * (c.z - a.z);
+  }
+  return std::nullopt;
+}
+
+TEST(DrawnWithin, WhatIsDrawnOverAPickedPlaceIsNoFartherFromIt) {
+  std::uint64_t seed = 900;
+  double closest = 0;
+  for (const RasterFamily& family : rasterFamilies()) {
+    const TerrainModel model = test::modelOn(family, {500000, 30, 0, 4000000, 0, -30});
+    const TerrainSubject subject(model);
+    Random random(++seed);
+    for (int i = 0; i < 4; ++i) {
+      Camera camera = subject.home(HomeView::overview, {.widthPixels = 400, .heightPixels = 300}, {});
+      camera.height += random.between(-0.4, 0.4) * subject.box().diagonal();
+      camera.azimuthDegrees = random.between(-20, 20);
+      const double pixels = std::pow(10, random.between(-0.5, 1.2));
+      const auto tin = cut(model, {.camera = camera, .pixelError = pixels});
+      ASSERT_TRUE(tin) << tin.error().describe();
+      for (int k = 0; k < 60; ++k) {
+        const auto pick = subject.pick(camera, {random.between(0, 400), random.between(0, 300)});
+        if (!pick) continue;
+        const double within = drawnWithin(subject, camera, {}, pixels, pick->metric);
+        const auto drawn = heightOf(tin->mesh, pick->xy);
+        ASSERT_TRUE(drawn) << family.name << ", seed " << seed;
+        const double off = std::abs(*drawn - pick->height);
+        EXPECT_LE(off, within * (1 + 1e-9) + 1e-9 * (1 + std::abs(pick->height)))
+            << family.name << ", seed " << seed << ", pick " << k;
+        if (within > 0) closest = std::max(closest, off / within);
+      }
+    }
+  }
+  EXPECT_GT(closest, 0.1) << "and it is not said for safety's sake";
+}
+
+TEST(DrawnWithin, IsTheLargestErrorWhereTheCameraOfTheCutDoesNotLook) {
+  const TerrainModel& model = test::cameraModels()[0].model;
+  const TerrainSubject subject(model);
+  Camera away = subject.home(HomeView::overview, {}, {});
+  const Vec3 middle = subject.box().centre();
+  EXPECT_LT(drawnWithin(subject, away, {}, 0.01, middle), model.mt.largestError());
+  away.azimuthDegrees += 180;
+  EXPECT_EQ(drawnWithin(subject, away, {}, 0.01, middle), model.mt.largestError());
+}
+
+TEST(DrawnWithin, IsSmallerWhereHeightsAreDrawnHigher) {
+  const TerrainModel& model = test::cameraModels()[0].model;
+  const TerrainSubject subject(model);
+  const Camera camera = subject.home(HomeView::fromAbove, {}, {});
+  const auto pick = subject.pick(camera, {960, 540});
+  ASSERT_TRUE(pick);
+  const double plain = drawnWithin(subject, camera, {}, 0.01, pick->metric);
+  const Camera higher = subject.home(HomeView::fromAbove, {}, {.stretch = 4});
+  EXPECT_LT(drawnWithin(subject, higher, {.stretch = 4}, 0.01, pick->metric), plain);
+}
+
+TEST(DrawnWithin, ItsTextIsRoundedUpToTwoDigits) {
+  for (const auto& [bound, text] : {std::pair{0.0, "0"},
+                                    {0.123, "0.13"},
+                                    {0.1, "0.10"},
+                                    {1.0, "1.0"},
+                                    {1.01, "1.1"},
+                                    {9.95, "10.0"},
+                                    {42.0, "42"},
+                                    {42.1, "43"},
+                                    {1234.0, "1300"},
+                                    {0.00456, "0.0046"}})
+    EXPECT_EQ(boundText(bound), text) << bound;
+}
+
+}  // namespace
+}  // namespace arete

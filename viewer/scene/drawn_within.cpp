@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A cut allows an error of the tolerance times the reach of the ball around a triangle's prism
+// (engine/criteria/view_error.h). The reach of a ball is no larger than that of any place in it that the
+// camera sees, depth^2 / distance, and the place of the model that a triangle stands for lies in its prism.
+#include "viewer/scene/drawn_within.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace arete {
+
+double drawnWithin(const Subject& subject, const Camera& cutFor, const ViewSettings& settings, double pixels,
+                   const Vec3& metric) {
+  const double most = subject.largestError();
+  const Result<View> view = subject.viewOf(cutFor, settings);
+  if (!view) return most;
+  const Frustum frustum(*view);
+  const Vec3 place = frustum.toView(subject.drawn(metric, settings));
+  const Frustum::Planes planes = frustum.planes();
+  constexpr double kEdge = 1 + 1e-9;
+  const bool isSeen = place.z > 0 && std::abs(place.x) <= planes.slopeX * place.z * kEdge &&
+                      std::abs(place.y) <= planes.slopeY * place.z * kEdge;
+  if (!isSeen || !std::isfinite(pixels)) return most;
+  const double drawn = pixels * place.z * place.z / norm(place) / frustum.pixelsPerUnit();
+  return std::min(most, drawn / (settings.stretch * subject.space().metresPerHeight()));
+}
+
+std::string boundText(double bound) {
+  if (!(bound > 0)) return "0";
+  const int digits = int(std::floor(std::log10(bound))) - 1;  // of the last digit that is shown
+  const double unit = std::pow(10, digits);
+  // What rounding left of a bound of two digits does not make it larger.
+  const double up = std::ceil(bound / unit * (1 - 1e-12)) * unit;
+  return fmt::format("{:.{}f}", up, std::max(0, -digits));
+}
+
+}  // namespace arete
