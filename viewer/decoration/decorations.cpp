@@ -26,7 +26,7 @@ void drawPanel(Canvas& canvas, const Rect& panel) {
 }  // namespace
 
 double decorationTextSize(const Rect& frame) {
-  return std::clamp(std::min(frame.width, frame.height) / 46, 9.5, 20.0);
+  return std::clamp(std::min(frame.width, frame.height) / 56, 9.5, 20.0);
 }
 
 void decorate(Canvas& canvas, const PictureGround& ground, std::span<const ColorLegend> legends,
@@ -37,7 +37,8 @@ void decorate(Canvas& canvas, const PictureGround& ground, std::span<const Color
   const auto fits = [&](Vec2 room) { return room.x <= frame.width * 0.6 && room.y <= frame.height * 0.75; };
 
   std::vector<GraticuleLine> lines;
-  if (decorations.graticule) lines = graticuleOf(ground, std::max(70.0, kSpacing * size));
+  if (decorations.graticule)
+    lines = graticuleOf(ground, std::max(70.0, (ground.isPerspective() ? 1.6 : 1) * kSpacing * size));
   drawGraticuleLines(canvas, ground, lines);
 
   std::vector<Rect> taken;
@@ -76,7 +77,7 @@ void decorate(Canvas& canvas, const PictureGround& ground, std::span<const Color
       }
     }
   }
-  drawGraticuleLabels(canvas, ground, lines, taken, size);
+  drawGraticuleLabels(canvas, ground, lines, taken, 0.85 * size);
 }
 
 }  // namespace arete

@@ -25,6 +25,7 @@ constexpr int kNet = 24;        // pixels asked in each direction
 constexpr int kMostLines = 30;  // of each kind
 constexpr int kFirstPieces = 32;
 constexpr int kMostHalvings = 9;
+constexpr double kFarAway = 2.5;   // in scales of the middle
 constexpr double kOffCurve = 0.3;  // pixels
 
 /// Of longitudes and latitudes, in degrees.
@@ -296,7 +297,8 @@ void drawGraticuleLines(Canvas& canvas, const PictureGround& ground,
                         const std::vector<GraticuleLine>& lines) {
   canvas.clip(ground.frame());
   // Light under dark: the line is seen on any ground.
-  for (const Stroke& stroke : {Stroke{.color = {255, 255, 255}, .width = 2.2, .alpha = 0.25},
+  const double light = ground.isPerspective() ? 0.45 : 0.25;
+  for (const Stroke& stroke : {Stroke{.color = {255, 255, 255}, .width = 2.2, .alpha = light},
                                Stroke{.color = kInk, .width = 0.9, .alpha = 0.6}})
     for (const GraticuleLine& line : lines)
       for (const auto& part : line.parts) canvas.polyline(part, stroke);
@@ -307,6 +309,13 @@ void drawGraticuleLabels(Canvas& canvas, const PictureGround& ground, const std:
                          std::span<const Rect> panels, double textSize) {
   const Rect& frame = ground.frame();
   std::vector<Rect> labels;
+  // Towards a horizon lines come together, and their labels would be a heap.
+  const auto middle = ground.lengthPerPixel({frame.left + frame.width / 2, frame.top + frame.height / 2});
+  const auto isFarAway = [&](Vec2 p) {
+    if (!ground.isPerspective() || !middle) return false;
+    const auto there = ground.lengthPerPixel(p);
+    return there && *there > kFarAway * *middle;
+  };
   const auto isTaken = [](std::span<const Rect> others, const Rect& room) {
     return std::ranges::any_of(others, [&](const Rect& other) { return overlap(room, other); });
   };
@@ -318,6 +327,7 @@ void drawGraticuleLabels(Canvas& canvas, const PictureGround& ground, const std:
         std::ranges::minmax_element(points, {}, [&](Vec2 p) { return line.isMeridian ? -p.y : p.x; });
     const double width = canvas.textWidth(line.label, style), height = textSize * 1.1;
     for (const Vec2 p : {*first, *last}) {
+      if (isFarAway(p)) continue;
       Rect room = {line.isMeridian ? p.x - width / 2 : p.x + 4, p.y - height - 1, width, height};
       room.left = std::clamp(room.left, frame.left + 3, std::max(frame.left + 3, frame.right() - width - 3));
       room.top = std::clamp(room.top, frame.top + 3, std::max(frame.top + 3, frame.bottom() - height - 3));

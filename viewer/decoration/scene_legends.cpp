@@ -39,8 +39,8 @@ ColorLegend legendOf(Coloring coloring, const TerrainColors& colors, const std::
       return legend;
     }
     case Coloring::error:
-      return heatError > 0 ? legendOf(colors.errors.over(0, heatError), "error up to", unit)
-                           : legendOf(colors.errors.over(0, heatPixels), "error up to", "pixels");
+      return heatError > 0 ? legendOf(colors.errors.over(0, heatError), "error", unit)
+                           : legendOf(colors.errors.over(0, heatPixels), "error", "pixels");
     default:
       return {};
   }

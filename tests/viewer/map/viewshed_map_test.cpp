@@ -60,7 +60,7 @@ TEST(ViewshedMap, HasTheColoursOfItsLegendAndNoOther) {
   EXPECT_GT(map.size(), 20u) << "the relief is seen";
   for (const auto& color : map)
     EXPECT_TRUE(shades.contains(color)) << std::get<0>(color) << " " << std::get<1>(color);
-  const Colors legend = colorsIn(*canvas, {520, 60, canvas->width() - 522.0, 300});
+  const Colors legend = colorsIn(*canvas, {500, 60, canvas->width() - 502.0, 300});
   for (const auto& color : shades)
     EXPECT_TRUE(legend.contains(color))
         << std::get<0>(color) << " " << std::get<1>(color) << " " << std::get<2>(color);

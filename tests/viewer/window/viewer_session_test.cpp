@@ -56,6 +56,17 @@ TEST(Session, TheTargetTimeMakesTheToleranceCoarserAndLetsItFinerAgain) {
   EXPECT_DOUBLE_EQ(s.settings.pixels, 1);
 }
 
+TEST(Session, DecorationsAreShownAndHiddenByTheirKey) {
+  test::ViewedTerrain viewed(northUp());
+  EXPECT_TRUE(viewed.session.shows.decorations);
+  viewed.session.apply(Action::decorations);
+  EXPECT_FALSE(viewed.session.shows.decorations);
+  ViewerSession::Start plain;
+  plain.showsDecorations = false;
+  test::ViewedTerrain without(northUp(), plain);
+  EXPECT_FALSE(without.session.shows.decorations);
+}
+
 TEST(Session, AFrozenCutKeepsItsCameraWhileTheOtherFliesOn) {
   test::ViewedTerrain viewed(northUp());
   ViewerSession& s = viewed.session;
