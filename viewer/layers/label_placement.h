@@ -25,10 +25,16 @@ class LabelPlacement {
   /// by).
   std::optional<Rect> place(Vec2 at, double width, double height, double away);
 
+  /// Whether place() would find room now.
+  bool hasRoom(Vec2 at, double width, double height, double away) const {
+    return find(at, width, height, away).has_value();
+  }
+
   /// Keeps a rectangle free: of a legend, say.
   void take(const Rect& area);
 
  private:
+  std::optional<Rect> find(Vec2 at, double width, double height, double away) const;
   bool isFree(const Rect& area) const;
 
   int width_, height_;
