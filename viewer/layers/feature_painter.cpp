@@ -246,7 +246,7 @@ Status FeaturePainter::drawLabels(const FeatureBuffers& features, const GroundFe
   for (std::uint32_t i = 0; i < features.labels; ++i) {
     const auto at =
         seen[features.points + i] != 0 ? pixelOf(features.anchorPlaces[features.points + i]) : std::nullopt;
-    // Where there is no room for a letter, the size of the text need not be known.
+    // Where a letter has no room, the size of the text need not be known.
     if (!at || !placement.hasRoom(*at, kLeastLabel, kLeastLabel, away)) continue;
     const std::string& text = texts.labels[i].text;
     const Vec2 size = s.atlas->sizeOf(text);

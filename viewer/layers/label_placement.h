@@ -21,8 +21,8 @@ class LabelPlacement {
 
   /// @param at its place in pixels, y downwards
   /// @param width,height of the text; it stays `away` pixels from the place
-  /// @return the rectangle it has from now on, at whole pixels; nothing if there is no room. O(labels near
-  /// by).
+  /// @return the rectangle it has from now on, at whole pixels; nothing where all room is taken. O(labels
+  /// near by).
   std::optional<Rect> place(Vec2 at, double width, double height, double away);
 
   /// Whether place() would find room now.
