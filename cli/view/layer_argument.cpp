@@ -91,8 +91,8 @@ Result<double> readOpacity(const std::string& text) {
 }
 
 Result<LayerArgument> LayerArgument::of(const std::string& text, std::size_t number) {
-  ARETE_TRY(const FileWithKeys stated,
-            readFileWithKeys(text, {"name", "label", "crs", "color", "width", "opacity", "height", "title"}));
+  ARETE_TRY(const FileWithKeys stated, readFileWithKeys(text, {"name", "label", "where", "crs", "color",
+                                                               "width", "opacity", "height", "title"}));
   LayerArgument layer;
   layer.file = stated.file;
   layer.style.color = kColors[number % kColors.size()];
@@ -102,6 +102,7 @@ Result<LayerArgument> LayerArgument::of(const std::string& text, std::size_t num
   };
   layer.read.layer = value("name");
   layer.read.label = value("label");
+  layer.read.where = value("where");
   layer.read.crs = value("crs");
   layer.title = value("title");
   if (const std::string color = value("color"); !color.empty()) {

@@ -18,12 +18,12 @@ namespace arete {
 /// far as no OpenGL is needed.
 class StatedLayers {
  public:
-  /// Warns of what is left out or assumed. Errors: usage; those of readFeatures() and layOnGround().
+  /// Warns of what is left out or assumed. Errors: usage, and as readFeatures() and layOnGround() have them.
   static Result<StatedLayers> read(const AppearanceArguments& arguments,
                                    const std::shared_ptr<const TerrainModel>& model, Session& session);
 
   /// Lays them into a scene: the drapes, then the vector layers, in the order in which they are stated.
-  /// Errors: those of DrapeOnGpu::load(); unsupported, by the driver.
+  /// Errors: as DrapeOnGpu::load() has them; unsupported, by the driver.
   Status addTo(Scene& scene, const TerrainModel& model, Session& session) const;
 
   /// Describes each as an element of the JSON answer's "layers"; "drape" is the first one's.

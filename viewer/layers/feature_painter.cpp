@@ -20,7 +20,8 @@
 namespace arete {
 namespace {
 
-constexpr double kLabelGap = 3;                  // pixels between a label and a marker
+constexpr double kLabelGap = 3;  // pixels between a label and a marker
+constexpr double kLeastLabel = 10;
 constexpr std::uint32_t kMostKeptFree = 20'000;  // markers that no label covers
 constexpr GLuint kSeenBinding = 12, kAtlasUnit = 5, kSeenUnit = 6;
 /// The radius of a marker beside lines of a width.
@@ -44,6 +45,33 @@ void setAttribute(GLuint array, GLuint index, GLint count, std::size_t offset, G
   glVertexArrayAttribBinding(array, index, binding);
   glEnableVertexArrayAttrib(array, index);
 }
+
+/// Where places in the space that is drawn are in the picture.
+class PixelsOfFrame {
+ public:
+  PixelsOfFrame(const FrameView& frame, int width, int height)
+      : frustum_(frame.view),
+        planes_(frustum_.planes()),
+        side_(frame.isMirrored ? -1 : 1),
+        stretch_(frame.earthRadius > 0 ? 1 : frame.stretch),
+        width_(width),
+        height_(height) {}
+
+  /// In pixels, y downwards; nothing behind the eye.
+  std::optional<Vec2> operator()(Vec3 place) const {
+    place.z *= stretch_;
+    const Vec3 p = frustum_.toView(place);
+    if (!(p.z > 0)) return std::nullopt;
+    return Vec2{width_ * (0.5 + 0.5 * side_ * p.x / (p.z * planes_.slopeX)),
+                height_ * (0.5 - 0.5 * p.y / (p.z * planes_.slopeY))};
+  }
+
+ private:
+  Frustum frustum_;
+  Frustum::Planes planes_;
+  double side_, stretch_;
+  int width_, height_;
+};
 
 /// Blends over what is there and leaves its depths.
 class Blending {
@@ -76,9 +104,6 @@ struct FeaturePainter::State {
   void drawLines(const FeatureBuffers& features, const FeatureStyle& style);
   void findSeen(FeatureBuffers& features);
   void drawPoints(const FeatureBuffers& features, const FeatureStyle& style);
-  /// Where a place in the space that is drawn is in the picture, in pixels, y downwards; nothing behind the
-  /// eye.
-  std::optional<Vec2> pixelOf(Vec3 place) const;
   void drawTexts(std::span<const LabelBox> boxes);
 };
 
@@ -184,17 +209,6 @@ void FeaturePainter::State::drawPoints(const FeatureBuffers& features, const Fea
   glEnable(GL_DEPTH_TEST);
 }
 
-std::optional<Vec2> FeaturePainter::State::pixelOf(Vec3 place) const {
-  const Frustum frustum(frame.view);
-  const Frustum::Planes planes = frustum.planes();
-  if (!(frame.earthRadius > 0)) place.z *= frame.stretch;
-  const Vec3 p = frustum.toView(place);
-  if (!(p.z > 0)) return std::nullopt;
-  const double side = frame.isMirrored ? -1 : 1;
-  return Vec2{viewport[2] * (0.5 + 0.5 * side * p.x / (p.z * planes.slopeX)),
-              viewport[3] * (0.5 - 0.5 * p.y / (p.z * planes.slopeY))};
-}
-
 void FeaturePainter::State::drawTexts(std::span<const LabelBox> boxes) {
   if (boxes.empty()) return;
   use(labels);
@@ -219,19 +233,21 @@ Status FeaturePainter::drawLabels(const FeatureBuffers& features, const GroundFe
                                   const FeatureStyle& style, LabelPlacement& placement) {
   if (features.labels == 0) return {};
   State& s = *state_;
+  const PixelsOfFrame pixelOf(s.frame, s.viewport[2], s.viewport[3]);
   std::vector<std::uint32_t> seen(features.anchorCount());
   glGetNamedBufferSubData(features.seen, 0, GLsizeiptr(seen.size() * sizeof(std::uint32_t)), seen.data());
   // A marker stays free of all labels but of those that are there already.
   const double radius = markerRadius(style);
   for (std::uint32_t i = 0; i < std::min(features.points, kMostKeptFree); ++i)
-    if (const auto at = seen[i] != 0 ? s.pixelOf(features.anchorPlaces[i]) : std::nullopt)
+    if (const auto at = seen[i] != 0 ? pixelOf(features.anchorPlaces[i]) : std::nullopt)
       placement.take({at->x - radius, at->y - radius, 2 * radius, 2 * radius});
   const double away = (features.points > 0 ? radius : 0) + kLabelGap + 1;
   std::vector<LabelBox> boxes;
   for (std::uint32_t i = 0; i < features.labels; ++i) {
     const auto at =
-        seen[features.points + i] != 0 ? s.pixelOf(features.anchorPlaces[features.points + i]) : std::nullopt;
-    if (!at) continue;
+        seen[features.points + i] != 0 ? pixelOf(features.anchorPlaces[features.points + i]) : std::nullopt;
+    // Where a letter has no room, the size of the text need not be known.
+    if (!at || !placement.hasRoom(*at, kLeastLabel, kLeastLabel, away)) continue;
     const std::string& text = texts.labels[i].text;
     const Vec2 size = s.atlas->sizeOf(text);
     const auto area = placement.place(*at, size.x, size.y, away);

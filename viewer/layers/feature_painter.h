@@ -30,7 +30,7 @@ class FeaturePainter {
   FeaturePainter& operator=(FeaturePainter&&) noexcept;
   ~FeaturePainter();
 
-  /// The frame of the next calls: that of the terrain in the framebuffer.
+  /// The frame of the next calls, with which the terrain in the framebuffer was drawn.
   /// @param metric of the flat space of its model.
   void setFrame(const FrameView& frame, const MetricFrame& metric);
 

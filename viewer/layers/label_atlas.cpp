@@ -29,8 +29,7 @@ Result<LabelAtlas> LabelAtlas::create() {
   LabelAtlas atlas;
   atlas.texture_ = makeTexture(GL_TEXTURE_2D);
   glTextureStorage2D(atlas.texture_, 1, GL_R8, kAtlasSide, kAtlasSide);
-  if (glGetError() != GL_NO_ERROR)
-    return failure(ErrorCode::unsupported, "there is no room for texts on the device");
+  if (glGetError() != GL_NO_ERROR) return failure(ErrorCode::unsupported, "the device has no room for texts");
   return atlas;
 }
 

@@ -20,7 +20,7 @@ class LabelAtlas {
     double width = 0, height = 0;
   };
 
-  /// Errors: unsupported, of the driver; those of Canvas.
+  /// Errors: unsupported, by the driver.
   static Result<LabelAtlas> create();
 
   /// The size of a text in pixels, with the room for its halo. O(length) at its first use.

@@ -20,15 +20,19 @@ void forCells(const Rect& area, const Visit& visit) {
 }  // namespace
 
 std::optional<Rect> LabelPlacement::place(Vec2 at, double width, double height, double away) {
+  const auto area = find(at, width, height, away);
+  if (area) take(*area);
+  return area;
+}
+
+std::optional<Rect> LabelPlacement::find(Vec2 at, double width, double height, double away) const {
   const std::array<Vec2, 4> corners = {
       Vec2{at.x - width / 2, at.y - away - height}, Vec2{at.x + away, at.y - height / 2},
       Vec2{at.x - away - width, at.y - height / 2}, Vec2{at.x - width / 2, at.y + away}};
   for (const Vec2& corner : corners) {
     const Rect area{std::round(corner.x), std::round(corner.y), width, height};
     if (area.left < 0 || area.top < 0 || area.right() > width_ || area.bottom() > height_) continue;
-    if (!isFree(area)) continue;
-    take(area);
-    return area;
+    if (isFree(area)) return area;
   }
   return std::nullopt;
 }

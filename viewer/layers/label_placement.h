@@ -21,14 +21,20 @@ class LabelPlacement {
 
   /// @param at its place in pixels, y downwards
   /// @param width,height of the text; it stays `away` pixels from the place
-  /// @return the rectangle it has from now on, at whole pixels; nothing if there is no room. O(labels near
-  /// by).
+  /// @return the rectangle it has from now on, at whole pixels; nothing where all room is taken. O(labels
+  /// near by).
   std::optional<Rect> place(Vec2 at, double width, double height, double away);
+
+  /// Whether place() would find room now.
+  bool hasRoom(Vec2 at, double width, double height, double away) const {
+    return find(at, width, height, away).has_value();
+  }
 
   /// Keeps a rectangle free: of a legend, say.
   void take(const Rect& area);
 
  private:
+  std::optional<Rect> find(Vec2 at, double width, double height, double away) const;
   bool isFree(const Rect& area) const;
 
   int width_, height_;

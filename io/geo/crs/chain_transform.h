@@ -24,8 +24,8 @@ class ChainTransform {
   enum class Ballpark { allowed, refused };
   /// @param deviation how far an edge may be from its image, in the unit of the source, beside the part of
   /// its length that ChainProjection allows.
-  /// @param ballpark refused: as of CrsTransform::between().
-  /// Errors: invalidData: there is no way between the two; unsupported: a geocentric target.
+  /// @param ballpark refused: as CrsTransform::between() refuses it.
+  /// Errors: invalidData: PROJ knows no way between the two; unsupported: a geocentric target.
   static Result<ChainTransform> between(const OGRSpatialReference& source, const OGRSpatialReference& target,
                                         double deviation = std::numeric_limits<double>::infinity(),
                                         Ballpark ballpark = Ballpark::allowed);
@@ -51,7 +51,7 @@ class ChainTransform {
 double turnOfDegrees(const OGRSpatialReference& crs);
 
 /// Whether an edge leads over more than half a turn, as where a shape that crosses the antimeridian is not
-/// cut there. Edges along whole turns, as those of a box around the Earth, are meant.
+/// cut there. Edges along whole turns, which a box around the Earth has, are meant.
 bool leadsTheLongWay(double way, double turn);
 
 /// Leads a line the short way where an edge leads the long way. Nothing changes without a turn.

@@ -57,7 +57,7 @@ std::vector<ChainPlacer::Piece> ChainPlacer::transformed(const Piece& piece) {
       shift = turn * std::round((now.xy.back().x - edge->front().x) / turn);
     }
     const std::size_t steps = edge->size() - 1;
-    // The heights of new vertices are between those of the edge's ends, by the way in the plan.
+    // New vertices get heights between the two of the edge, by the way in the plan.
     double whole = 0;
     for (std::size_t k = 1; k <= steps; ++k)
       whole += std::hypot((*edge)[k].x - (*edge)[k - 1].x, (*edge)[k].y - (*edge)[k - 1].y);

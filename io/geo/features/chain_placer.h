@@ -29,7 +29,7 @@ class ChainPlacer {
   /// each turn of longitudes by which it meets the DEM. Nothing is appended of a line without length.
   ///
   /// @param z as many as vertices; NaN without.
-  /// @return the longest of the pieces by its number of vertices; nothing if there is none.
+  /// @return the longest of the pieces by its number of vertices; nothing where all of it is left out.
   std::optional<std::uint64_t> addLine(std::span<const Vec2> line, std::span<const double> z,
                                        FeatureLayer& layer);
 

@@ -182,8 +182,8 @@ Status FeatureCollector::finish() {
   };
   warn(WarningCode::omitted, without_, "feature without a geometry is left out",
        "features without a geometry are left out");
-  warn(WarningCode::omitted, others_, "geometry that is no point, line or polygon is left out",
-       "geometries that are no points, lines or polygons are left out");
+  warn(WarningCode::omitted, others_, "geometry other than points, lines and polygons is left out",
+       "geometries other than points, lines and polygons are left out");
   warn(WarningCode::omitted, placer_.notFinite(), "place is not finite and left out",
        "places are not finite and left out");
   warn(WarningCode::position, placer_.outOfReach(),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A text of points is read as every table of points is. A text that is none, as one with lines in WKT, goes
+// A text of points is read as every table of points is. Another text, for instance of lines in WKT, goes
 // to GDAL as all other files do.
 #include "io/geo/features/feature_layer.h"
 
@@ -101,6 +101,22 @@ bool isLonLatName(std::string_view name) {
   return std::ranges::find(kNames, text::lowered(name)) != kNames.end();
 }
 
+/// Units of the DEM's heights in a unit of the heights that a file states.
+double heightFactor(const OGRSpatialReference* source, const Georeference& dem) {
+  if (dem.verticalUnit.empty() || !isKnownCrs(source)) return 1;
+  Georeference described;
+  if (describeCrs(*source, described) && !described.verticalUnit.empty())
+    return described.verticalUnitMetres / dem.verticalUnitMetres;
+  return source->IsGeographic() ? 1 / dem.verticalUnitMetres : 1;
+}
+
+void scaleHeights(FeatureLayer& layer, double factor) {
+  if (factor == 1) return;
+  for (double& z : layer.z) z *= factor;
+  for (auto& point : layer.points) point.z *= factor;
+  for (auto& label : layer.labels) label.at.z *= factor;
+}
+
 std::string listed(const std::vector<std::string>& names) {
   return names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ", "));
 }
@@ -176,11 +192,16 @@ Status readVectors(const std::string& path, const TerrainModel& model, const Fea
   }
   ARETE_TRY(ChainPlacer placer, placerOf(chosen->GetSpatialRef(), model, options,
                                          text::lowerExtension(path) == "csv", layer.warnings));
+  if (!options.where.empty() && chosen->SetAttributeFilter(options.where.c_str()) != OGRERR_NONE)
+    return failure(ErrorCode::usage, fmt::format("the layer '{1}' does not take the condition '{0}': {2}",
+                                                 options.where, layer.name, errors.firstFailure()));
   FeatureCollector collector(std::move(placer), field, options.mostVertices, layer);
   ARETE_CHECK(forFeatures(*dataset, *chosen, errors, context,
                           [&](OGRFeature& feature) { return collector.add(feature); }));
   errors.moveTo(layer.warnings);
-  return collector.finish();
+  ARETE_CHECK(collector.finish());
+  scaleHeights(layer, heightFactor(chosen->GetSpatialRef(), model.georeference));
+  return {};
 }
 
 Status readInto(const std::string& path, const TerrainModel& model, const FeatureOptions& options,
@@ -189,6 +210,8 @@ Status readInto(const std::string& path, const TerrainModel& model, const Featur
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
   if (!looksLikePointText(path, 2)) return readVectors(path, model, options, layer, context);
   auto table = readPointTable(path, model.georeference, {.layer = options.layer}, context);
+  if (table && !options.where.empty())
+    return failure(ErrorCode::usage, "is a table of points in text, whose rows no condition chooses");
   if (table) {
     layer.name = std::filesystem::path(path).stem().string();
     return readTable(std::move(*table), model, options, layer, context);

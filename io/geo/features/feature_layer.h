@@ -20,7 +20,7 @@ struct FeatureLayer {
 
   struct Place {
     Vec2 xy;
-    double z = std::numeric_limits<double>::quiet_NaN();  ///< as stated, in the file's unit; NaN without one
+    double z = std::numeric_limits<double>::quiet_NaN();  ///< in the DEM's vertical unit; NaN without one
   };
   /// Straight edges between `count` vertices, from vertex `first` on. Outlines of polygons end where they
   /// begin.
@@ -46,6 +46,7 @@ struct FeatureLayer {
 struct FeatureOptions {
   std::string layer = {};  ///< needed where a file has several that hold something
   std::string label = {};  ///< the field with the texts of labels; empty: no labels
+  std::string where = {};  ///< a condition of SQL that features meet; no table of points in text has any
   std::string crs = {};    ///< in place of the file's; any text that crsFromUser() accepts
   /// A file with more is refused. A vertex takes 16 bytes, 24 with a z.
   std::uint64_t mostVertices = 20'000'000;
@@ -56,10 +57,12 @@ struct FeatureOptions {
 /// led into the DEM's CRS, in GIS axis order; an edge is split until it is within a tenth of the DEM's
 /// spacing of where the CRS of the file leads it straight. Whole turns of longitude are added where that
 /// brings a line or a point onto the DEM, and a line over more than half a turn is led the short way. Without
-/// a CRS the coordinates are the DEM's; columns of a text that are named longitude and latitude are those of
-/// WGS 84 if the DEM has other coordinates. Warnings count what is left out: places that are not finite or
-/// outside the domain of the DEM's CRS (a line is cut there), features without a geometry, other geometries;
-/// and say where a transformation takes two datums for one.
+/// a CRS the coordinates are the DEM's; columns of a text that are named longitude and latitude are taken as
+/// WGS 84 if the DEM has other coordinates. Heights (z) are in the vertical unit of the file's CRS; where it
+/// has none, in metres if its coordinates are longitude and latitude, and in the DEM's unit else. Warnings
+/// count what is left out: places that are not finite or outside the domain of the DEM's CRS (a line is cut
+/// there), features without a geometry, other geometries; and say where a transformation takes two datums for
+/// one.
 ///
 /// In a GPX file the layers of track and route points, which repeat the vertices of lines, are read only by
 /// name.
@@ -67,7 +70,7 @@ struct FeatureOptions {
 /// Errors, with the file as culprit: notFound, unreadable, corrupt; unsupported: no layer with geometries,
 /// several (the message lists them), more vertices than allowed; notFound: no such layer or field (lists
 /// them); invalidData: nothing to draw, a file with a CRS on a DEM without, no way between the two; usage:
-/// options.crs is none; interrupted; outOfMemory. O(vertices of the result).
+/// options.crs or options.where makes no sense; interrupted; outOfMemory. O(vertices of the result).
 Result<FeatureLayer> readFeatures(const std::string& path, const TerrainModel& model,
                                   const FeatureOptions& options = {}, const RunContext& context = {});
 

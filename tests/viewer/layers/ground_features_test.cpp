@@ -12,6 +12,7 @@
 #include "datasets/families.h"
 #include "datasets/random.h"
 #include "terrain/builder/build.h"
+#include "terrain/model/plan_box.h"
 #include "terrain/sight/grid.h"
 
 namespace arete {
@@ -64,6 +65,36 @@ TEST(GroundFeatures, LinesFollowTheFinestTriangulation) {
             }
       }
     }
+}
+
+TEST(GroundFeatures, LinesFollowATriangulationOfPoints) {
+  for (const PointFamily& family : pointFamilies()) {
+    const PointHeightfield field = family.make(120, 3);
+    const Result<TerrainModel> model = build(field);
+    ASSERT_TRUE(model) << family.name;
+    const Box2 box = planBox(*model);
+    Random random(5);
+    FeatureLayer layer;
+    layer.name = family.name;
+    for (int i = 0; i < 5; ++i) {
+      layer.lines.push_back({layer.vertices.size(), 2});
+      for (int k = 0; k < 2; ++k)
+        layer.vertices.push_back({random.between(box.xMin, box.xMax), random.between(box.yMin, box.yMax)});
+    }
+    const Profiles profiles(*model);
+    const auto ground = layOnGround(layer, profiles);
+    if (!ground) continue;  // beside the terrain
+    for (std::uint64_t line = 0; line < ground->lines(); ++line)
+      for (std::uint64_t i = ground->begin[line] + 1; i < ground->begin[line + 1]; ++i)
+        for (double t = 0.1; t < 1; t += 0.2) {
+          const auto &a = ground->vertices[i - 1], &b = ground->vertices[i];
+          const auto there = profiles.heights().at(a.xy + t * (b.xy - a.xy));
+          ASSERT_TRUE(there) << family.name;
+          EXPECT_NEAR(a.height + t * (b.height - a.height), there->height,
+                      1e-6 * (1 + std::abs(there->height)))
+              << family.name;
+        }
+  }
 }
 
 /// A plane of 8 by 8 samples with a hole in the middle.

@@ -1,4 +1,4 @@
-// An edge of a line as a band of so many pixels, whose ends meet those of its neighbours in a mitre.
+// An edge of a line as a band some pixels wide, whose ends meet those of its neighbours in a mitre.
 layout(location = 0) in vec4 before;  // vertices; w > 0: joined to the next one
 layout(location = 1) in vec4 from;
 layout(location = 2) in vec4 to;
@@ -15,7 +15,7 @@ vec2 acrossOf(vec2 a, vec2 b) {
   return size > 1e-6 ? vec2(-d.y, d.x) / size : vec2(0.0);
 }
 
-/// The half width of a mitre between two edges; that of the edge itself where they turn too sharply.
+/// The half width of a mitre between two edges; the edge's own where they turn too sharply.
 vec2 mitre(vec2 here, vec2 other) {
   vec2 sum = here + other;
   float size = dot(sum, sum);

@@ -287,6 +287,42 @@ TEST(FeatureLayer, TakesCurvesAndCollections) {
     EXPECT_NEAR(std::hypot(layer.vertices[i].x - 500000, layer.vertices[i].y - 3762000), 1000, 1e-6);
 }
 
+TEST(FeatureLayer, TakesFeaturesThatMeetACondition) {
+  const TemporaryFolder folder;
+  for (const auto& [driver, name] : std::vector<std::pair<const char*, const char*>>{
+           {"GPKG", "a.gpkg"}, {"FlatGeobuf", "a.fgb"}, {"ESRI Shapefile", "a.shp"}}) {
+    const std::string path = writeVector(
+        folder.file(name), driver,
+        {{"a",
+          wkbPoint,
+          {{"POINT (500000 3762000)", 1}, {"POINT (500100 3762000)", 2}, {"POINT (500200 3762000)", 3}}}});
+    EXPECT_EQ(read(path, "EPSG:32611", {.where = "h >= 2"}).points.size(), 2u) << driver;
+    // SQLite finds out while it reads.
+    const ErrorCode wrong = errorOf(path, "EPSG:32611", {.where = "no such"}).code;
+    EXPECT_EQ(wrong, driver == std::string("GPKG") ? ErrorCode::unreadable : ErrorCode::usage) << driver;
+    EXPECT_EQ(errorOf(path, "EPSG:32611", {.where = "h > 9"}).code, ErrorCode::invalidData) << driver;
+  }
+  EXPECT_EQ(errorOf(folder.write("a.csv", "x,y\n500000,3762000\n"), "EPSG:32611", {.where = "x > 1"}).code,
+            ErrorCode::usage);
+}
+
+TEST(FeatureLayer, LeadsHeightsIntoTheUnitOfTheDem) {
+  const TemporaryFolder folder;
+  TerrainModel inFeet = demIn("EPSG:32611");
+  inFeet.georeference.verticalUnit = std::string("ft");
+  inFeet.georeference.verticalUnitMetres = 0.3048;
+  // GeoJSON states metres; a projected CRS without a vertical part states nothing, and its heights are the
+  // DEM's.
+  const auto json = readFeatures(folder.write("a.geojson", kCollection), inFeet);
+  ASSERT_TRUE(json);
+  EXPECT_NEAR(json->points[0].z, 1234.5 / 0.3048, 1e-9);
+  const std::string path =
+      writeVector(folder.file("a.gpkg"), "GPKG", {{"a", wkbPoint25D, {{"POINT Z (500000 3762000 70)", 1}}}});
+  const auto same = readFeatures(path, inFeet);
+  ASSERT_TRUE(same);
+  EXPECT_EQ(same->points[0].z, 70);
+}
+
 TEST(FeatureLayer, KeepsLabelsOfOtherEncodings) {
   const TemporaryFolder folder;
   // A shapefile says in a .cpg how its texts are encoded.
