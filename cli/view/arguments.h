@@ -95,7 +95,7 @@ struct ViewArguments {
   /// The rules between options that CLI11 cannot state. Errors: usage, naming the option; unsupported: a film
   /// without ffmpeg.
   Status check() const;
-  /// @param colorings as of look(). Errors: usage.
+  /// @param colorings as look() takes them. Errors: usage.
   Result<ViewSettings> settings(std::span<const Coloring> colorings) const;
 };
 

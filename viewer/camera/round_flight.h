@@ -27,7 +27,7 @@ Result<FlightPlan> roundFlight(const GroundHeights& heights, const CameraSpace& 
 
 /// A closed flight once around the vertical through a place, anticlockwise on the map, from a camera on: with
 /// its distance, its height and, as it is turned with it, its view of the place. A camera above the place
-/// turns on the spot. Errors: those of Flight::create(). O(1).
+/// turns on the spot. Errors: as Flight::create(). O(1).
 Result<FlightPlan> turnAround(const CameraSpace& space, const Vec3& middle, const Camera& from,
                               double durationSeconds = 8);
 

@@ -27,15 +27,15 @@ class Scene {
   const Subject& subject() const { return drawables_.front()->subject(); }
 
   /// The cuts of all models; figures are added up, the worst tolerance and jump count. A budget is shared
-  /// evenly. Errors: those of Drawable::cut().
+  /// evenly. Errors: as Drawable::cut().
   Result<FrameFigures> cut(const Camera& camera, const ViewSettings& settings,
                            const RunContext& context = {});
-  /// Draws the last cuts and the layers into the framebuffer that is bound. Errors: those of Drawable::draw()
+  /// Draws the last cuts and the layers into the framebuffer that is bound. Errors: as Drawable::draw()
   /// and Subject::check(), of a layer.
   Status draw(const Camera& camera, const ViewSettings& settings);
   /// Whether the last picture shows any of the models. Waits for the drawing.
   bool isShown() const;
-  /// As of Drawable, of all models.
+  /// What Drawable says, of all models.
   bool keepsBudget(const ViewSettings& settings) const;
   std::uint32_t capacity() const;
   std::string deviceRefusal() const;

@@ -37,7 +37,7 @@ class HeadlessView {
   static Result<HeadlessView> create(const TerrainModel& model, const HeadlessOptions& options,
                                      const RunContext& context = {});
   /// The scene as the camera sees it. The size of the picture is that of the options, not of the camera. With
-  /// a budget, the tolerance grows until the cut fits. Errors: those of Scene.
+  /// a budget, the tolerance grows until the cut fits. Errors: as Scene.
   Result<FrameFigures> draw(const Camera& camera, const RunContext& context = {});
   /// The picture that was drawn last.
   Image image() const { return target_.image(); }

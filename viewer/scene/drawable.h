@@ -21,11 +21,11 @@ class Drawable {
 
   /// Its geometry; outlives it.
   virtual const Subject& subject() const = 0;
-  /// The frame that a camera and settings make. Errors: those of Subject::viewOf().
+  /// The frame that a camera and settings make. Errors: as Subject::viewOf().
   virtual Result<FrameView> frameOf(const Camera& camera, const ViewSettings& settings) const = 0;
 
   /// Takes the cut, without drawing; to freeze a cut, do not call it. Errors: usage, of the camera or the
-  /// budget; those of Subject::check(); interrupted.
+  /// budget; as Subject::check(); interrupted.
   virtual Result<FrameFigures> cut(const Camera& camera, const ViewSettings& settings,
                                    const RunContext& context = {}) = 0;
   /// Draws the last cut for the camera into the framebuffer that is bound; `layers`: of which those on the

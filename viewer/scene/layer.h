@@ -60,7 +60,7 @@ struct Layer {
   using Drape = std::shared_ptr<const DrapeOnGpu>;
   using Overlay = std::shared_ptr<const PlanPicture>;
 
-  std::string name;  ///< unlike those of the others
+  std::string name;  ///< each has its own
   std::variant<Drape, Overlay, Contours, SpaceVertices> content;
   double opacity = 1;  ///< 0 to 1
   bool isVisible = true;

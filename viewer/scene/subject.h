@@ -28,7 +28,7 @@ struct Pick {
 };
 
 /// What a camera looks at and moves around: a model without its graphics, at full resolution. Its metric
-/// space (CameraSpace) is that of cameras, layers and picks. What is of one kind of model alone is nothing,
+/// space (CameraSpace) has cameras, layers and picks too. What is of one kind of model alone is nothing,
 /// or is refused by name, with the other.
 class Subject {
  public:
@@ -55,9 +55,9 @@ class Subject {
   /// Whether the ray of a pixel goes down through all heights of the model and meets none of it: there is
   /// NODATA.
   virtual bool isVoid(const Camera&, Vec2, const ViewSettings&) const { return false; }
-  /// How far a cut may be from the model at a place that was picked, if the triangle of the cut there has at most
-  /// an error of `allowed`, as the model stores it: of terrain vertically and between samples too, of a surface in
-  /// any direction. In the source's vertical unit. O(depth * degree).
+  /// How far a cut may be from the model at a place that was picked, if the triangle of the cut there has at
+  /// most an error of `allowed`, as the model stores it: of terrain vertically and between samples too, of a
+  /// surface in any direction. In the source's vertical unit. O(depth * degree).
   virtual double boundAt(const Pick& pick, double allowed) const = 0;
   /// The unit of heights; empty: not known.
   virtual std::string heightUnit() const = 0;
@@ -72,7 +72,7 @@ class Subject {
 
   /// What the model can be coloured by, the usual one first.
   virtual std::span<const Coloring> colorings() const = 0;
-  /// Errors: what of the settings it cannot show: usage, as "slopes are for terrain"; those of CurvedGround.
+  /// Errors: what of the settings it cannot show: usage, as "slopes are for terrain"; as CurvedGround.
   virtual Status check(const ViewSettings& settings) const = 0;
   /// Errors: usage: a layer that it cannot show, as "contours are for terrain", with its name as the culprit.
   Status check(const Layer& layer) const;
@@ -87,7 +87,7 @@ class Subject {
 
 std::string_view toString(Coloring coloring);
 
-/// The direction, in the space of the view, of a pixel of its picture. `isMirrored`: as of CameraSpace.
+/// The direction, in the space of the view, of a pixel of its picture. `isMirrored`: as CameraSpace says.
 Vec3 directionOfPixel(const View& view, bool isMirrored, Vec2 pixel);
 
 /// The pixel of a metric point in a camera's picture; nothing where it is not in front of it.

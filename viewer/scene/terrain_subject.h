@@ -44,7 +44,7 @@ class TerrainSubject final : public Subject {
 
   const TerrainModel& model() const { return model_; }
   const Profiles& profiles() const { return profiles_; }
-  /// Made at its first use. Errors: those of CurvedGround::create().
+  /// Made at its first use. Errors: as CurvedGround::create().
   Result<const CurvedGround*> curvedGround() const;
   /// The pick of a ray from a point in a direction of any length but 0, in metric space. From above or from
   /// below the terrain.
