@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A cut allows an error of the tolerance times the reach of the ball around a triangle's prism
+// A cut allows a triangle an error of the tolerance times the reach of the ball around its prism
 // (engine/criteria/view_error.h). The reach of a ball is no larger than that of any place in it that the
 // camera sees, depth^2 / distance, and the place of the model that a triangle stands for lies in its prism.
 #include "viewer/scene/drawn_within.h"
@@ -9,23 +9,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace arete {
 
 double drawnWithin(const Subject& subject, const Camera& cutFor, const ViewSettings& settings, double pixels,
-                   const Vec3& metric) {
-  const double most = subject.largestError();
+                   const Pick& pick) {
+  constexpr double kAny = std::numeric_limits<double>::infinity();
   const Result<View> view = subject.viewOf(cutFor, settings);
-  if (!view) return most;
+  if (!view) return subject.boundAt(pick, kAny);
   const Frustum frustum(*view);
-  const Vec3 place = frustum.toView(subject.drawn(metric, settings));
+  const Vec3 place = frustum.toView(subject.drawn(pick.metric, settings));
   const Frustum::Planes planes = frustum.planes();
   constexpr double kEdge = 1 + 1e-9;
   const bool isSeen = place.z > 0 && std::abs(place.x) <= planes.slopeX * place.z * kEdge &&
                       std::abs(place.y) <= planes.slopeY * place.z * kEdge;
-  if (!isSeen || !std::isfinite(pixels)) return most;
+  if (!isSeen || !std::isfinite(pixels)) return subject.boundAt(pick, kAny);
   const double drawn = pixels * place.z * place.z / norm(place) / frustum.pixelsPerUnit();
-  return std::min(most, drawn / (settings.stretch * subject.space().metresPerHeight()));
+  const double allowed = drawn / (settings.stretch * subject.space().metresPerHeight()) * kEdge;
+  const double bound = subject.boundAt(pick, allowed);
+  // On a curved Earth a triangle is also as far below the ground between its corners as the error of the
+  // curved model allows beyond that of the flat one.
+  return settings.isCurved ? 2 * bound + allowed : bound;
 }
 
 std::string boundText(double bound) {

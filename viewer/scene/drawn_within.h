@@ -7,17 +7,16 @@
 
 namespace arete {
 
-/// How far what is drawn at a place of the model may be from the model there, in the source's vertical unit:
-/// of a cut that is taken for a camera to a tolerance in pixels, no triangle over a place that the camera
-/// sees has a larger error. Vertically of terrain, in any direction of a surface.
+/// How far what is drawn at a picked place of a model may be from the model there, in the source's vertical
+/// unit: the bound of any triangle that a cut may have there which is taken for a camera to a tolerance in
+/// pixels. Vertically of terrain, in any direction of a surface. Vertices at rest: one that moves is within
+/// the tolerance on the screen.
 ///
-/// @param cutFor the camera that the cut was taken for.
+/// @param cutFor the camera that the cut was taken for; where it does not see the place, any cut counts.
 /// @param pixels the tolerance of the cut (FrameFigures::pixels); infinite: not known.
-/// @param metric a place of metric space, heights as they are.
-/// @return Subject::largestError() at most, and that where the camera of the cut does not see the place.
-/// O(1).
+/// @return 0: the triangle is one of the finest. O(depth * degree).
 double drawnWithin(const Subject& subject, const Camera& cutFor, const ViewSettings& settings, double pixels,
-                   const Vec3& metric);
+                   const Pick& pick);
 
 /// A bound in two digits, rounded up: "0.13", "42", "1300".
 std::string boundText(double bound);

@@ -55,9 +55,9 @@ class Subject {
   /// Whether the ray of a pixel goes down through all heights of the model and meets none of it: there is
   /// NODATA.
   virtual bool isVoid(const Camera&, Vec2, const ViewSettings&) const { return false; }
-  /// How far a cut may be from the model at a place that was picked, if the triangle of the cut there has at most
-  /// an error of `allowed`, as the model stores it: of terrain vertically and between samples too, of a surface in
-  /// any direction. In the source's vertical unit. O(depth * degree).
+  /// How far a cut may be from the model at a place that was picked, if the triangle of the cut there has at
+  /// most an error of `allowed`, as the model stores it: of terrain vertically and between samples too, of a
+  /// surface in any direction. In the source's vertical unit. O(depth * degree).
   virtual double boundAt(const Pick& pick, double allowed) const = 0;
   /// The unit of heights; empty: not known.
   virtual std::string heightUnit() const = 0;

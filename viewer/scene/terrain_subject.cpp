@@ -194,14 +194,15 @@ std::optional<Pick> TerrainSubject::pick(const Camera& camera, Vec2 pixel,
   return along(space_.position(camera), direction);
 }
 
-// The triangle of a cut there is one of those over the place, from the coarsest that the error allows down to the
-// finest. What the model stores as the error is at samples; the signed bounds hold between them as well.
+// The triangle of a cut there is one of those over the place, from the coarsest that the error allows down to
+// the finest. What the model stores as the error is at samples; the signed bounds hold between them as well.
 double TerrainSubject::boundAt(const Pick& pick, double allowed) const {
   const TriangleLocator& locator = profiles_.heights().locator();
   double bound = 0;
   for (auto t = locator.inRoot(pick.plan); t && !locator.isFinest(*t); t = locator.finer(*t, pick.plan))
     if (model_.mt.error(t->triangle) <= allowed)
-      bound = std::max({bound, model_.mt.decoded(kAbove, t->triangle), model_.mt.decoded(kBelow, t->triangle)});
+      bound =
+          std::max({bound, model_.mt.decoded(kAbove, t->triangle), model_.mt.decoded(kBelow, t->triangle)});
   return bound;
 }
 

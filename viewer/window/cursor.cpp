@@ -58,7 +58,7 @@ void Cursor::ask(const Now& now) {
     if (subject_.isVoid(now.camera, *now.mouse, settings)) text_ = "no data";
     return;
   }
-  within_ = drawnWithin(subject_, now.cutFor, settings, now.pixels, pick_->metric);
+  within_ = drawnWithin(subject_, now.cutFor, settings, now.pixels, *pick_);
   text_ = textOf(*pick_);
 }
 

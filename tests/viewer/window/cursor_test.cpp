@@ -9,12 +9,11 @@
 #include <string>
 
 #include "viewer/camera_models.h"
+#include "viewer/scene/drawn_within.h"
 #include "viewer/viewed_terrain.h"
 
 namespace arete {
 namespace {
-
-constexpr double kNotKnown = std::numeric_limits<double>::infinity();
 
 struct Looked {
   TerrainSubject subject;
@@ -44,9 +43,10 @@ TEST(Cursor, ShowsTheHeightOfFullResolutionAndHowFarTheDrawnOneMayBeFromIt) {
     EXPECT_EQ(pick->height, looked.subject.heights()->at(pick->xy)->height);
     EXPECT_NE(looked.cursor.text().find(looked.tools->places.height(pick->height)), std::string::npos)
         << looked.cursor.text();
-    EXPECT_NE(looked.cursor.text().find("drawn within"), std::string::npos) << looked.cursor.text();
-    EXPECT_GT(looked.cursor.within(), 0);
-    EXPECT_LE(looked.cursor.within(), m.model.mt.largestError());
+    EXPECT_NE(looked.cursor.text().find(looked.cursor.within() > 0 ? "drawn within" : "drawn as it is"),
+              std::string::npos)
+        << looked.cursor.text();
+    EXPECT_EQ(looked.cursor.within(), drawnWithin(looked.subject, looked.camera, {}, 1, *pick));
   }
 }
 
@@ -82,15 +82,6 @@ TEST(Cursor, SaysNoDataOverAHoleAndNothingOverTheSky) {
   EXPECT_NE(textAt({250, 300}).find("drawn"), std::string::npos) << looked.cursor.text();
   looked.camera.pitchDegrees = 30;
   EXPECT_EQ(textAt({400, 300}), "") << "the sky";
-}
-
-TEST(Cursor, ACutThatIsNotKnownHasTheLargestErrorOfAll) {
-  const TerrainModel& model = test::cameraModels()[0].model;
-  Looked looked(model);
-  Cursor::Now now = looked.at({400, 300});
-  now.pixels = kNotKnown;
-  looked.cursor.update(now);
-  EXPECT_EQ(looked.cursor.within(), model.mt.largestError());
 }
 
 }  // namespace
