@@ -55,6 +55,7 @@ struct DetailArguments {
 struct AppearanceArguments {
   std::string color, sun, drape, drapeBands;  ///< empty color: by height, of a surface by material
   double contours = 0, hazeKilometres = 0, exaggeration = 1;
+  std::int64_t groundMebibytes = 512;  ///< of heights on the device
   std::string contoursWithUnit, hazeWithUnit;  // "OPTION TEXT"; then contours are in metres
   bool hasWireframe = false, isUnshaded = false, isCurved = false;
   ColorArguments colors;

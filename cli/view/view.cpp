@@ -44,6 +44,8 @@ struct Viewed {
   std::string source = {};                           ///< that is not to be overwritten
   std::shared_ptr<const TerrainColors> colors = {};  ///< that are stated
   FillScene addModel;                                ///< keeps the model
+  /// Of the heights on the device; null until the model is added, and of a surface.
+  std::shared_ptr<Json> ground = std::make_shared<Json>();
 };
 
 Result<Viewed> readTerrain(const ViewArguments& a, AmtContainer container, Session& session) {
@@ -76,11 +78,15 @@ Result<Viewed> readTerrain(const ViewArguments& a, AmtContainer container, Sessi
     ARETE_TRY(interval, inDataUnit(StatedLength{.number = interval, .unitMetres = 1},
                                    heightUnitOf(model->georeference), stated));
   }
-  viewed.addModel = [&a, &session, model, subject, drapeOptions, interval](Scene& scene) -> Status {
+  viewed.addModel = [&a, &session, model, subject, drapeOptions, interval, ground = viewed.ground](Scene& scene) -> Status {
     ARETE_TRY(TerrainDrawable made,
               TerrainDrawable::create(
-                  subject, {.path = a.detail.isCutByProcessor() ? CutPath::processor : CutPath::device},
+                  subject,
+                  {.path = a.detail.isCutByProcessor() ? CutPath::processor : CutPath::device,
+                   .heights = {.mostBytes = std::uint64_t(a.appearance.groundMebibytes) << 20}},
                   session.context()));
+    const HeightsOnGpu& heights = made.painter().heights();
+    *ground = {{"bytes", heights.bytes()}, {"level", heights.finestLevel()}};
     ARETE_CHECK(scene.add(std::make_unique<TerrainDrawable>(std::move(made))));
     if (const std::string& file = a.appearance.drape; !file.empty()) {
       ARETE_TRY(DrapeOnGpu drape, DrapeOnGpu::load(file, *model, drapeOptions, session.context()));
@@ -200,6 +206,7 @@ Status runView(ViewArguments a, Session& session) {
   session.warn(view.warnings(), a.model);
   Json json = {{"model", a.model}, {"kind", subject.kind()}, {"renderer", view.description()}};
   a.detail.addBudgetTo(json, viewed.finestTriangles);
+  if (!viewed.ground->is_null()) json["heights"] = *viewed.ground;
   if (const Layer* layer = view.scene().layers.find("drape")) {
     const DrapeOnGpu& drape = *std::get<Layer::Drape>(layer->content);
     json["drape"] = {{"file", a.appearance.drape},
