@@ -48,6 +48,8 @@ struct Viewed {
   std::shared_ptr<const TerrainColors> colors = {};  ///< that are stated
   std::shared_ptr<const StatedLayers> layers = {};
   FillScene addModel;  ///< keeps the model
+  /// Of the heights on the device; null until the model is added, and of a surface.
+  std::shared_ptr<Json> ground = std::make_shared<Json>();
 };
 
 Result<Viewed> viewedOf(const ViewArguments& a, TerrainModel opened, Session& session) {
@@ -80,11 +82,16 @@ Result<Viewed> viewedOf(const ViewArguments& a, TerrainModel opened, Session& se
     ARETE_TRY(interval, inDataUnit(StatedLength{.number = interval, .unitMetres = 1},
                                    heightUnitOf(model->georeference), stated));
   }
-  viewed.addModel = [&a, &session, model, subject, layers, interval](Scene& scene) -> Status {
+  viewed.addModel = [&a, &session, model, subject, layers, interval,
+                     ground = viewed.ground](Scene& scene) -> Status {
     ARETE_TRY(TerrainDrawable made,
               TerrainDrawable::create(
-                  subject, {.path = a.detail.isCutByProcessor() ? CutPath::processor : CutPath::device},
+                  subject,
+                  {.path = a.detail.isCutByProcessor() ? CutPath::processor : CutPath::device,
+                   .heights = {.mostBytes = std::uint64_t(a.appearance.groundMebibytes) << 20}},
                   session.context()));
+    const HeightsOnGpu& heights = made.painter().heights();
+    *ground = {{"bytes", heights.bytes()}, {"level", heights.finestLevel()}};
     ARETE_CHECK(scene.add(std::make_unique<TerrainDrawable>(std::move(made))));
     ARETE_CHECK(layers->addTo(scene, *model, session));
     if (interval > 0) scene.layers.put("contours", Contours{interval});
@@ -193,7 +200,8 @@ Status runView(ViewArguments a, Session& session) {
   ARETE_CHECK(a.check());
   ARETE_TRY(const FramesFolder framesFolder, FramesFolder::of(a.pictures));
   ARETE_TRY(const auto size, a.pictures.size());
-  WindowOptions window{.title = fmt::format("arete - {}", a.model)};
+  WindowOptions window;
+  window.title = fmt::format("arete - {}", a.model);
   if (!a.pictures.sizeText.empty()) std::tie(window.width, window.height) = size;
   std::optional<GlfwWindow> shown;
   if (!a.pictures.isHeadless) {
@@ -258,6 +266,7 @@ Status runView(ViewArguments a, Session& session) {
   session.warn(view.warnings(), a.model);
   Json json = {{"model", a.model}, {"kind", subject.kind()}, {"renderer", view.description()}};
   a.detail.addBudgetTo(json, viewed.finestTriangles);
+  if (!viewed.ground->is_null()) json["heights"] = *viewed.ground;
   if (viewed.layers) viewed.layers->describe(view.scene(), json);
   if (!a.pictures.screenshot.empty()) ARETE_CHECK(takeScreenshot(a, start, view, session, json));
   if (!a.pictures.frames.empty()) ARETE_CHECK(makeFilm(a, *flight, view, session, json));

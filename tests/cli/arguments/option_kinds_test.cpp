@@ -183,6 +183,7 @@ const std::map<std::string, Tried>& triedCommands() {
          {"--drape-bands", {"--drape-bands 1", "--drape dem.tif"}},
          {"--contours", {"--contours 1"}},
          {"--sun", {"--sun 90,10"}},
+         {"--ground-memory", {"--ground-memory 64"}},
          {"--haze", {"--haze 1"}},
          {"--exaggeration", {"--exaggeration 3"}},
          {"--curvature", {"--curvature"}},

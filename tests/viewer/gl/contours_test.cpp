@@ -228,8 +228,8 @@ TEST(Contours, TheSeaAndLakesAtALevelHaveNone) {
         const Vec3 at = screen.unproject(x + 0.5, y + 0.5, double(depth));
         const double column = at.x / model->mt.metric().scale.x + model->mt.metric().origin.x,
                      pixel = double(depth) * 2 * std::tan(0.5236) / 300 / 30;
-        ASSERT_GT(column, 20 - 0.2 - pixel) << "on the sea";
-        ASSERT_LT(column, 40 + 0.2 + pixel) << "on the lake";
+        ASSERT_GT(column, 19 - 0.1 - pixel) << "on the sea";
+        ASSERT_LT(column, 40 + 0.1 + pixel) << "on the lake";
       }
     EXPECT_GT(ink, height < 20000 ? 100 : -1);
   }

@@ -15,8 +15,6 @@
 #include "datasets/random.h"
 #include "terrain/builder/build.h"
 #include "terrain/locate/ground_height.h"
-#include "viewer/heights/contour_levels.h"
-#include "viewer/heights/ground_scale.h"
 
 namespace arete {
 namespace {
@@ -199,17 +197,6 @@ TEST(HeightPyramid, ManyPointsWidenTheStep) {
   const HeightPyramid pyramid = pyramidOf(*model, {.mostNodes = 900});
   EXPECT_LE(pyramid.levels()[0].heights.size(), 900u);
   EXPECT_GT(pyramid.levels()[0].heights.size(), 500u);
-}
-
-TEST(ContourLevels, AreCountedFromAMultipleOfTheInterval) {
-  for (const double interval : {0.1, 1.0, 20.0, 250.0})
-    for (const double base : {-4321.0, 0.0, 3589.0, 1737400.0}) {
-      const ContourLevels levels = contourLevels(interval, base, 4000);
-      const double height = base + 12.34, level = (height - base) / interval + levels.shift;
-      EXPECT_NEAR(std::remainder(level - height / interval, ContourLevels::kCycle), 0, 1e-6 * (1 + std::abs(base) / interval));
-      EXPECT_GT(levels.lift, 0);
-      EXPECT_LT(levels.lift * interval, std::max(1e-4 * interval, 0.002));
-    }
 }
 
 }  // namespace
