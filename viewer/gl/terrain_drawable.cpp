@@ -19,7 +19,7 @@ Result<TerrainDrawable> TerrainDrawable::create(const TerrainModel& model, const
 Result<TerrainDrawable> TerrainDrawable::create(std::shared_ptr<const TerrainSubject> subject,
                                                 const Options& options, const RunContext& context) {
   const TerrainModel& model = subject->model();
-  ARETE_TRY(TerrainPainter painter, TerrainPainter::create(model));
+  ARETE_TRY(TerrainPainter painter, TerrainPainter::create(model, options.heights, context));
   TerrainDrawable made(std::move(subject), uploadTerrain(model.mt, nullptr, context), std::move(painter));
   made.drawn_ = options.path;
   // If the device cannot compute cuts, the processor takes over, and the refusal gives the reason.

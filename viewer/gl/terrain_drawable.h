@@ -26,6 +26,7 @@ class TerrainDrawable final : public Drawable {
   struct Options {
     CutPath path = CutPath::device;
     std::uint32_t mostTriangles = 4'000'000;  ///< room on the device
+    HeightsOptions heights = {};              ///< what is painted on the ground
   };
   /// The subject's model stays alive as long as this. Errors: unsupported.
   static Result<TerrainDrawable> create(std::shared_ptr<const TerrainSubject> subject, const Options& options,

@@ -13,18 +13,19 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/parallel/parallel_loops.h"
 #include "terrain/model/camera.h"
 #include "viewer/color/color_tables.h"
 #include "viewer/gl/drape_on_gpu.h"
 #include "viewer/gl/gl_program.h"
+#include "viewer/heights/contour_levels.h"
+#include "viewer/heights/height_pyramid.h"
 
 namespace arete {
 
 /// shaders/terrain.frag.glsl, std140.
 struct TerrainPainter::Look {
-  glm::vec4 sun{}, range{}, heightUnits{}, modes{}, flatColor{}, eastNorth{}, heat{};
-  std::array<glm::vec4, Layers::kMostOnGround> ground{}, overlayFrame{};
+  glm::vec4 sun{}, heightUnits{}, modes{}, flatColor{}, eastNorth{}, heat{};
+  std::array<glm::vec4, Layers::kMostOnGround> ground{}, overlayFrame{}, contours{};
 };
 
 namespace {
@@ -33,45 +34,11 @@ constexpr double kRadians = std::numbers::pi / 180;
 constexpr GLint kColorMapPlaces = 91;  // shaders/terrain.frag.glsl
 constexpr GLuint kFirstOverlay = 6;    // texture unit, as in the shader
 
-/// dz/dx and dz/dy of the samples in metric space: central differences, one-sided beside what has no data.
-std::vector<float> slopesOf(const RasterHeightfield& f, const MetricFrame& metric) {
-  std::vector<float> slopes(2 * f.size(), 0);
-  const auto along = [](double before, double here, double after) {
-    if (!std::isnan(before) && !std::isnan(after)) return (after - before) / 2;
-    if (!std::isnan(after)) return after - here;
-    return std::isnan(before) ? 0 : here - before;
-  };
-  parallelFor(std::uint32_t(0), f.rows, [&](std::uint32_t row) {
-    for (std::uint32_t col = 0; col < f.columns; ++col) {
-      const double here = f.at(col, row);
-      if (std::isnan(here)) continue;
-      const double none = std::nan("");
-      const double x =
-          along(col > 0 ? f.at(col - 1, row) : none, here, col + 1 < f.columns ? f.at(col + 1, row) : none);
-      const double y =
-          along(row > 0 ? f.at(col, row - 1) : none, here, row + 1 < f.rows ? f.at(col, row + 1) : none);
-      float* s = &slopes[2 * (std::size_t(row) * f.columns + col)];
-      s[0] = float(x * metric.scale.z / metric.scale.x);
-      s[1] = float(y * metric.scale.z / metric.scale.y);
-    }
-  });
-  return slopes;
-}
-
 void setSampling(GLuint texture, GLenum minify, GLenum magnify) {
   glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GLint(minify));
   glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GLint(magnify));
   glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-}
-
-/// Mesa's software renderer walks over the whole footprint of an anisotropic sample. At the edge of a
-/// triangle seen along itself, with several samples a pixel, that footprint has no end: one frame took
-/// minutes.
-bool isMesaSoftware() {
-  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  const std::string_view name = renderer != nullptr ? renderer : "";
-  return name.find("llvmpipe") != name.npos || name.find("softpipe") != name.npos;
 }
 
 GLsizei levelsOf(std::uint32_t width, std::uint32_t height) {
@@ -80,7 +47,8 @@ GLsizei levelsOf(std::uint32_t width, std::uint32_t height) {
 
 }  // namespace
 
-Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
+Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model, const HeightsOptions& options,
+                                              const RunContext& context) {
   TerrainPainter p;
   const auto program = [](GlProgram& into, std::initializer_list<std::string_view> vertex,
                           std::initializer_list<std::string_view> fragment) -> Status {
@@ -89,7 +57,8 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
     return {};
   };
   for (const Status& ok : {program(p.terrain_, {"frame.glsl", "terrain.vert.glsl"},
-                                   {"frame.glsl", "color_map.glsl", "light.glsl", "terrain.frag.glsl"}),
+                                   {"frame.glsl", "ground.glsl", "contours.glsl", "color_map.glsl", "light.glsl",
+                                    "terrain.frag.glsl"}),
                            program(p.sky_, {"sky.vert.glsl"}, {"frame.glsl", "sky.frag.glsl"})})
     if (!ok) return tl::unexpected(ok.error());
 
@@ -103,14 +72,18 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
   p.emptyArray_ = makeVertexArray();
   p.terrainArray_ = makeVertexArray();
 
+  {
+    // The pyramid is freed as soon as the device has it.
+    ARETE_TRY(const HeightPyramid pyramid, HeightPyramid::create(model, {}, context));
+    ARETE_TRY(HeightsOnGpu heights, HeightsOnGpu::load(pyramid, options, context));
+    p.heights_ = std::move(heights);
+  }
   double low = INFINITY, high = -INFINITY;
   for (std::uint32_t v = 0; v < mt.vertexCount(); ++v) {
     const double z = mt.vertices().height(VertexId(v));
     low = std::min(low, z);
     high = std::max(high, z);
   }
-  p.lowest_ = (low - p.metric_.origin.z) * p.metric_.scale.z;
-  p.highest_ = (high - p.metric_.origin.z) * p.metric_.scale.z;
   // The sun and the aspects refer to east and north on the ground: where a camera at the middle looks.
   const Vec2 middle = model.toSource({p.metric_.origin.x, p.metric_.origin.y});
   const auto axis = [&](double azimuth, const Vec2& onAFlatMap) {
@@ -123,27 +96,6 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
   p.ownColors_ = std::make_shared<const TerrainColors>(TerrainColors::over(low, high));
   p.takeColors({});
 
-  // A raster larger than a texture has no slopes of its own; the shader then computes them from the
-  // triangles.
-  GLint most = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-  if (model.isRaster && model.columns <= std::uint32_t(most) && model.rows <= std::uint32_t(most)) {
-    const std::vector<float> slopes = slopesOf(model.rasterSamples(), p.metric_);
-    p.slopes_ = makeTexture(GL_TEXTURE_2D);
-    glTextureStorage2D(p.slopes_, levelsOf(model.columns, model.rows), GL_RG16F, GLsizei(model.columns),
-                       GLsizei(model.rows));
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(p.slopes_, 0, 0, 0, GLsizei(model.columns), GLsizei(model.rows), GL_RG, GL_FLOAT,
-                        slopes.data());
-    glGenerateTextureMipmap(p.slopes_);
-    setSampling(p.slopes_, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
-    GLfloat anisotropy = 1;
-    if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic") && !isMesaSoftware()) {
-      glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &anisotropy);
-      glTextureParameterf(p.slopes_, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(anisotropy, 8.0f));
-    }
-    p.hasSlopes_ = true;
-  }
   return p;
 }
 
@@ -216,9 +168,10 @@ void TerrainPainter::draw(const TerrainOnGpu& terrain, const DrawnFront& front, 
   Look look;
   look.sun = sunOf(l);
   look.sun[3] = l.isShaded ? 1.0f : 0.0f;
-  look.range = {float(lowest_), float(highest_), 0, 1.0f};
-  look.heightUnits = {float(1 / metric_.scale.z), float(metric_.origin.z), float(l.hazeKilometres * 1000), 0};
-  look.modes = {float(l.coloring), hasSlopes_ ? 1.0f : 0.0f, float(ground_.size()), 0};
+  const double base = heights_->base();
+  look.heightUnits = {float(1 / metric_.scale.z), float(metric_.origin.z - base),
+                      float(l.hazeKilometres * 1000), 0};
+  look.modes = {float(l.coloring), float(base), float(ground_.size()), 0};
   for (std::size_t i = 0; i < ground_.size(); ++i) {
     const Layer& layer = ground_[i].layer;
     look.ground[i] = {float(layer.content.index() + 1), float(layer.opacity), 0, 0};
@@ -230,9 +183,12 @@ void TerrainPainter::draw(const TerrainOnGpu& terrain, const DrawnFront& front, 
                               float(picture.shift.y)};
       glBindTextureUnit(kFirstOverlay + GLuint(i), ground_[i].overlay);
     } else {
-      look.ground[i][2] = float(std::get<Contours>(layer.content).interval);
+      const ContourLevels levels =
+          contourLevels(std::get<Contours>(layer.content).interval, base, heights_->reach());
+      look.contours[i] = {float(levels.interval), float(levels.shift), float(levels.lift), 0};
     }
   }
+  heights_->bind(eyePlan_, {metric_.scale.x, metric_.scale.y});
   look.eastNorth = {float(east_.x), float(east_.y), float(north_.x), float(north_.y)};
   look.heat = {float(l.heatError), 0, 0, 0};
   takeColors(l);
@@ -263,7 +219,6 @@ void TerrainPainter::drawWith(const TerrainOnGpu& terrain, const DrawnFront& fro
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, look_);
   glUseProgram(terrain_);
-  glBindTextureUnit(0, slopes_);
   colorMaps_.bind();
   glProgramUniform4ui(terrain_, kColorMapPlaces, colorMaps_.place(0), colorMaps_.place(1),
                       colorMaps_.place(2), colorMaps_.place(3));

@@ -11,6 +11,7 @@
 #include "viewer/gl/drawn_front.h"
 #include "viewer/gl/frame_block.h"
 #include "viewer/gl/gl_objects.h"
+#include "viewer/gl/heights_on_gpu.h"
 #include "viewer/gl/terrain_on_gpu.h"
 #include "viewer/scene/layer.h"
 #include "viewer/scene/view_settings.h"
@@ -20,9 +21,12 @@ namespace arete {
 /// Draws fronts of one terrain and the sky behind them, into the framebuffer that is bound.
 class TerrainPainter {
  public:
-  /// Slopes for the shading are those of the samples, whatever front is drawn, so that light does not change
-  /// with the level of detail. O(samples) of a raster. Errors: unsupported, by the driver.
-  static Result<TerrainPainter> create(const TerrainModel& model);
+  /// Heights, slopes and aspects that are painted are those of full resolution, whatever front is drawn
+  /// (viewer/heights/height_pyramid.h). O(samples). Errors: unsupported, by the driver; those of
+  /// HeightPyramid and HeightsOnGpu.
+  static Result<TerrainPainter> create(const TerrainModel& model, const HeightsOptions& options = {},
+                                       const RunContext& context = {});
+  const HeightsOnGpu& heights() const { return *heights_; }
 
   /// The frame's block goes into uniform buffer binding 0, for cuts as well.
   void setFrame(const FrameView& frame);
@@ -52,7 +56,7 @@ class TerrainPainter {
   GlProgram terrain_, sky_;
   GlBuffer frame_, look_, noIds_;
   GlVertexArray terrainArray_, emptyArray_;
-  GlTexture slopes_;
+  std::optional<HeightsOnGpu> heights_;
   ColorMapsOnGpu colorMaps_;                                 // of heights, slopes, aspects, errors
   std::shared_ptr<const TerrainColors> ownColors_, colors_;  // colors_: uploaded
   struct Ground {
@@ -60,10 +64,8 @@ class TerrainPainter {
     GlTexture overlay = {};
   };
   std::vector<Ground> ground_;
-  bool hasSlopes_ = false;
   Vec2 eyePlan_;
   MetricFrame metric_;
-  double lowest_ = 0, highest_ = 0;  // metric z
   Vec2 east_, north_;                // of the map, in metric space
   OutwardScale scale_;
 };

@@ -330,7 +330,7 @@ TEST(Drape, ClassesKeepTheirColoursNearAndAreTheMajorityFarAway) {
   EXPECT_TRUE(laid.drape().hasClasses());
   std::size_t nearby = 0, nearbyRight = 0, far = 0, farRight = 0;
   for (const Camera& camera : {above(model, {22, 14}, 150, 30, -60), above(model, {20, 16}, 2600)}) {
-    const Scene scene = laid.draw(camera);
+    const DrapedView scene = laid.draw(camera);
     for (int y = 1; y + 1 < kHeight; ++y)
       for (int x = 1; x + 1 < kWidth; ++x) {
         const auto reach = reachOf(scene, t, x, y);

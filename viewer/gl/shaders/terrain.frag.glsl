@@ -4,16 +4,15 @@ in vec2 overGround;
 layout(location = 0) out vec4 color;
 layout(std140, binding = 1) uniform Look {
   vec4 sun;          // direction to it in metric space, 1 = shaded
-  vec4 range;        // lowest and highest place.z, unused, width of a contour in pixels
-  vec4 heightUnits;  // of place.z: height = z * x + y; haze distance; flat colour of the test (1 = on)
-  vec4 modes;        // colouring, has slopes, layers on the ground
+  vec4 heightUnits;  // of place.z: height above the base = z * x + y; haze distance; flat colour of the test (1 = on)
+  vec4 modes;        // colouring, base of heights (ground.glsl), layers on the ground
   vec4 flatColor;
   vec4 eastNorth;    // the map's east and north in metric space
   vec4 heat;         // error of the largest heat; 0 = the cut's pixels
-  vec4 ground[4];        // of each layer on it, the lowest first: 1 drape, 2 overlay, 3 contours; opacity; interval
+  vec4 ground[4];        // of each layer on it, the lowest first: 1 drape, 2 overlay, 3 contours; opacity
   vec4 overlayFrame[4];  // of overlays, plan to texture: (u, v) = (x, y) * xy + zw
+  vec4 contours[4];      // contours.glsl
 };
-layout(binding = 0) uniform sampler2D slopes;     // dz/dx, dz/dy of the samples, metric
 layout(binding = 2) uniform sampler2DArray drapeTiles[4];  // by layer on the ground
 layout(binding = 6) uniform sampler2D overlays[4];
 layout(std430, binding = 8) readonly buffer TriangleIds { uint drawnId[]; };
@@ -71,20 +70,10 @@ vec4 drapeSeen(sampler2DArray tiles, int slot) {
   return sum / float(count);
 }
 
-/// How much ink of contour lines there is, 0 to 1.
-float inkOf(float height, float interval) {
-  // A thousandth of an interval higher than they say, so that a sea at exactly 0 is not all one line.
-  float level = height / interval - 1e-3, width = fwidth(level);
-  float away = abs(fract(level + 0.5) - 0.5) / max(width, 1e-6);
-  bool isFifth = abs(fract(level / 5.0 + 0.5) - 0.5) < 0.05;
-  return (1.0 - smoothstep(range.w * (isFifth ? 0.8 : 0.25), range.w * (isFifth ? 0.8 : 0.25) + 1.0, away)) *
-         (1.0 - smoothstep(0.12, 0.35, width));  // too close together to be told apart
-}
-
 vec3 tinted(vec3 below, vec4 tint) { return mix(below, tint.rgb, tint.a); }
 
 /// What is below, and one layer on the ground over it.
-vec3 layered(vec3 base, int i, sampler2DArray tiles, sampler2D overlay, vec2 plan, float height) {
+vec3 layered(vec3 base, int i, sampler2DArray tiles, sampler2D overlay, vec2 plan, Sight sight) {
   int kind = int(ground[i].x);
   float opacity = ground[i].y;
   if (kind == 1) {
@@ -95,36 +84,43 @@ vec3 layered(vec3 base, int i, sampler2DArray tiles, sampler2D overlay, vec2 pla
     vec4 seen = texture(overlay, plan * overlayFrame[i].xy + overlayFrame[i].zw);
     return mix(base, seen.rgb, seen.a * opacity);
   }
-  return mix(base, vec3(0.32, 0.2, 0.1), 0.75 * opacity * inkOf(height, ground[i].z));
+  return mix(base, vec3(0.32, 0.2, 0.1), 0.85 * opacity * contourInkAt(contours[i].xyz, sight));
 }
 
 void main() {
   if (heightUnits.w > 0.0) { color = flatColor; return; }
   vec2 plan = place.xy / metricScale.xy + metricOrigin.xy;
-  vec2 slope;
+  Sight sight = sightOf(overGround);
   vec3 flatNormal = cross(dFdx(fromEye), dFdy(fromEye));
-  if (modes.y > 0.0) {
-    slope = texture(slopes, (plan + 0.5) / vec2(textureSize(slopes, 0))).xy * earth.x;
-  } else {
-    // Turned as the vertical of the place to the z axis.
-    vec3 up = upAt(fromEye + eyeHigh.xyz), between = up + vec3(0.0, 0.0, 1.0);
-    flatNormal += 2.0 * dot(up, flatNormal) * vec3(0.0, 0.0, 1.0) - dot(between, flatNormal) / max(1.0 + up.z, 1e-6) * between;
-    flatNormal *= flatNormal.z < 0.0 ? -1.0 : 1.0;
-    slope = -flatNormal.xy / max(flatNormal.z, 1e-6);
+  int mode = int(modes.x);
+  vec4 slopes = vec4(0.0);  // slope and direction downhill
+  vec2 slope = vec2(0.0);
+  if (sun.w > 0.0 || mode == 1 || mode == 2) {
+    slopes = groundMeanSlope(sight);
+    if (slopes.w == 0.0) {
+      // Turned as the vertical of the place to the z axis.
+      vec3 up = upAt(fromEye + eyeHigh.xyz), between = up + vec3(0.0, 0.0, 1.0);
+      flatNormal += 2.0 * dot(up, flatNormal) * vec3(0.0, 0.0, 1.0) - dot(between, flatNormal) / max(1.0 + up.z, 1e-6) * between;
+      flatNormal *= flatNormal.z < 0.0 ? -1.0 : 1.0;
+      vec2 down = flatNormal.xy / max(flatNormal.z, 1e-6) / earth.x;
+      float steepness = length(down);
+      slopes = vec4(atan(steepness) / 1.5707963, steepness > 0.0 ? vec2(dot(down, eastNorth.xy), dot(down, eastNorth.zw)) / steepness : vec2(0.0), 1.0);
+    }
+    slope = -tan(1.5707963 * min(slopes.x, 0.99)) * earth.x * (slopes.y * eastNorth.xy + slopes.z * eastNorth.zw);
   }
   vec3 normal = normalize(vec3(-slope, 1.0));
 
-  int mode = int(modes.x);
-  float height = place.z * heightUnits.x + heightUnits.y;
   vec3 base = vec3(0.78);
-  if (mode == 0) base = tinted(base, colorOf(colorMaps.x, height));
-  if (mode == 1) base = tinted(base, colorOf(colorMaps.y, degrees(atan(length(slope / earth.x)))));
+  if (mode == 0) {
+    float height = groundMeanHeight(sight);
+    base = tinted(base, colorOf(colorMaps.x, (height < kNoHeight ? place.z * heightUnits.x + heightUnits.y : height) + modes.y));
+  }
+  if (mode == 1) base = tinted(base, colorOf(colorMaps.y, 90.0 * slopes.x));
   if (mode == 2) {
-    vec2 down = -slope;
-    float turns = atan(dot(down, eastNorth.xy), dot(down, eastNorth.zw)) / 6.2831853;
-    // Level ground faces nowhere: the grey of the same lightness.
+    float turns = atan(slopes.y, slopes.z) / 6.2831853;
+    // Level ground, and ground that faces everywhere, faces nowhere: the grey of the same lightness.
     vec3 facing = tinted(base, colorOf(colorMaps.z, 360.0 * fract(turns)));
-    base = mix(vec3(166.0 / 255.0), facing, min(1.0, length(slope / earth.x) * 8.0));
+    base = mix(vec3(166.0 / 255.0), facing, smoothstep(0.05, 0.2, length(slopes.yz)));
   }
   if (mode == 4) {
     float e = errorOf(drawnId[drawFirst / 3u + uint(gl_PrimitiveID)]);
@@ -133,10 +129,10 @@ void main() {
     base = colorOf(colorMaps.w, e).rgb;
   }
   // Not a loop: Mesa's software renderer does not compile one over samplers.
-  if (modes.z > 0.0) base = layered(base, 0, drapeTiles[0], overlays[0], plan, height);
-  if (modes.z > 1.0) base = layered(base, 1, drapeTiles[1], overlays[1], plan, height);
-  if (modes.z > 2.0) base = layered(base, 2, drapeTiles[2], overlays[2], plan, height);
-  if (modes.z > 3.0) base = layered(base, 3, drapeTiles[3], overlays[3], plan, height);
+  if (modes.z > 0.0) base = layered(base, 0, drapeTiles[0], overlays[0], plan, sight);
+  if (modes.z > 1.0) base = layered(base, 1, drapeTiles[1], overlays[1], plan, sight);
+  if (modes.z > 2.0) base = layered(base, 2, drapeTiles[2], overlays[2], plan, sight);
+  if (modes.z > 3.0) base = layered(base, 3, drapeTiles[3], overlays[3], plan, sight);
   if (sun.w > 0.0) base = srgbOf(litLinear(linearOf(base), lightOnGround(normal, sun.xyz)));
   if (heightUnits.z > 0.0) {
     float haze = 1.0 - exp(-pow(length(fromEye) / heightUnits.z, 1.5));
