@@ -13,6 +13,7 @@
 #include "viewer/drawn_mesh.h"
 #include "viewer/gl/drape_on_gpu.h"
 #include "viewer/gl/frame_target.h"
+#include "viewer/gl/scene.h"
 #include "viewer/gl/terrain_drawable.h"
 
 namespace arete {
