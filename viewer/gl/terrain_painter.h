@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -39,17 +41,21 @@ class TerrainPainter {
  private:
   TerrainPainter() = default;
   struct Look;
-  glm::vec4 sunOf(const ViewLook& look) const;
-  void drawWith(const TerrainOnGpu& terrain, const DrawnFront& front, const Look& look);
-
-  GlProgram terrain_, sky_;
-  GlBuffer frame_, look_, noIds_;
-  GlVertexArray terrainArray_, emptyArray_;
-  GlTexture slopes_, tints_;
   struct Ground {
     Layer layer;
     GlTexture overlay = {};
   };
+  glm::vec4 sunOf(const ViewLook& look) const;
+  void drawWith(const TerrainOnGpu& terrain, const DrawnFront& front, const Look& look);
+
+  Status useProgramFor(const std::vector<Ground>& ground);
+
+  std::map<std::string, GlProgram> terrains_;  // by their calls of layers
+  GLuint terrain_ = 0;                         // which of them is used
+  GlProgram sky_;
+  GlBuffer frame_, look_, noIds_;
+  GlVertexArray terrainArray_, emptyArray_;
+  GlTexture slopes_, tints_;
   std::vector<Ground> ground_;
   bool hasSlopes_ = false;
   Vec2 eyePlan_;

@@ -6,11 +6,11 @@ layout(std140, binding = 1) uniform Look {
   vec4 sun;          // direction to it in metric space, 1 = shaded
   vec4 range;        // lowest and highest place.z, unused, width of a contour in pixels
   vec4 heightUnits;  // of place.z: height = z * x + y; haze distance; flat colour of the test (1 = on)
-  vec4 modes;        // colouring, has slopes, layers on the ground
+  vec4 modes;        // colouring, has slopes
   vec4 flatColor;
   vec4 eastNorth;    // the map's east and north in metric space
   vec4 heat;         // error of the largest heat; 0 = the cut's pixels
-  vec4 ground[4];        // of each layer on it, the lowest first: 1 drape, 2 overlay, 3 contours; opacity; interval
+  vec4 ground[4];        // of each layer on it, the lowest first: opacity; interval of contours
   vec4 overlayFrame[4];  // of overlays, plan to texture: (u, v) = (x, y) * xy + zw
 };
 layout(binding = 0) uniform sampler2D slopes;     // dz/dx, dz/dy of the samples, metric
@@ -81,19 +81,17 @@ float inkOf(float height, float interval) {
          (1.0 - smoothstep(0.12, 0.35, width));  // too close together to be told apart
 }
 
-/// What is below, and one layer on the ground over it.
-vec3 layered(vec3 base, int i, sampler2DArray tiles, sampler2D overlay, vec2 plan, float height) {
-  int kind = int(ground[i].x);
-  float opacity = ground[i].y;
-  if (kind == 1) {
-    vec4 photo = drapeSeen(tiles, i) * opacity;
-    return base * (1.0 - photo.a) + photo.rgb;
-  }
-  if (kind == 2) {
-    vec4 seen = texture(overlay, plan * overlayFrame[i].xy + overlayFrame[i].zw);
-    return mix(base, seen.rgb, seen.a * opacity);
-  }
-  return mix(base, vec3(0.32, 0.2, 0.1), 0.75 * opacity * inkOf(height, ground[i].z));
+// What is below, and one layer on the ground over it.
+vec3 draped(vec3 base, int i, sampler2DArray tiles) {
+  vec4 photo = drapeSeen(tiles, i) * ground[i].x;
+  return base * (1.0 - photo.a) + photo.rgb;
+}
+vec3 overlaid(vec3 base, int i, sampler2D overlay, vec2 plan) {
+  vec4 seen = texture(overlay, plan * overlayFrame[i].xy + overlayFrame[i].zw);
+  return mix(base, seen.rgb, seen.a * ground[i].x);
+}
+vec3 inked(vec3 base, int i, float height) {
+  return mix(base, vec3(0.32, 0.2, 0.1), 0.75 * ground[i].x * inkOf(height, ground[i].y));
 }
 
 void main() {
@@ -129,11 +127,7 @@ void main() {
     e = heat.x > 0.0 ? e / heat.x : e * morph.z * length(fromEye) / (depth * depth * morph.x);
     base = ramp3(clamp(e, 0.0, 1.0), vec3(0.13, 0.3, 0.55), vec3(0.95, 0.93, 0.8), vec3(0.75, 0.1, 0.1));
   }
-  // Not a loop: Mesa's software renderer does not compile one over samplers.
-  if (modes.z > 0.0) base = layered(base, 0, drapeTiles[0], overlays[0], plan, height);
-  if (modes.z > 1.0) base = layered(base, 1, drapeTiles[1], overlays[1], plan, height);
-  if (modes.z > 2.0) base = layered(base, 2, drapeTiles[2], overlays[2], plan, height);
-  if (modes.z > 3.0) base = layered(base, 3, drapeTiles[3], overlays[3], plan, height);
+  GROUND_LAYERS  // the calls above for each, lowest first (TerrainPainter::setLayers())
   if (sun.w > 0.0) {
     // The sun, the sky above, and what the ground throws back.
     float lit = max(dot(normal, sun.xyz), 0.0), sky = 0.5 + 0.5 * normal.z;
