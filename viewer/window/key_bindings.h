@@ -28,6 +28,7 @@ enum class Action {
   clearPicks,
   screenshot,
   panel,
+  cancel,
   help,
 };
 
