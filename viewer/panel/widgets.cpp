@@ -55,6 +55,10 @@ std::string megabytes(std::uint64_t bytes) {
   return fmt::format("{} MB", grouped(bytes / 1'000'000));
 }
 
+bool isNarrow() {
+  return ImGui::GetIO().DisplaySize.x < 60 * em();
+}
+
 bool section(const char* name, bool isOpen) {
   return ImGui::CollapsingHeader(name, isOpen ? ImGuiTreeNodeFlags_DefaultOpen : 0);
 }
@@ -129,7 +133,7 @@ std::optional<bool> askQuestion(const std::string& text, const char* yes, const 
   std::optional<bool> answer;
   if (ImGui::Button(yes)) answer = true;
   ImGui::SameLine();
-  if (ImGui::Button(no) || ImGui::IsKeyPressed(ImGuiKey_Escape)) answer = false;
+  if (ImGui::Button(no)) answer = false;
   ImGui::End();
   return answer;
 }

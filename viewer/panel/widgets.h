@@ -19,6 +19,9 @@ void beginColumn(const char* name, bool isRight);
 /// @return how much of the picture's width the column covers: 0 where it leaves more than half of the height
 /// free.
 double endColumn();
+/// Whether two columns leave too little of the window to see a picture between them.
+bool isNarrow();
+/// @param isOpen at first.
 /// @return whether the section is open.
 bool section(const char* name, bool isOpen = true);
 
@@ -37,8 +40,7 @@ void tip(const char* text);
 void showMessage(const std::string& text);
 /// A line at the lower edge.
 void showStatus(const std::string& text);
-/// A question in the middle, with the words of its two answers; the keys are Return on a chosen button and
-/// Escape for "no".
+/// A question in the middle, with the words of its two answers.
 ///
 /// @return the answer, once it is there.
 std::optional<bool> askQuestion(const std::string& text, const char* yes, const char* no);

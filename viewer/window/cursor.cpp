@@ -72,8 +72,8 @@ std::string Cursor::textOf(const Pick& pick) const {
   }
   const PlaceText& places = tools_->places;
   const std::string lonLat = places.isLonLat() ? std::string() : places.lonLat(pick.xy);
-  return places.xy(pick.xy) + (lonLat.empty() ? "" : "   " + lonLat) + "   " + places.height(pick.height) +
-         ", " + drawn;
+  return places.xy(pick.xy) + (lonLat.empty() ? "" : "   " + lonLat) + "   height " +
+         places.height(pick.height) + ", " + drawn;
 }
 
 }  // namespace arete

@@ -33,8 +33,8 @@ class Cursor {
   const std::optional<Pick>& pick() const { return pick_; }
   /// In the source's vertical unit.
   double within() const { return within_; }
-  /// "409050.0, 3801450.0   118.1° W, 34.3° N   1234.56 m, drawn within 0.8 m of it"; "no data" over NODATA;
-  /// empty where there is no model.
+  /// "409050.0, 3801450.0   118.1° W, 34.3° N   height 1234.56 m, drawn within 0.8 m of it"; "no data" over
+  /// NODATA; empty beside the model.
   const std::string& text() const { return text_; }
   /// How often the model was asked.
   int asked() const { return asked_; }

@@ -37,6 +37,7 @@ constexpr std::array kKeys = {
     KeyBinding{GLFW_KEY_M, false, Action::decorations, "M", "legend, scale bar, north and graticule"},
     KeyBinding{GLFW_KEY_F12, false, Action::screenshot, "F12", "picture of the model as PNG"},
     KeyBinding{GLFW_KEY_F2, false, Action::panel, "F2", "show or hide the panel"},
+    KeyBinding{GLFW_KEY_ESCAPE, false, Action::cancel, "Esc", "overwrite nothing, where that is asked"},
     KeyBinding{GLFW_KEY_F1, false, Action::help, "F1", "this help"},
 };
 

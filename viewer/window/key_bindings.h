@@ -29,6 +29,7 @@ enum class Action {
   screenshot,
   decorations,
   panel,
+  cancel,
   help,
 };
 

@@ -38,7 +38,8 @@ bool drawBar(const OpeningText& text, const Work::Progress& progress, bool isHin
   ImGui::ProgressBar(float(progress.fraction), {-1, 0}, stage.c_str());
   if (isHinted) ImGui::TextUnformatted(text.hint.c_str());
   ImGui::PopTextWrapPos();
-  const bool isCancelled = ImGui::Button("cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape);
+  const bool isCancelled =
+      ImGui::Button("cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
   ImGui::End();
   return isCancelled;
 }

@@ -119,7 +119,7 @@ void Panel::detailSection(ViewerSession& s) {
 }
 
 void Panel::lookSection(ViewerSession& s) {
-  if (!section("Look")) return;
+  if (!section("Look", false)) return;
   ViewLook& look = s.settings.look;
   if (ImGui::BeginCombo("colour by", std::string(toString(look.coloring)).c_str())) {
     for (const Coloring coloring : s.subject.colorings())
@@ -147,7 +147,7 @@ void Panel::lookSection(ViewerSession& s) {
 }
 
 void Panel::layerSection(ViewerSession& s) {
-  if (!section("Layers")) return;
+  if (!section("Layers", !widget::isNarrow())) return;
   bool hasContours = s.layers.find("contours") != nullptr;
   if (s.tools && ImGui::Checkbox("draw contours", &hasContours)) s.apply(Action::contours);
   // The highest is the first of the list.
@@ -240,7 +240,7 @@ void Panel::cameraSection(ViewerSession& s) {
 }
 
 void Panel::pickSection(ViewerSession& s, TerrainTools& tools) {
-  if (!section("Points and sight")) return;
+  if (!section("Points and sight", !widget::isNarrow() || !tools.picks.empty())) return;
   if (tools.picks.empty())
     return dim("Click on the terrain: one point shows its height, two a line of sight.");
   for (std::size_t i = 0; i < tools.picks.size(); ++i) {

@@ -199,6 +199,9 @@ void ViewerSession::apply(Action action) {
     case Action::panel:
       shows.panel = !shows.panel;
       break;
+    case Action::cancel:
+      question.no();
+      break;
     case Action::help:
       shows.help = !shows.help;
       break;

@@ -9,6 +9,7 @@
 
 #include "engine/base/caught_failure.h"
 #include "io/files/text_scan.h"
+#include "io/geo/bent/place_map.h"
 #include "io/geo/gdal/support.h"
 #include "io/geo/network/network_path.h"
 #include "io/query/extract/model_file.h"
@@ -36,6 +37,12 @@ Result<AnyModel> built(DemRead dem, const std::string& path, const SourceOptions
 
 Result<AnyModel> built(MeshInput mesh, const std::string& path, const RunContext& context) {
   Warnings warnings = std::move(mesh.file.warnings);
+  if (const auto georeference = georeferenceOf(mesh.file.crsWkt, mesh.file.verticalUnit, 0);
+      georeference && georeference->isGeographic && !mesh.file.crsWkt.empty())
+    warnings.push_back(
+        {WarningCode::position,
+         "x and y are degrees and z is a height: a surface of them is a wall; a mesh in metres "
+         "(`metric`) or in a map (`toCrs`) has the shape of the ground"});
   ARETE_TRY(BuiltSurface surface, buildSurfaceModel(std::move(mesh), path, {}, context));
   std::ranges::move(surface.warnings, std::back_inserter(warnings));
   return AnyModel{Model(std::move(surface.model)), true, std::move(warnings)};

@@ -74,7 +74,14 @@ Result<Source> readSource(const std::string& path, const SourceOptions& options,
   if (!isMeshSource(path, options.reading)) {
     if (options.kind == "surface")
       return failure(ErrorCode::usage, fmt::format("{} is no mesh", path), "kind surface");
-    ARETE_TRY(DemRead read, readHeights(path, options, context));
+    Result<DemRead> heights = readHeights(path, options, context);
+    // A GeoPackage of triangles alone is a mesh.
+    if (!heights && options.kind.empty() && options.reading.layer.empty() && isMeshFile(path)) {
+      ARETE_TRY(MeshInput input, readMeshInput(path, context));
+      ARETE_CHECK(warnOfGaps(input, context));
+      return Source(std::move(input));
+    }
+    ARETE_TRY(DemRead read, std::move(heights));
     if (options.kind == "points" && std::holds_alternative<RasterHeightfield>(read.heightfield))
       return failure(ErrorCode::usage, fmt::format("{} is a raster", path), "kind points");
     return Source(std::move(read));

@@ -26,9 +26,9 @@ struct SourceOptions {
 bool isMeshSource(const std::string& path, const SourceReading& reading = {});
 
 /// Reads what `arete build` builds of. A raster is terrain, a mesh with faces (PLY, OBJ, STL, OFF, glTF, 2DM)
-/// a surface, and any other file holds points, as the vertices of a mesh without faces are. A kind says
-/// otherwise: of a mesh, "terrain" and "points" take the vertices as points. Warnings are in
-/// DemRead::warnings and MeshInput::file.
+/// a surface, as a GeoPackage of triangles without points is, and any other file holds points, as the
+/// vertices of a mesh without faces are. A kind says otherwise: of a mesh, "terrain" and "points" take the
+/// vertices as points. Warnings are in DemRead::warnings and MeshInput::file.
 ///
 /// Errors: as readDem(), readMeshInput() and warnOfGaps(). usage: the kind contradicts the file,
 /// culprit "kind"; a `reading` that a mesh does not have.

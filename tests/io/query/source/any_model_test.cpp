@@ -95,7 +95,7 @@ TEST(AnyModel, ATinThatWasExtractedKeepsItsTriangles) {
     ASSERT_TRUE(model);
     const auto tin = cut(*model, {.maxError = 0.3});
     ASSERT_TRUE(tin) << family.name << ": " << tin.error().describe();
-    for (const char* extension : {"ply", "obj", "2dm"}) {
+    for (const char* extension : {"ply", "obj", "2dm", "gpkg"}) {
       const std::string path = folder.file(std::string("tin.") + extension);
       ASSERT_TRUE(write(*tin, path));
       const auto opened = openAnyModel(path);
@@ -119,6 +119,23 @@ TEST(AnyModel, ATinThatWasExtractedKeepsItsTriangles) {
           << family.name << ", seed " << seed << ", " << extension;
     }
   }
+}
+
+TEST(AnyModel, ATinInDegreesIsSaidToBeAWall) {
+  const TemporaryFolder folder;
+  RasterHeightfield field = rasterFamilies()[2].make(12, 10, 3);
+  field.georeference.geoTransform = {10, 0.001, 0, 60, 0, -0.001};
+  field.georeference.hasGeoTransform = field.georeference.isGeographic = true;
+  field.georeference.crsWkt = "EPSG:4326";
+  auto model = build(field);
+  ASSERT_TRUE(model);
+  const auto tin = cut(*model, {.maxError = 1});
+  ASSERT_TRUE(tin);
+  ASSERT_TRUE(write(*tin, folder.file("tin.ply")));
+  const auto opened = openAnyModel(folder.file("tin.ply"));
+  ASSERT_TRUE(opened) << opened.error().describe();
+  ASSERT_EQ(opened->warnings.size(), 1u);
+  EXPECT_NE(opened->warnings[0].sentence.find("a wall"), std::string::npos) << opened->warnings[0].sentence;
 }
 
 TEST(AnyModel, IsWhatTheReaderAndTheBuilderMakeOfTheFile) {
