@@ -64,9 +64,10 @@ class TerrainPainter {
     GlTexture overlay = {};
   };
   std::vector<Ground> ground_;
+  double heightGrain_ = 1;  // heights are coloured as multiples of it
   Vec2 eyePlan_;
   MetricFrame metric_;
-  Vec2 east_, north_;                // of the map, in metric space
+  Vec2 east_, north_;  // of the map, in metric space
   OutwardScale scale_;
 };
 

@@ -25,6 +25,8 @@ layout(location = 6) uniform ivec2 drapeEye[4];       // the pixel under the eye
 layout(location = 10) uniform vec4 drapeStep[4];      // pixels a unit of metric space; where in its pixel the eye is
 layout(location = 14) uniform ivec2 drapeLevel[64];   // first layer, tiles across; 16 levels each
 layout(location = 91) uniform uvec4 colorMaps;         // of heights, slopes, aspects, errors (color_map.glsl)
+// Of heights: a power of two, so that a sea at exactly its level, and whole numbers, meet the stops of a colour map.
+layout(location = 96) uniform float heightGrain;
 layout(location = 92) uniform int drapeClasses[4];     // 1: colours of classes, which are not mixed
 
 float errorOf(uint t) {
@@ -113,7 +115,8 @@ void main() {
   vec3 base = vec3(0.78);
   if (mode == 0) {
     float height = groundMeanHeight(sight);
-    base = tinted(base, colorOf(colorMaps.x, (height < kNoHeight ? place.z * heightUnits.x + heightUnits.y : height) + modes.y));
+    height = (height < kNoHeight ? place.z * heightUnits.x + heightUnits.y : height) + modes.y;
+    base = tinted(base, colorOf(colorMaps.x, roundEven(height / heightGrain) * heightGrain));
   }
   if (mode == 1) base = tinted(base, colorOf(colorMaps.y, 90.0 * slopes.x));
   if (mode == 2) {
