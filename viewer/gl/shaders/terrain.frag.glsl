@@ -72,8 +72,6 @@ vec4 drapeSeen(sampler2DArray tiles, int slot) {
   return sum / float(count);
 }
 
-vec3 tinted(vec3 below, vec4 tint) { return mix(below, tint.rgb, tint.a); }
-
 /// What is below, and one layer on the ground over it.
 vec3 layered(vec3 base, int i, sampler2DArray tiles, sampler2D overlay, vec2 plan, Sight sight) {
   int kind = int(ground[i].x);
@@ -112,25 +110,27 @@ void main() {
   }
   vec3 normal = normalize(vec3(-slope, 1.0));
 
-  vec3 base = vec3(0.78);
+  float value = 0.0;  // that has a colour
   if (mode == 0) {
     float height = groundMeanHeight(sight);
     height = (height < kNoHeight ? place.z * heightUnits.x + heightUnits.y : height) + modes.y;
-    base = tinted(base, colorOf(colorMaps.x, roundEven(height / heightGrain) * heightGrain));
-  }
-  if (mode == 1) base = tinted(base, colorOf(colorMaps.y, 90.0 * slopes.x));
-  if (mode == 2) {
-    float turns = atan(slopes.y, slopes.z) / 6.2831853;
-    // Level ground, and ground that faces everywhere, faces nowhere: the grey of the same lightness.
-    vec3 facing = tinted(base, colorOf(colorMaps.z, 360.0 * fract(turns)));
-    base = mix(vec3(166.0 / 255.0), facing, smoothstep(0.05, 0.2, length(slopes.yz)));
-  }
-  if (mode == 4) {
+    value = roundEven(height / heightGrain) * heightGrain;
+  } else if (mode == 1) {
+    value = 90.0 * slopes.x;
+  } else if (mode == 2) {
+    value = 360.0 * fract(atan(slopes.y, slopes.z) / 6.2831853);
+  } else if (mode == 4) {
     float e = errorOf(drawnId[drawFirst / 3u + uint(gl_PrimitiveID)]);
     float depth = dot(fromEye, forward.xyz);
-    e = heat.x > 0.0 ? e / heat.x : e * morph.z * length(fromEye) / (depth * depth * morph.x);
-    base = colorOf(colorMaps.w, e).rgb;
+    value = heat.x > 0.0 ? e / heat.x : e * morph.z * length(fromEye) / (depth * depth * morph.x);
   }
+  vec3 base = vec3(0.78);
+  if (mode != 3) {
+    vec4 tint = colorOf(mode == 4 ? colorMaps.w : colorMaps[mode], value);
+    base = mix(base, tint.rgb, tint.a);
+  }
+  // Level ground, and ground that faces everywhere, faces nowhere: the grey of the same lightness.
+  if (mode == 2) base = mix(vec3(166.0 / 255.0), base, smoothstep(0.05, 0.2, length(slopes.yz)));
   // Not a loop: Mesa's software renderer does not compile one over samplers.
   if (modes.z > 0.0) base = layered(base, 0, drapeTiles[0], overlays[0], plan, sight);
   if (modes.z > 1.0) base = layered(base, 1, drapeTiles[1], overlays[1], plan, sight);
