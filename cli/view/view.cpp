@@ -180,8 +180,7 @@ Status runView(ViewArguments a, Session& session) {
 
   const Camera start = flight && !a.viewpoint.statesCamera() ? flight->at(0) : camera;
   if (!a.pictures.isHeadless) {
-    WindowOptions window;
-    window.title = fmt::format("arete - {}", a.model);
+    WindowOptions window{.title = fmt::format("arete - {}", a.model)};
     window.start.settings = settings;
     window.start.frameMilliseconds = a.detail.frameTime;
     window.start.home = a.viewpoint.homeView();

@@ -96,8 +96,9 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model, const H
 }
 
 void TerrainPainter::takeColors(const ViewLook& look) {
-  const auto& colors = look.colors ? look.colors : ownColors_;
-  if (colors == colors_) return;
+  const std::shared_ptr<const TerrainColors>& colors =
+      look.colors ? static_cast<const std::shared_ptr<const TerrainColors>&>(look.colors) : ownColors_;
+  if (colors_ == colors) return;
   const std::array maps = {colors->heights.onGrain(heightGrain_), colors->slopes, colors->aspects,
                            colors->errors};
   colorMaps_ = ColorMapsOnGpu(maps);
