@@ -200,12 +200,10 @@ Status runView(ViewArguments a, Session& session) {
   ARETE_CHECK(a.check());
   ARETE_TRY(const FramesFolder framesFolder, FramesFolder::of(a.pictures));
   ARETE_TRY(const auto size, a.pictures.size());
-  WindowOptions window;
-  window.title = fmt::format("arete - {}", a.model);
-  if (!a.pictures.sizeText.empty()) std::tie(window.width, window.height) = size;
   std::optional<GlfwWindow> shown;
   if (!a.pictures.isHeadless) {
-    ARETE_TRY(shown, GlfwWindow::open(window.title, window.width, window.height, window.waitsForScreen));
+    const auto [width, height] = a.pictures.sizeText.empty() ? std::pair(1280, 800) : size;
+    ARETE_TRY(shown, GlfwWindow::open(fmt::format("arete - {}", a.model), width, height, true));
   }
   ARETE_TRY(std::optional<Model> model, openModelOf(a, std::move(file), shown ? &*shown : nullptr, session));
   if (!model) return {};
@@ -246,6 +244,7 @@ Status runView(ViewArguments a, Session& session) {
 
   const Camera start = flight && !a.viewpoint.statesCamera() ? flight->at(0) : camera;
   if (!a.pictures.isHeadless) {
+    WindowOptions window;
     window.start.settings = settings;
     window.start.frameMilliseconds = a.detail.frameTime;
     window.start.home = a.viewpoint.homeView();

@@ -31,8 +31,8 @@ struct TerrainPainter::Look {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
-constexpr GLint kColorMapPlaces = 91;  // shaders/terrain.frag.glsl
-constexpr GLuint kFirstOverlay = 6;    // texture unit, as in the shader
+constexpr GLint kColorMapPlaces = 91, kHeightGrain = 96;  // shaders/terrain.frag.glsl
+constexpr GLuint kFirstOverlay = 6;                       // texture unit, as in the shader
 
 void setSampling(GLuint texture, GLenum minify, GLenum magnify) {
   glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GLint(minify));
@@ -85,6 +85,10 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model, const H
   p.east_ = axis(90, {1, 0});
   p.north_ = axis(0, {0, 1});
 
+  // Heights in the shader are right to a few units of the last place of a float; a grain is 4 to 8 of the
+  // largest.
+  const double largest = std::max({std::abs(low), std::abs(high), 1e-30});
+  p.heightGrain_ = std::exp2(std::ceil(std::log2(largest)) - 21);
   p.ownColors_ = std::make_shared<const TerrainColors>(TerrainColors::over(low, high));
   p.takeColors({});
 
@@ -92,9 +96,11 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model, const H
 }
 
 void TerrainPainter::takeColors(const ViewLook& look) {
-  const auto& colors = look.colors ? look.colors : ownColors_;
-  if (colors == colors_) return;
-  const std::array maps = {colors->heights, colors->slopes, colors->aspects, colors->errors};
+  const std::shared_ptr<const TerrainColors>& colors =
+      look.colors ? static_cast<const std::shared_ptr<const TerrainColors>&>(look.colors) : ownColors_;
+  if (colors_ == colors) return;
+  const std::array maps = {colors->heights.onGrain(heightGrain_), colors->slopes, colors->aspects,
+                           colors->errors};
   colorMaps_ = ColorMapsOnGpu(maps);
   colors_ = colors;
 }
@@ -238,6 +244,7 @@ void TerrainPainter::drawWith(const TerrainOnGpu& terrain, const DrawnFront& fro
   colorMaps_.bind();
   glProgramUniform4ui(terrain_, kColorMapPlaces, colorMaps_.place(0), colorMaps_.place(1),
                       colorMaps_.place(2), colorMaps_.place(3));
+  glProgramUniform1f(terrain_, kHeightGrain, float(heightGrain_));
   // Codes follow each other as the bits of the floats that they stand for do.
   const auto bitsOf = [&](OutwardScale::Code code) {
     return std::bit_cast<std::uint32_t>(scale_.decode(code));

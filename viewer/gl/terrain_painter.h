@@ -71,9 +71,10 @@ class TerrainPainter {
   ColorMapsOnGpu colorMaps_;                                 // of heights, slopes, aspects, errors
   std::shared_ptr<const TerrainColors> ownColors_, colors_;  // colors_: uploaded
   std::vector<Ground> ground_;
+  double heightGrain_ = 1;  // heights are coloured as multiples of it
   Vec2 eyePlan_;
   MetricFrame metric_;
-  Vec2 east_, north_;                // of the map, in metric space
+  Vec2 east_, north_;  // of the map, in metric space
   OutwardScale scale_;
 };
 

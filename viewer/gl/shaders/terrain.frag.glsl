@@ -25,6 +25,8 @@ layout(location = 6) uniform ivec2 drapeEye[4];       // the pixel under the eye
 layout(location = 10) uniform vec4 drapeStep[4];      // pixels a unit of metric space; where in its pixel the eye is
 layout(location = 14) uniform ivec2 drapeLevel[64];   // first layer, tiles across; 16 levels each
 layout(location = 91) uniform uvec4 colorMaps;         // of heights, slopes, aspects, errors (color_map.glsl)
+// Of heights: a power of two, so that a sea at exactly its level, and whole numbers, meet the stops of a colour map.
+layout(location = 96) uniform float heightGrain;
 layout(location = 92) uniform int drapeClasses[4];     // 1: colours of classes, which are not mixed
 
 float errorOf(uint t) {
@@ -70,9 +72,7 @@ vec4 drapeSeen(sampler2DArray tiles, int slot) {
   return sum / float(count);
 }
 
-vec3 tinted(vec3 below, vec4 tint) { return mix(below, tint.rgb, tint.a); }
-
-/// What is below, and one layer on the ground over it.
+// What is below, and one layer on the ground over it.
 vec3 draped(vec3 base, int i, sampler2DArray tiles) {
   vec4 photo = drapeSeen(tiles, i) * ground[i].x;
   return base * (1.0 - photo.a) + photo.rgb;
@@ -108,24 +108,27 @@ void main() {
   }
   vec3 normal = normalize(vec3(-slope, 1.0));
 
-  vec3 base = vec3(0.78);
+  float value = 0.0;  // that has a colour
   if (mode == 0) {
     float height = groundMeanHeight(sight);
-    base = tinted(base, colorOf(colorMaps.x, (height < kNoHeight ? place.z * heightUnits.x + heightUnits.y : height) + modes.y));
-  }
-  if (mode == 1) base = tinted(base, colorOf(colorMaps.y, 90.0 * slopes.x));
-  if (mode == 2) {
-    float turns = atan(slopes.y, slopes.z) / 6.2831853;
-    // Level ground, and ground that faces everywhere, faces nowhere: the grey of the same lightness.
-    vec3 facing = tinted(base, colorOf(colorMaps.z, 360.0 * fract(turns)));
-    base = mix(vec3(166.0 / 255.0), facing, smoothstep(0.05, 0.2, length(slopes.yz)));
-  }
-  if (mode == 4) {
+    height = (height < kNoHeight ? place.z * heightUnits.x + heightUnits.y : height) + modes.y;
+    value = roundEven(height / heightGrain) * heightGrain;
+  } else if (mode == 1) {
+    value = 90.0 * slopes.x;
+  } else if (mode == 2) {
+    value = 360.0 * fract(atan(slopes.y, slopes.z) / 6.2831853);
+  } else if (mode == 4) {
     float e = errorOf(drawnId[drawFirst / 3u + uint(gl_PrimitiveID)]);
     float depth = dot(fromEye, forward.xyz);
-    e = heat.x > 0.0 ? e / heat.x : e * morph.z * length(fromEye) / (depth * depth * morph.x);
-    base = colorOf(colorMaps.w, e).rgb;
+    value = heat.x > 0.0 ? e / heat.x : e * morph.z * length(fromEye) / (depth * depth * morph.x);
   }
+  vec3 base = vec3(0.78);
+  if (mode != 3) {
+    vec4 tint = colorOf(mode == 4 ? colorMaps.w : colorMaps[mode], value);
+    base = mix(base, tint.rgb, tint.a);
+  }
+  // Level ground, and ground that faces everywhere, faces nowhere: the grey of the same lightness.
+  if (mode == 2) base = mix(vec3(166.0 / 255.0), base, smoothstep(0.05, 0.2, length(slopes.yz)));
   GROUND_LAYERS  // the calls above for each, lowest first (TerrainPainter::setLayers())
   if (sun.w > 0.0) base = srgbOf(litLinear(linearOf(base), lightOnGround(normal, sun.xyz)));
   if (heightUnits.z > 0.0) {
