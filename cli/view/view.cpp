@@ -20,6 +20,7 @@
 #include "cli/view/pictures.h"
 #include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/longitude_turns.h"
+#include "io/geo/drape/class_names.h"
 #include "io/query/extract/camera_argument.h"
 #include "io/query/extract/model_file.h"
 #include "io/store/amt/file.h"
@@ -45,6 +46,15 @@ struct Viewed {
   std::shared_ptr<const TerrainColors> colors = {};  ///< that are stated
   FillScene addModel;                                ///< keeps the model
 };
+
+/// Of a picture of classes; empty of others.
+Result<Legend> drapeLegend(const std::string& file, const std::vector<int>& bands) {
+  ARETE_TRY(const auto classes, readDrapeClasses(file, bands));
+  Legend legend{.title = std::filesystem::path(file).filename().string()};
+  for (const DrapeClass& c : classes)
+    legend.entries.push_back({Rgba{c.color[0], c.color[1], c.color[2], c.color[3]}, c.name});
+  return legend;
+}
 
 Result<Viewed> readTerrain(const ViewArguments& a, AmtContainer container, Session& session) {
   ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
@@ -85,7 +95,8 @@ Result<Viewed> readTerrain(const ViewArguments& a, AmtContainer container, Sessi
     if (const std::string& file = a.appearance.drape; !file.empty()) {
       ARETE_TRY(DrapeOnGpu drape, DrapeOnGpu::load(file, *model, drapeOptions, session.context()));
       session.warn(drape.warnings(), file);
-      scene.layers.put("drape", std::make_shared<const DrapeOnGpu>(std::move(drape)));
+      Layer& layer = scene.layers.put("drape", std::make_shared<const DrapeOnGpu>(std::move(drape)));
+      ARETE_TRY(layer.legend, drapeLegend(file, drapeOptions.bands));
     }
     if (interval > 0) scene.layers.put("contours", Contours{interval});
     return {};
