@@ -40,7 +40,7 @@ RasterHeightfield groundOf(const ViewshedMapQuestion& q) {
   ground.georeference = q.grid.georeference;
   ground.georeference.verticalUnit = q.model.georeference.verticalUnit;
   ground.georeference.verticalUnitMetres = q.model.georeference.verticalUnitMetres;
-  ground.heights.reserve(ground.size());
+  ground.heights.reserve(std::size_t{ground.columns} * ground.rows);
   for (std::uint32_t row = 0; row < ground.rows; ++row)
     for (std::uint32_t column = 0; column < ground.columns; ++column) {
       const std::size_t i = std::size_t{row} * ground.columns + column;

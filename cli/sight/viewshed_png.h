@@ -26,7 +26,7 @@ struct ViewshedMapQuestion {
   const TerrainError& maxError;
 };
 
-/// Draws the map of `arete viewshed --png`. Errors: those of drawing and writing; of the CRS of another grid.
+/// Draws the map of `arete viewshed --png`. Errors: of drawing and writing, and of the CRS of another grid.
 Status writeViewshedPng(const ViewshedMapQuestion& question);
 
 }  // namespace arete

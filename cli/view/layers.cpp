@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "io/geo/drape/class_names.h"
 #include "terrain/sight/grid.h"
 #include "terrain/sight/profile.h"
 #include "viewer/layers/vector_layer.h"
@@ -24,6 +25,15 @@ std::string unlike(const std::string& name, const std::vector<std::string>& othe
 Error inLayer(Error error, const std::string& option) {
   error.culprit = fmt::format("{} {}", option, error.culprit);
   return error;
+}
+
+/// Of a picture of classes; empty of others.
+Result<Legend> drapeLegend(const std::string& file, const std::vector<int>& bands) {
+  ARETE_TRY(const auto classes, readDrapeClasses(file, bands));
+  Legend legend{.title = std::filesystem::path(file).filename().string()};
+  for (const DrapeClass& c : classes)
+    legend.entries.push_back({Rgba{c.color[0], c.color[1], c.color[2], c.color[3]}, c.name});
+  return legend;
 }
 
 }  // namespace
@@ -74,8 +84,9 @@ Status StatedLayers::addTo(Scene& scene, const TerrainModel& model, Session& ses
   for (const Drape& stated : drapes_) {
     ARETE_TRY(DrapeOnGpu drape, DrapeOnGpu::load(stated.file, model, drapeOptions_, session.context()));
     session.warn(drape.warnings(), stated.file);
-    scene.layers.put(stated.name, std::make_shared<const DrapeOnGpu>(std::move(drape))).opacity =
-        stated.opacity;
+    Layer& layer = scene.layers.put(stated.name, std::make_shared<const DrapeOnGpu>(std::move(drape)));
+    layer.opacity = stated.opacity;
+    ARETE_TRY(layer.legend, drapeLegend(stated.file, drapeOptions_.read.bands));
   }
   if (vectors_.empty()) return {};
   ARETE_TRY(const auto tools, VectorLayerTools::create());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // How different colours look: CIEDE2000 [Sharma2005], to eyes that lack one kind of cones as well
-// [Machado2009].
+// (Machado, Oliveira and Fernandes 2009).
 #pragma once
 
 #include <array>

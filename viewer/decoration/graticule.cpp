@@ -25,6 +25,7 @@ constexpr int kNet = 24;        // pixels asked in each direction
 constexpr int kMostLines = 30;  // of each kind
 constexpr int kFirstPieces = 32;
 constexpr int kMostHalvings = 9;
+constexpr int kMostOnGround = 5;   // of lines that follow rough ground
 constexpr double kFarAway = 2.5;   // in scales of the middle
 constexpr double kOffCurve = 0.3;  // pixels
 
@@ -102,7 +103,8 @@ using Curve = std::function<std::optional<Vec2>(double)>;
 
 class Tracer {
  public:
-  Tracer(const Rect& frame, const Curve& curve) : frame_(frame), curve_(curve) {}
+  Tracer(const Rect& frame, const Curve& curve, int mostHalvings)
+      : frame_(frame), curve_(curve), mostHalvings_(mostHalvings) {}
 
   std::vector<std::vector<Vec2>> trace(double from, double to) {
     std::optional<Vec2> before = curve_(from);
@@ -146,12 +148,12 @@ class Tracer {
         part_.push_back(*q);
         return;
       }
-      if (depth >= kMostHalvings) {
+      if (depth >= mostHalvings_) {
         if (std::hypot(p->x - q->x, p->y - q->y) > 3) end();
         part_.push_back(*q);
         return;
       }
-    } else if (depth >= kMostHalvings) {
+    } else if (depth >= mostHalvings_) {
       if (p) end();
       if (q) part_.push_back(*q);
       return;
@@ -168,6 +170,7 @@ class Tracer {
 
   Rect frame_;
   const Curve& curve_;
+  int mostHalvings_;
   std::vector<Vec2> part_;
   std::vector<std::vector<Vec2>> parts_;
 };
@@ -268,7 +271,7 @@ std::vector<GraticuleLine> graticuleOf(const PictureGround& ground, double spaci
     };
     GraticuleLine line{isMeridian, isMeridian ? nearestTurn(at, 0) : at, angleText(at, step, isMeridian), {}};
     if (isMeridian && line.degrees <= -180) line.degrees = 180;
-    line.parts = Tracer(frame, curve).trace(from, to);
+    line.parts = Tracer(frame, curve, ground.isPerspective() ? kMostOnGround : kMostHalvings).trace(from, to);
     std::erase_if(line.parts, [&](const std::vector<Vec2>& part) {
       return pointsInside(frame, {isMeridian, at, {}, {part}}).empty();
     });

@@ -56,13 +56,13 @@ struct LegendStyle {
 Vec2 legendSize(std::span<const ColorLegend> legends, const LegendStyle& style = {});
 
 /// Where the scale of a legend was drawn: its topmost row of pixels has the colour of the highest value, the
-/// lowest row that of the lowest one.
+/// lowest row the colour of the lowest one.
 struct DrawnScale {
   Rect bar;
   double low = 0, high = 1;
 };
 
-/// Draws legends with the left top corner at `corner`. Colours are exactly those of the map. O(pixels drawn).
+/// Draws legends with the left top corner at `corner`. Colours are exactly the map's. O(pixels drawn).
 /// @return the scales, in the order of the legends that have one.
 std::vector<DrawnScale> drawLegends(Canvas& canvas, std::span<const ColorLegend> legends, Vec2 corner,
                                     const LegendStyle& style = {});

@@ -17,7 +17,7 @@ namespace arete {
 
 /// Where the pixels of a picture are on the ground, and where the ground is in the picture: all that scale
 /// bar, north arrow and graticule need, of a flat map or of a view in perspective. Pixels are the canvas's;
-/// ground positions are source coordinates (those of the CRS), or longitude and latitude in degrees.
+/// ground positions are source coordinates (in the CRS), or longitude and latitude in degrees.
 class PictureGround {
  public:
   using Mapping = std::function<std::optional<Vec2>(Vec2)>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The scale is taken at one place, and compared with that of others: where they differ, the bar says where it
-// holds.
+// The scale is taken at one place, and compared with the scales of others: where they differ, the bar says
+// where it holds.
 #include "viewer/decoration/scale_bar.h"
 
 #include <fmt/format.h>

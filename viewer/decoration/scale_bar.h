@@ -10,7 +10,7 @@
 
 namespace arete {
 
-/// A bar of round length. Its scale is that of the ground at the middle of the picture, across it.
+/// A bar of round length. It has the scale of the ground at the middle of the picture, across it.
 struct ScaleBar {
   double length = 1;  ///< on the ground, in metres, or in source units without a CRS
   double pixels = 1;

@@ -97,14 +97,14 @@ class TerrainPicture {
     return pixelOfPlace(subject_.space().position(source, *level_), false);
   }
 
-  /// Of space as it is drawn: on a curved Earth, that of the ground.
+  /// In space as it is drawn, which on a curved Earth is the ground.
   std::optional<double> lengthPerPixel(Vec2 pixel) const {
     const auto depth = depthAt(pixel);
     if (!depth) return {};
     return *depth * 2 * frustum_.planes().slopeX / view_.widthPixels;
   }
 
-  /// On a flat map, whose scale is not that of the ground everywhere.
+  /// On a flat map, whose scale is not the ground's everywhere.
   std::optional<std::pair<Vec2, Vec2>> acrossPixel(Vec2 pixel) const {
     const auto place = metricAt(pixel);
     const auto perPixel = lengthPerPixel(pixel);

@@ -7,10 +7,12 @@
 #include <ranges>
 #include <string>
 
-#include "engine/base/vec.h"
+#include "viewer/picture/ticks.h"
 
 namespace arete {
 namespace {
+
+constexpr Rgb kContourInk = {82, 51, 26};  // of viewer/gl/shaders/terrain.frag.glsl
 
 /// As the painter takes it where nothing is stated.
 TerrainColors usualColors(const TerrainModel& model) {
@@ -48,19 +50,25 @@ ColorLegend legendOf(Coloring coloring, const TerrainColors& colors, const std::
 
 std::vector<ColorLegend> SceneLegends::of(const ViewSettings& settings, std::span<const Layer> layers) const {
   std::vector<ColorLegend> legends;
+  const TerrainModel* model = subject_->heights() ? &subject_->heights()->model() : nullptr;
+  const std::string unit = model ? model->georeference.verticalUnit : "";
   for (const Layer& layer : layers | std::views::reverse) {
-    if (!layer.isVisible || layer.legend.entries.empty()) continue;
+    if (!layer.isVisible) continue;
+    if (const auto* lines = std::get_if<Contours>(&layer.content); lines && layer.legend.entries.empty()) {
+      const std::string words =
+          "contours, every " + numberText(lines->interval) + (unit.empty() ? "" : " " + unit);
+      legends.push_back({.title = "", .classes = {{{kContourInk}, words, true}}});
+    }
+    if (layer.legend.entries.empty()) continue;
     ColorLegend legend{.title = layer.legend.title.empty() ? layer.name : layer.legend.title};
     for (const Legend::Entry& entry : layer.legend.entries)
       legend.classes.push_back({{laidOver(entry.color, {255, 255, 255})}, entry.label});
     legends.push_back(std::move(legend));
   }
   const ViewLook& look = settings.look;
-  const TerrainModel* model = subject_->heights() ? &subject_->heights()->model() : nullptr;
   if (!look.colors && !usual_) usual_ = model ? usualColors(*model) : TerrainColors();
   ColorLegend ground =
-      legendOf(look.coloring, look.colors ? *look.colors : *usual_,
-               model ? model->georeference.verticalUnit : "", look.heatError, settings.pixels);
+      legendOf(look.coloring, look.colors ? *look.colors : *usual_, unit, look.heatError, settings.pixels);
   if (ground.scale || !ground.classes.empty()) legends.push_back(std::move(ground));
   return legends;
 }

@@ -46,7 +46,7 @@ class HeadlessView {
   /// The picture that was drawn last.
   Image image() const { return target_.image(); }
   /// The same with legends, scale bar, north arrow and graticule, as the options say. Precondition: draw() for
-  /// the scene as it is. Errors: those of Canvas::create().
+  /// the scene as it is. Errors: as Canvas::create().
   Result<Image> picture();
 
   Scene& scene() { return scene_; }

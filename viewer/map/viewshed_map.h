@@ -39,7 +39,7 @@ struct ViewshedMapOptions {
 /// @param values    one for each sample; empty for answers
 /// @param observers in grid coordinates of `ground`
 ///
-/// Errors: those of makeMapPage(). O(samples + pixels).
+/// Errors: as makeMapPage(). O(samples + pixels).
 Result<Canvas> drawViewshedMap(const RasterHeightfield& ground, std::span<const ViewshedCell> cells,
                                std::span<const double> values, std::span<const Vec2> observers,
                                const ViewshedMapOptions& options = {});

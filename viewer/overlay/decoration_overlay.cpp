@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <variant>
 
 #include "viewer/overlay/picture_of_scene.h"
 
@@ -24,8 +25,11 @@ std::string DecorationOverlay::stateOf(const FrameTarget& target, const Camera& 
                   settings.stretch, settings.isCurved, int(look.coloring), look.heatError,
                   look.coloring == Coloring::error ? settings.pixels : 0, fmt::ptr(look.colors.get()));
   for (const Layer& layer : scene_->layers.list())
-    if (layer.isVisible && !layer.legend.entries.empty())
-      state += fmt::format(" {}:{}", layer.name, layer.legend.entries.size());
+    if (layer.isVisible) {
+      const auto* contours = std::get_if<Contours>(&layer.content);
+      state += fmt::format(" {}:{}:{}", layer.name, layer.legend.entries.size(),
+                           contours ? contours->interval : 0);
+    }
   return state;
 }
 

@@ -6,7 +6,7 @@
 
 #include "viewer/decoration/scene_legends.h"
 #include "viewer/gl/frame_target.h"
-#include "viewer/gl/overlay_painter.h"
+#include "viewer/overlay/overlay_painter.h"
 #include "viewer/gl/scene.h"
 
 namespace arete {
@@ -18,7 +18,7 @@ class DecorationOverlay {
   /// Precondition: the scene outlives this. Errors: unsupported, by the driver.
   static Result<DecorationOverlay> create(const Scene& scene);
 
-  /// Lays them over the framebuffer that is bound, which has the picture of the target. Errors: those of
+  /// Lays them over the framebuffer that is bound, which has the picture of the target. Errors: as
   /// groundOfPicture() and Canvas::create().
   Status draw(const FrameTarget& target, const Camera& camera, const ViewSettings& settings);
   /// The picture of the target with decorations, for a file. Errors: as draw().

@@ -9,7 +9,7 @@
 namespace arete {
 
 /// The ground in the last picture of a scene, with its depths. Waits for the drawing. Precondition: the scene
-/// was drawn into the target for this camera. Errors: those of Drawable::frameOf().
+/// was drawn into the target for this camera. Errors: as Drawable::frameOf().
 Result<PictureGround> groundOfPicture(const Scene& scene, const FrameTarget& target, const Camera& camera,
                                       const ViewSettings& settings);
 

@@ -189,6 +189,7 @@ const std::map<std::string, Tried>& triedCommands() {
          {"--curvature", {"--curvature"}},
          {"--wireframe", {"--wireframe"}},
          {"--unshaded", {"--unshaded"}},
+         {"--no-decorations", {"--no-decorations"}},
          {"--headless", {""}},
          {"--size", {""}},
          {"--samples", {"--samples 1"}},

@@ -57,9 +57,9 @@ TEST_F(ViewCommand, DrawsHeightsInTheColoursOfARampToTheByte) {
   write("classes.txt",
         "INTERPOLATION:DISCRETE\n100,250,10,20,255,low\n200,20,240,30,255,\ninf,30,40,230,255,high\n");
   const auto shoot = [&](std::vector<std::string> more) {
-    std::vector<std::string> words = {"view",     "dem.amt",    "--headless", "--screenshot",
-                                      "ramp.png", "--size",     "120x100",    "--home",
-                                      "above",    "--unshaded", "--samples",  "1"};
+    std::vector<std::string> words = {"view",      "dem.amt", "--headless",      "--screenshot", "ramp.png",
+                                      "--size",    "120x100", "--home",          "above",        "--unshaded",
+                                      "--samples", "1",       "--no-decorations"};
     words.insert(words.end(), more.begin(), more.end());
     return run(words);
   };

@@ -22,13 +22,13 @@ namespace {
 TerrainModel plain(const std::string& crs = "EPSG:32633") {
   RasterHeightfield field;
   field.columns = field.rows = 101;
-  field.heights.assign(field.size(), 100);
+  field.heights.assign(101 * 101, 100);
   field.georeference.hasGeoTransform = true;
   field.georeference.crsWkt = crs;
   field.georeference.verticalUnit = "m";
   field.georeference.geoTransform = {500000 - 50.5 * 30, 30, 0, 5000000 + 50.5 * 30, 0, -30};
   Result<TerrainModel> model = build(field);
-  EXPECT_TRUE(model);
+  EXPECT_TRUE(model) << model.error().describe();
   return std::move(*model);
 }
 

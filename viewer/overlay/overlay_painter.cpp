@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/gl/overlay_painter.h"
+#include "viewer/overlay/overlay_painter.h"
 
 namespace arete {
 
