@@ -17,7 +17,7 @@ namespace arete {
 namespace {
 
 constexpr int kLinesOfRow = 4;
-constexpr int kMargin = 1;  // free pixels around the picture, whose last ones go on beyond it
+constexpr int kMargin = 1;  // free pixels around the picture, which smooth its rim
 
 class PolygonRaster {
  public:
@@ -78,6 +78,7 @@ std::optional<PlanPicture> fillOf(const FeatureLayer& layer, const TerrainModel&
 
   const double step = std::max(box.xMax - box.xMin, box.yMax - box.yMin) / (mostSide - 2 * kMargin);
   PlanPicture picture;
+  picture.isArea = true;
   picture.width = std::max(1, int(std::ceil((box.xMax - box.xMin) / step))) + 2 * kMargin;
   picture.height = std::max(1, int(std::ceil((box.yMax - box.yMin) / step))) + 2 * kMargin;
   const auto pixel = [&](Vec2 xy) {

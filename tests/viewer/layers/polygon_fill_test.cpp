@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "datasets/random.h"
 #include "terrain/builder/build.h"
+#include "viewer/headless/headless.h"
 
 namespace arete {
 namespace {
@@ -80,6 +82,39 @@ TEST(PolygonFill, HasNothingBesideTheTerrainOrOfLines) {
   layer.vertices = {{1010, 1990}, {1020, 1990}, {1020, 1980}, {1010, 1990}};
   layer.lines = {{0, 4}};
   EXPECT_FALSE(fillOf(layer, model, {}));
+}
+
+TEST(PolygonFill, PaintsNothingBesideItsAreaHoweverFarAway) {
+  const TerrainModel model = plain();
+  FeatureLayer layer;
+  layer.vertices = {{1010, 1970}, {1200, 1970}, {1200, 1950}, {1010, 1950}, {1010, 1970}};
+  layer.lines = {{0, 5, 0}};
+  ViewSettings settings;
+  settings.look.isShaded = false;
+  settings.look.coloring = Coloring::plain;
+  for (const double distance : {150.0, 2000.0}) {
+    auto view = HeadlessView::create(
+        model, {.widthPixels = 200, .heightPixels = 120, .samples = 1, .settings = settings});
+    if (!view) GTEST_SKIP() << view.error().describe();
+    const Camera camera{.xy = {1105, 1950}, .height = distance, .pitchDegrees = -90};
+    ASSERT_TRUE(view->draw(camera));
+    const Image none = view->image();
+    view->scene().layers.put("area", std::make_shared<const PlanPicture>(*fillOf(layer, model, {200, 0, 0})));
+    ASSERT_TRUE(view->draw(camera));
+    const Image filled = view->image();
+    // Rows of the picture, from its middle: y - 1950 in pixels.
+    const double perMetre = 120 / (2 * (distance - 5) * std::tan(30 * 3.14159265358979 / 180));
+    int changed = 0, beside = 0;
+    for (int row = 0; row < 120; ++row)
+      for (int column = 0; column < 200; ++column)
+        if (!(none.at(column, row) == filled.at(column, row))) {
+          ++changed;
+          const double y = (60 - row - 0.5) / perMetre;
+          beside += y < -1.5 / perMetre || y > 20 + 1.5 / perMetre ? 1 : 0;
+        }
+    EXPECT_GT(changed, 10) << distance;
+    EXPECT_EQ(beside, 0) << distance;
+  }
 }
 
 }  // namespace
