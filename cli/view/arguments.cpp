@@ -165,7 +165,8 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
               "Points, lines or outlines of polygons over the terrain, of any vector file and CRS, as "
               "stated over each other. Keys: name of its layer, label (field), where (a condition of SQL), "
               "color (#rrggbb), width "
-              "(pixels), opacity (0 to 1), crs, title, height (ground; own: as the places state)")
+              "(pixels), opacity and fill of polygons (0 to 1), crs, title, height (ground; own: as the "
+              "places state)")
           ->allow_extra_args(false)
           ->type_name("FILE[,KEY=VALUE]...")
           ->group(group));

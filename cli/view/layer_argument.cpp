@@ -84,15 +84,17 @@ Result<FileWithKeys> readFileWithKeys(const std::string& text, const std::vector
   return read;
 }
 
-Result<double> readOpacity(const std::string& text) {
+Result<double> readOpacity(const std::string& text, std::string_view key) {
   const auto value = numberIn(text);
-  if (!value || !(*value >= 0 && *value <= 1)) return wrong("must be a number of 0 to 1", "opacity=" + text);
+  if (!value || !(*value >= 0 && *value <= 1))
+    return wrong("must be a number of 0 to 1", fmt::format("{}={}", key, text));
   return *value;
 }
 
 Result<LayerArgument> LayerArgument::of(const std::string& text, std::size_t number) {
-  ARETE_TRY(const FileWithKeys stated, readFileWithKeys(text, {"name", "label", "where", "crs", "color",
-                                                               "width", "opacity", "height", "title"}));
+  ARETE_TRY(const FileWithKeys stated,
+            readFileWithKeys(text, {"name", "label", "where", "crs", "color", "width", "opacity", "fill",
+                                    "height", "title"}));
   LayerArgument layer;
   layer.file = stated.file;
   layer.style.color = kColors[number % kColors.size()];
@@ -117,6 +119,9 @@ Result<LayerArgument> LayerArgument::of(const std::string& text, std::size_t num
   }
   if (const std::string opacity = value("opacity"); !opacity.empty()) {
     ARETE_TRY(layer.style.opacity, readOpacity(opacity));
+  }
+  if (const std::string fill = value("fill"); !fill.empty()) {
+    ARETE_TRY(layer.fill, readOpacity(fill, "fill"));
   }
   if (const std::string height = value("height"); !height.empty()) {
     if (height != "ground" && height != "own")

@@ -26,7 +26,7 @@ struct FileWithKeys {
 Result<FileWithKeys> readFileWithKeys(const std::string& text, const std::vector<std::string_view>& keys);
 
 /// A number of 0 to 1. Errors: usage.
-Result<double> readOpacity(const std::string& text);
+Result<double> readOpacity(const std::string& text, std::string_view key = "opacity");
 
 /// One of `layer`, as a person states it.
 struct LayerArgument {
@@ -34,6 +34,7 @@ struct LayerArgument {
   FeatureOptions read;
   GroundFeatureOptions ground;
   FeatureStyle style;
+  double fill = 0;    ///< opacity of the areas of polygons; 0: they are not filled
   std::string title;  ///< of the legend and the list of layers; empty: of the file
 
   /// @param number of the layer, from 0: layers without a colour differ by it.

@@ -10,6 +10,7 @@
 #include "io/geo/drape/class_names.h"
 #include "terrain/sight/grid.h"
 #include "terrain/sight/profile.h"
+#include "viewer/layers/polygon_fill.h"
 #include "viewer/layers/vector_layer.h"
 
 namespace arete {
@@ -74,8 +75,15 @@ Result<StatedLayers> StatedLayers::read(const AppearanceArguments& arguments,
     std::string name = !stated->title.empty()       ? stated->title
                        : stated->read.layer.empty() ? stem
                                                     : fmt::format("{} {}", stem, stated->read.layer);
-    all.vectors_.push_back(
-        {named(name), std::move(*stated), std::make_shared<const GroundFeatures>(std::move(*ground))});
+    std::shared_ptr<const PlanPicture> fill;
+    if (stated->fill > 0) {
+      if (layer.polygons == 0)
+        return failure(ErrorCode::usage, "the layer has no polygon to fill", fmt::format("--layer {}", text));
+      if (auto made = fillOf(layer, *model, stated->style.color))
+        fill = std::make_shared<const PlanPicture>(std::move(*made));
+    }
+    all.vectors_.push_back({named(name), std::move(*stated),
+                            std::make_shared<const GroundFeatures>(std::move(*ground)), std::move(fill)});
   }
   return all;
 }
@@ -91,6 +99,7 @@ Status StatedLayers::addTo(Scene& scene, const TerrainModel& model, Session& ses
   if (vectors_.empty()) return {};
   ARETE_TRY(const auto tools, VectorLayerTools::create());
   for (const Vector& stated : vectors_) {
+    if (stated.fill) scene.layers.put(stated.name + " (areas)", stated.fill).opacity = stated.stated.fill;
     const auto content = std::make_shared<VectorLayer>(stated.features, stated.stated.style, tools);
     Layer& layer = scene.layers.put(stated.name, Layer::Drawn(content));
     layer.opacity = stated.stated.style.opacity;

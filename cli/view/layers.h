@@ -38,6 +38,7 @@ class StatedLayers {
     std::string name;
     LayerArgument stated;
     std::shared_ptr<const GroundFeatures> features;
+    std::shared_ptr<const PlanPicture> fill;  ///< null: none
   };
   std::vector<Drape> drapes_;
   std::vector<Vector> vectors_;

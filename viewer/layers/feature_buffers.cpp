@@ -27,11 +27,12 @@ FeatureBuffers uploadFeatures(const GroundFeatures& features, const DrawnPlace& 
   buffers.lines = makeBuffer(std::span<const std::array<float, 4>>(vertices));
 
   std::vector<std::array<float, 3>> anchors;
+  const bool isKept = !features.labels.empty() || features.points.size() <= FeatureBuffers::kMostKeptFree;
   const auto add = [&](const GroundFeatures::Place& at) {
     const Vec3 p = place(at.xy, at.height);
     // Not a number is outside of every picture.
     anchors.push_back({float(p.x), float(p.y), float(p.z)});
-    if (!features.labels.empty()) buffers.anchorPlaces.push_back(p);
+    if (isKept) buffers.anchorPlaces.push_back(p);
   };
   for (const auto& point : features.points) add(point);
   for (const auto& label : features.labels) add(label.at);

@@ -22,7 +22,6 @@ namespace {
 
 constexpr double kLabelGap = 3;  // pixels between a label and a marker
 constexpr double kLeastLabel = 10;
-constexpr std::uint32_t kMostKeptFree = 20'000;  // markers that no label covers
 constexpr GLuint kSeenBinding = 12, kAtlasUnit = 5, kSeenUnit = 6;
 /// The radius of a marker beside lines of a width.
 float markerRadius(const FeatureStyle& style) {
@@ -72,6 +71,13 @@ class PixelsOfFrame {
   double side_, stretch_;
   int width_, height_;
 };
+
+/// Of each anchor, not 0 where it was seen. Waits for the drawing.
+std::vector<std::uint32_t> seenOf(const FeatureBuffers& features) {
+  std::vector<std::uint32_t> seen(features.anchorCount());
+  glGetNamedBufferSubData(features.seen, 0, GLsizeiptr(seen.size() * sizeof(std::uint32_t)), seen.data());
+  return seen;
+}
 
 /// Blends over what is there and leaves its depths.
 class Blending {
@@ -229,19 +235,24 @@ void FeaturePainter::draw(FeatureBuffers& features, const FeatureStyle& style) {
   state_->drawPoints(features, style);
 }
 
+void FeaturePainter::keepPointsFree(const FeatureBuffers& features, const FeatureStyle& style,
+                                    LabelPlacement& placement) {
+  if (features.points == 0 || features.points > FeatureBuffers::kMostKeptFree) return;
+  const PixelsOfFrame pixelOf(state_->frame, state_->viewport[2], state_->viewport[3]);
+  const std::vector<std::uint32_t> seen = seenOf(features);
+  const double radius = markerRadius(style);
+  for (std::uint32_t i = 0; i < features.points; ++i)
+    if (const auto at = seen[i] != 0 ? pixelOf(features.anchorPlaces[i]) : std::nullopt)
+      placement.take({at->x - radius, at->y - radius, 2 * radius, 2 * radius});
+}
+
 Status FeaturePainter::drawLabels(const FeatureBuffers& features, const GroundFeatures& texts,
                                   const FeatureStyle& style, LabelPlacement& placement) {
   if (features.labels == 0) return {};
   State& s = *state_;
   const PixelsOfFrame pixelOf(s.frame, s.viewport[2], s.viewport[3]);
-  std::vector<std::uint32_t> seen(features.anchorCount());
-  glGetNamedBufferSubData(features.seen, 0, GLsizeiptr(seen.size() * sizeof(std::uint32_t)), seen.data());
-  // A marker stays free of all labels but of those that are there already.
-  const double radius = markerRadius(style);
-  for (std::uint32_t i = 0; i < std::min(features.points, kMostKeptFree); ++i)
-    if (const auto at = seen[i] != 0 ? pixelOf(features.anchorPlaces[i]) : std::nullopt)
-      placement.take({at->x - radius, at->y - radius, 2 * radius, 2 * radius});
-  const double away = (features.points > 0 ? radius : 0) + kLabelGap + 1;
+  const std::vector<std::uint32_t> seen = seenOf(features);
+  const double away = (features.points > 0 ? markerRadius(style) : 0) + kLabelGap + 1;
   std::vector<LabelBox> boxes;
   for (std::uint32_t i = 0; i < features.labels; ++i) {
     const auto at =

@@ -36,6 +36,9 @@ class FeaturePainter {
 
   /// Everything but the labels; finds out which of these are seen.
   void draw(FeatureBuffers& features, const FeatureStyle& style);
+  /// Keeps labels off the points that are seen. Precondition: draw() of the same features in this frame.
+  /// Waits for the drawing.
+  void keepPointsFree(const FeatureBuffers& features, const FeatureStyle& style, LabelPlacement& placement);
   /// As many labels as there is room for, of those whose places are seen; first come, first served.
   /// Precondition: draw() of the same features in this frame. Waits for the drawing.
   Status drawLabels(const FeatureBuffers& features, const GroundFeatures& texts, const FeatureStyle& style,

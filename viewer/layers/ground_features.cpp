@@ -294,11 +294,15 @@ class Grounding {
     for (const Vec2& corner : {Vec2{box.xMin, box.yMin}, Vec2{box.xMax, box.yMin}, Vec2{box.xMin, box.yMax},
                                Vec2{box.xMax, box.yMax}})
       widen(modelLow, modelHigh, model_.toSource(corner));
+    const bool looksLonLat = !model_.georeference.crsWkt.empty() && !model_.georeference.isGeographic &&
+                             low.x >= -180 && high.x <= 360 && low.y >= -90 && high.y <= 90;
     return {ErrorCode::invalidData,
             fmt::format(
                 "nothing of the layer '{}' is on the terrain: in the DEM's CRS it reaches from {:.6g} {:.6g} "
-                "to {:.6g} {:.6g}, and the terrain from {:.6g} {:.6g} to {:.6g} {:.6g}",
-                layer_.name, low.x, low.y, high.x, high.y, modelLow.x, modelLow.y, modelHigh.x, modelHigh.y),
+                "to {:.6g} {:.6g}, and the terrain from {:.6g} {:.6g} to {:.6g} {:.6g}{}",
+                layer_.name, low.x, low.y, high.x, high.y, modelLow.x, modelLow.y, modelHigh.x, modelHigh.y,
+                looksLonLat ? "; its coordinates look like longitudes and latitudes, whose CRS can be stated"
+                            : ""),
             {}};
   }
 

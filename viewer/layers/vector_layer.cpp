@@ -42,6 +42,8 @@ Status VectorLayer::draw(const SpaceFrame& frame) {
   }
   begin(frame);
   tools_->painter.draw(*buffers_, styleOf(frame));
+  // All layers are drawn before the first label is placed.
+  if (tools_->hasLabels) tools_->painter.keepPointsFree(*buffers_, styleOf(frame), *tools_->placement);
   return {};
 }
 

@@ -17,6 +17,7 @@ struct VectorLayerTools {
   FeaturePainter painter;
   std::optional<LabelPlacement> placement = {};
   std::uint64_t frame = 0;  ///< the picture of `placement`
+  bool hasLabels = false;   ///< any of the layers
 
   /// Errors: unsupported, by the driver.
   static Result<std::shared_ptr<VectorLayerTools>> create();
@@ -27,7 +28,9 @@ class VectorLayer final : public SpaceContent {
  public:
   VectorLayer(std::shared_ptr<const GroundFeatures> features, const FeatureStyle& style,
               std::shared_ptr<VectorLayerTools> tools)
-      : features_(std::move(features)), style_(style), tools_(std::move(tools)) {}
+      : features_(std::move(features)), style_(style), tools_(std::move(tools)) {
+    tools_->hasLabels = tools_->hasLabels || !features_->labels.empty();
+  }
 
   std::string_view kind() const override { return "a vector layer"; }
   Status draw(const SpaceFrame& frame) override;

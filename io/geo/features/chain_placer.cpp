@@ -82,7 +82,7 @@ void ChainPlacer::addPiece(const Piece& piece, FeatureLayer& layer, std::optiona
   std::vector<double> shifts = turns_.shiftsOnto(west, east);
   if (shifts.empty()) shifts = {0};  // not on the DEM, wherever it is; who draws it counts it
   for (const double shift : shifts) {
-    const FeatureLayer::Line line{layer.vertices.size(), piece.xy.size()};
+    const FeatureLayer::Line line{.first = layer.vertices.size(), .count = piece.xy.size()};
     for (const Vec2& p : piece.xy) layer.vertices.push_back({p.x + shift, p.y});
     layer.z.insert(layer.z.end(), piece.z.begin(), piece.z.end());
     if (!longest || layer.lines[*longest].count < line.count) longest = layer.lines.size();

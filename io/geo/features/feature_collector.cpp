@@ -55,7 +55,7 @@ void FeatureCollector::place(Vec2 xy, double z) {
   labelPlaces_.push_back(layer_.points.back());
 }
 
-void FeatureCollector::collectLine(const OGRSimpleCurve& line) {
+void FeatureCollector::collectLine(const OGRSimpleCurve& line, std::uint64_t polygon) {
   xy_.clear();
   z_.clear();
   const bool is3d = line.Is3D() != 0;
@@ -70,7 +70,14 @@ void FeatureCollector::collectLine(const OGRSimpleCurve& line) {
     xy_.push_back(xy_.front());
     z_.push_back(z_.front());
   }
+  const std::size_t before = layer_.lines.size();
   const auto added = placer_.addLine(xy_, z_, layer_);
+  // A ring that was cut open bounds no area.
+  for (std::size_t i = before; polygon != FeatureLayer::kNoPolygon && i < layer_.lines.size(); ++i) {
+    const FeatureLayer::Line& piece = layer_.lines[i];
+    if (layer_.vertices[piece.first] == layer_.vertices[piece.first + piece.count - 1])
+      layer_.lines[i].polygon = polygon;
+  }
   if (added && (!labelLine_ || layer_.lines[*added].count > layer_.lines[*labelLine_].count))
     labelLine_ = added;
 }
@@ -99,8 +106,8 @@ void FeatureCollector::collect(const OGRGeometry& geometry) {
     collectLine(*geometry.toLineString());
   } else if (type == wkbPolygon || type == wkbTriangle) {
     const OGRPolygon& polygon = *geometry.toPolygon();
-    ++layer_.polygons;
-    for (const OGRLinearRing* ring : polygon) collectLine(*ring);
+    const std::uint64_t number = layer_.polygons++;
+    for (const OGRLinearRing* ring : polygon) collectLine(*ring, number);
     if (field_ >= 0) findPlaceInside(polygon);
   } else if (OGR_GT_IsSubClassOf(type, wkbPolyhedralSurface)) {
     for (const OGRPolygon* polygon : *geometry.toPolyhedralSurface()) collect(*polygon);

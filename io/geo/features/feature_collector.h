@@ -33,7 +33,8 @@ class FeatureCollector {
 
  private:
   void collect(const OGRGeometry& geometry);
-  void collectLine(const OGRSimpleCurve& line);
+  /// @param polygon its number where the line is a ring of one
+  void collectLine(const OGRSimpleCurve& line, std::uint64_t polygon = FeatureLayer::kNoPolygon);
   void place(Vec2 xy, double z);
   void findPlaceInside(const OGRPolygon& polygon);
   void addLabels(std::string text);

@@ -17,6 +17,7 @@ namespace arete {
 /// What a layer of a vector file holds, in the source coordinates of a DEM.
 struct FeatureLayer {
   static constexpr std::uint64_t kNoLine = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::uint64_t kNoPolygon = kNoLine;
 
   struct Place {
     Vec2 xy;
@@ -26,6 +27,7 @@ struct FeatureLayer {
   /// begin.
   struct Line {
     std::uint64_t first = 0, count = 0;
+    std::uint64_t polygon = kNoPolygon;  ///< whose ring it is, whole; rings of one polygon follow one another
   };
   struct Label {
     std::string text;              ///< UTF-8, one line

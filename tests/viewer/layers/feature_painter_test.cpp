@@ -78,6 +78,7 @@ class FeaturePainterTest : public testing::Test {
     painter_->setFrame(*view_->frameOf(camera, settings), hills().mt.metric());
     painter_->draw(buffers, style);
     LabelPlacement placement(kWidth, kHeight);
+    painter_->keepPointsFree(buffers, style, placement);
     EXPECT_TRUE(painter_->drawLabels(buffers, features, style, placement));
     return target->image();
   }
