@@ -68,6 +68,9 @@ Result<Viewed> viewedOf(const ViewArguments& a, TerrainModel opened, Session& se
               readCameraArgument("--camera", a.viewpoint.camera, toDem, *subject->heights()));
     viewed.camera = stated.camera;
   }
+  if (const std::string word = a.appearance.colors.wordOfSea(a.appearance.color, *model);
+      !word.empty() && a.appearance.drape.empty())
+    session.warn(Warnings{{WarningCode::display, word}}, a.model);
   if (a.appearance.colors.isStated()) {
     Warnings said;
     ARETE_TRY(const TerrainColors colors, a.appearance.colors.of(a.appearance.color, *model, said));
