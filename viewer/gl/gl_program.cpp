@@ -17,10 +17,10 @@ std::string trimmed(std::string text) {
 
 }  // namespace
 
-Result<GlProgram> makeProgram(std::initializer_list<ShaderStage> stages) {
+Result<GlProgram> makeProgram(std::initializer_list<ShaderStage> stages, std::string_view definitions) {
   GlProgram program(glCreateProgram());
   for (const ShaderStage& stage : stages) {
-    std::string source = "#version 450 core\n";
+    std::string source = fmt::format("#version 450 core\n{}", definitions);
     std::string_view last;
     for (const std::string_view file : stage.files) {
       source += fmt::format("#line 1\n{}\n", shaderText(file));

@@ -19,6 +19,7 @@ struct ShaderStage {
 };
 
 /// Compiles and links. Errors: unsupported, with the driver's message, naming the last file of the stage.
-Result<GlProgram> makeProgram(std::initializer_list<ShaderStage> stages);
+/// @param definitions  lines of macros before the files of every stage
+Result<GlProgram> makeProgram(std::initializer_list<ShaderStage> stages, std::string_view definitions = {});
 
 }  // namespace arete

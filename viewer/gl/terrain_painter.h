@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -41,19 +44,22 @@ class TerrainPainter {
 
   /// What the look's colours leave transparent is plain ground.
   /// Preconditions: the frame is set; colouring by error: terrain.triangleErrors are there.
-  void draw(const TerrainOnGpu& terrain, const DrawnFront& front, const ViewLook& look);
+  /// Errors: unsupported, by the driver.
+  Status draw(const TerrainOnGpu& terrain, const DrawnFront& front, const ViewLook& look);
   void drawSky(const ViewLook& look);
   /// Draws in one colour, without the sky, to count covered pixels.
-  void drawFlat(const TerrainOnGpu& terrain, const DrawnFront& front, const glm::vec4& color);
+  Status drawFlat(const TerrainOnGpu& terrain, const DrawnFront& front, const glm::vec4& color);
 
  private:
   TerrainPainter() = default;
   struct Look;
   glm::vec4 sunOf(const ViewLook& look) const;
   void takeColors(const ViewLook& look);
-  void drawWith(const TerrainOnGpu& terrain, const DrawnFront& front, const Look& look);
+  Result<GLuint> programFor(const ViewLook* look);
+  void drawWith(GLuint program, const TerrainOnGpu& terrain, const DrawnFront& front, const Look& look);
 
-  GlProgram terrain_, sky_;
+  std::map<std::string, GlProgram> programs_;  // of the terrain, by their definitions
+  GlProgram sky_;
   GlBuffer frame_, look_, noIds_;
   GlVertexArray terrainArray_, emptyArray_;
   std::optional<HeightsOnGpu> heights_;

@@ -1,15 +1,18 @@
+// Compiled for what a picture shows, so that what it does not show takes no time: a software renderer computes both
+// sides of a branch. MODE: colouring; FLAT, SHADED, HAZE, CONTOURS: true or false; LAYER_0 to LAYER_3: of each
+// layer on the ground, the lowest first, 1 drape, 2 overlay, 3 contours, 0 none.
 in vec3 place;
 in vec3 fromEye;
 in vec2 overGround;
 layout(location = 0) out vec4 color;
 layout(std140, binding = 1) uniform Look {
   vec4 sun;          // direction to it in metric space, 1 = shaded
-  vec4 heightUnits;  // of place.z: height above the base = z * x + y; haze distance; flat colour of the test (1 = on)
-  vec4 modes;        // colouring, base of heights (ground.glsl), layers on the ground
+  vec4 heightUnits;  // of place.z: height above the base = z * x + y; haze distance
+  vec4 modes;        // base of heights (ground.glsl)
   vec4 flatColor;
   vec4 eastNorth;    // the map's east and north in metric space
   vec4 heat;         // error of the largest heat; 0 = the cut's pixels
-  vec4 ground[4];        // of each layer on it, the lowest first: 1 drape, 2 overlay, 3 contours; opacity
+  vec4 ground[4];        // of each layer on it, the lowest first: opacity
   vec4 overlayFrame[4];  // of overlays, plan to texture: (u, v) = (x, y) * xy + zw
   vec4 contours[4];      // contours.glsl
 };
@@ -73,9 +76,8 @@ vec4 drapeSeen(sampler2DArray tiles, int slot) {
 vec3 tinted(vec3 below, vec4 tint) { return mix(below, tint.rgb, tint.a); }
 
 /// What is below, and one layer on the ground over it.
-vec3 layered(vec3 base, int i, sampler2DArray tiles, sampler2D overlay, vec2 plan, Sight sight) {
-  int kind = int(ground[i].x);
-  float opacity = ground[i].y;
+vec3 layered(vec3 base, int kind, int i, sampler2DArray tiles, sampler2D overlay, vec2 plan, Relief relief) {
+  float opacity = ground[i].x;
   if (kind == 1) {
     vec4 photo = drapeSeen(tiles, i) * opacity;
     return base * (1.0 - photo.a) + photo.rgb;
@@ -84,18 +86,17 @@ vec3 layered(vec3 base, int i, sampler2DArray tiles, sampler2D overlay, vec2 pla
     vec4 seen = texture(overlay, plan * overlayFrame[i].xy + overlayFrame[i].zw);
     return mix(base, seen.rgb, seen.a * opacity);
   }
-  return mix(base, vec3(0.32, 0.2, 0.1), 0.85 * opacity * contourInkAt(contours[i].xyz, sight));
+  return mix(base, vec3(0.32, 0.2, 0.1), 0.85 * opacity * contourInk(contours[i].xyz, relief));
 }
 
 void main() {
-  if (heightUnits.w > 0.0) { color = flatColor; return; }
+  if (FLAT) { color = flatColor; return; }
   vec2 plan = place.xy / metricScale.xy + metricOrigin.xy;
   Sight sight = sightOf(overGround);
   vec3 flatNormal = cross(dFdx(fromEye), dFdy(fromEye));
-  int mode = int(modes.x);
   vec4 slopes = vec4(0.0);  // slope and direction downhill
   vec2 slope = vec2(0.0);
-  if (sun.w > 0.0 || mode == 1 || mode == 2) {
+  if (SHADED || MODE == 1 || MODE == 2) {
     slopes = groundMeanSlope(sight);
     if (slopes.w == 0.0) {
       // Turned as the vertical of the place to the z axis.
@@ -111,30 +112,32 @@ void main() {
   vec3 normal = normalize(vec3(-slope, 1.0));
 
   vec3 base = vec3(0.78);
-  if (mode == 0) {
+  if (MODE == 0) {
     float height = groundMeanHeight(sight);
-    base = tinted(base, colorOf(colorMaps.x, (height < kNoHeight ? place.z * heightUnits.x + heightUnits.y : height) + modes.y));
+    base = tinted(base, colorOf(colorMaps.x, (height < kNoHeight ? place.z * heightUnits.x + heightUnits.y : height) + modes.x));
   }
-  if (mode == 1) base = tinted(base, colorOf(colorMaps.y, 90.0 * slopes.x));
-  if (mode == 2) {
+  if (MODE == 1) base = tinted(base, colorOf(colorMaps.y, 90.0 * slopes.x));
+  if (MODE == 2) {
     float turns = atan(slopes.y, slopes.z) / 6.2831853;
     // Level ground, and ground that faces everywhere, faces nowhere: the grey of the same lightness.
     vec3 facing = tinted(base, colorOf(colorMaps.z, 360.0 * fract(turns)));
     base = mix(vec3(166.0 / 255.0), facing, smoothstep(0.05, 0.2, length(slopes.yz)));
   }
-  if (mode == 4) {
+  if (MODE == 4) {
     float e = errorOf(drawnId[drawFirst / 3u + uint(gl_PrimitiveID)]);
     float depth = dot(fromEye, forward.xyz);
     e = heat.x > 0.0 ? e / heat.x : e * morph.z * length(fromEye) / (depth * depth * morph.x);
     base = colorOf(colorMaps.w, e).rgb;
   }
+  Relief relief = Relief(0.0, 0.0, 0.0, 0.0);
+  if (CONTOURS) relief = reliefOf(sight);
   // Not a loop: Mesa's software renderer does not compile one over samplers.
-  if (modes.z > 0.0) base = layered(base, 0, drapeTiles[0], overlays[0], plan, sight);
-  if (modes.z > 1.0) base = layered(base, 1, drapeTiles[1], overlays[1], plan, sight);
-  if (modes.z > 2.0) base = layered(base, 2, drapeTiles[2], overlays[2], plan, sight);
-  if (modes.z > 3.0) base = layered(base, 3, drapeTiles[3], overlays[3], plan, sight);
-  if (sun.w > 0.0) base = srgbOf(litLinear(linearOf(base), lightOnGround(normal, sun.xyz)));
-  if (heightUnits.z > 0.0) {
+  if (LAYER_0 > 0) base = layered(base, LAYER_0, 0, drapeTiles[0], overlays[0], plan, relief);
+  if (LAYER_1 > 0) base = layered(base, LAYER_1, 1, drapeTiles[1], overlays[1], plan, relief);
+  if (LAYER_2 > 0) base = layered(base, LAYER_2, 2, drapeTiles[2], overlays[2], plan, relief);
+  if (LAYER_3 > 0) base = layered(base, LAYER_3, 3, drapeTiles[3], overlays[3], plan, relief);
+  if (SHADED) base = srgbOf(litLinear(linearOf(base), lightOnGround(normal, sun.xyz)));
+  if (HAZE) {
     float haze = 1.0 - exp(-pow(length(fromEye) / heightUnits.z, 1.5));
     base = srgbOf(mix(linearOf(base), linearOf(vec3(0.74, 0.81, 0.88)), haze));
   }
