@@ -17,10 +17,10 @@ std::string trimmed(std::string text) {
 
 }  // namespace
 
-Result<GlProgram> makeProgram(std::initializer_list<ShaderStage> stages, std::string_view definitions) {
+Result<GlProgram> makeProgram(std::initializer_list<ShaderStage> stages) {
   GlProgram program(glCreateProgram());
   for (const ShaderStage& stage : stages) {
-    std::string source = fmt::format("#version 450 core\n{}", definitions);
+    std::string source = fmt::format("#version 450 core\n{}", stage.definitions);
     std::string_view last;
     for (const std::string_view file : stage.files) {
       source += fmt::format("#line 1\n{}\n", shaderText(file));

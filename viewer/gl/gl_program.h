@@ -16,10 +16,10 @@ std::string_view shaderText(std::string_view name);
 struct ShaderStage {
   GLenum kind;  ///< GL_VERTEX_SHADER, ...
   std::initializer_list<std::string_view> files;
+  std::string_view definitions = {};  ///< lines before them
 };
 
 /// Compiles and links. Errors: unsupported, with the driver's message, naming the last file of the stage.
-/// @param definitions  lines of macros before the files of every stage
-Result<GlProgram> makeProgram(std::initializer_list<ShaderStage> stages, std::string_view definitions = {});
+Result<GlProgram> makeProgram(std::initializer_list<ShaderStage> stages);
 
 }  // namespace arete

@@ -31,8 +31,8 @@ struct TerrainPainter::Look {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
-constexpr GLint kColorMapPlaces = 91;  // shaders/terrain.frag.glsl
-constexpr GLuint kFirstOverlay = 6;    // texture unit, as in the shader
+constexpr GLint kColorMapPlaces = 91, kHeightGrain = 96;  // shaders/terrain.frag.glsl
+constexpr GLuint kFirstOverlay = 6;                       // texture unit, as in the shader
 
 void setSampling(GLuint texture, GLenum minify, GLenum magnify) {
   glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GLint(minify));
@@ -50,13 +50,8 @@ GLsizei levelsOf(std::uint32_t width, std::uint32_t height) {
 Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model, const HeightsOptions& options,
                                               const RunContext& context) {
   TerrainPainter p;
-  const auto program = [](GlProgram& into, std::initializer_list<std::string_view> vertex,
-                          std::initializer_list<std::string_view> fragment) -> Status {
-    ARETE_TRY(GlProgram made, makeProgram({{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}}));
-    into = std::move(made);
-    return {};
-  };
-  ARETE_CHECK(program(p.sky_, {"sky.vert.glsl"}, {"frame.glsl", "sky.frag.glsl"}));
+  ARETE_TRY(p.sky_, makeProgram({{GL_VERTEX_SHADER, {"sky.vert.glsl"}},
+                                 {GL_FRAGMENT_SHADER, {"frame.glsl", "sky.frag.glsl"}}}));
 
   const MultiTriangulation& mt = model.mt;
   p.metric_ = mt.metric();
@@ -89,6 +84,10 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model, const H
   p.east_ = axis(90, {1, 0});
   p.north_ = axis(0, {0, 1});
 
+  // Heights in the shader are right to a few units of the last place of a float; a grain is 4 to 8 of the
+  // largest.
+  const double largest = std::max({std::abs(low), std::abs(high), 1e-30});
+  p.heightGrain_ = std::exp2(std::ceil(std::log2(largest)) - 21);
   p.ownColors_ = std::make_shared<const TerrainColors>(TerrainColors::over(low, high));
   p.takeColors({});
 
@@ -96,31 +95,42 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model, const H
 }
 
 void TerrainPainter::takeColors(const ViewLook& look) {
-  const auto& colors = look.colors ? look.colors : ownColors_;
-  if (colors == colors_) return;
-  const std::array maps = {colors->heights, colors->slopes, colors->aspects, colors->errors};
+  const std::shared_ptr<const TerrainColors>& colors =
+      look.colors ? static_cast<const std::shared_ptr<const TerrainColors>&>(look.colors) : ownColors_;
+  if (colors_ == colors) return;
+  const std::array maps = {colors->heights.onGrain(heightGrain_), colors->slopes, colors->aspects,
+                           colors->errors};
   colorMaps_ = ColorMapsOnGpu(maps);
   colors_ = colors;
 }
 
-/// The program for a look and the layers; made at its first use. Errors: unsupported, by the driver.
+// A program is for one look and its layers and has nothing else: what a picture does not show takes no time, and
+// Mesa's software renderer, which computes both sides of a branch, meets no loop over samplers, which it does not
+// compile.
 Result<GLuint> TerrainPainter::programFor(const ViewLook* look) {
-  std::array<int, Layers::kMostOnGround> kinds{};
+  std::string layers;
+  bool hasContours = false;
   if (look != nullptr)
-    for (std::size_t i = 0; i < ground_.size(); ++i) kinds[i] = int(ground_[i].layer.content.index()) + 1;
+    for (std::size_t i = 0; i < ground_.size(); ++i) {
+      const std::size_t kind = ground_[i].layer.content.index();
+      hasContours = hasContours || kind == 2;
+      layers += kind == 0   ? fmt::format(" base = draped(base, {0}, drapeTiles[{0}]);", i)
+                : kind == 1 ? fmt::format(" base = overlaid(base, {0}, overlays[{0}], plan);", i)
+                            : fmt::format(" base = inked(base, {}, relief);", i);
+    }
   std::string definitions = fmt::format(
-      "#define FLAT {}\n#define MODE {}\n#define SHADED {}\n#define HAZE {}\n#define CONTOURS {}\n", look == nullptr,
-      look != nullptr ? int(look->coloring) : 0, look != nullptr && look->isShaded,
-      look != nullptr && look->hazeKilometres > 0, std::ranges::find(kinds, 3) != kinds.end());
-  for (std::size_t i = 0; i < kinds.size(); ++i) definitions += fmt::format("#define LAYER_{} {}\n", i, kinds[i]);
+      "#define FLAT {}\n#define MODE {}\n#define SHADED {}\n#define HAZE {}\n#define CONTOURS {}\n"
+      "#define GROUND_LAYERS{}\n",
+      look == nullptr, look != nullptr ? int(look->coloring) : 0, look != nullptr && look->isShaded,
+      look != nullptr && look->hazeKilometres > 0, hasContours, layers);
   const auto known = programs_.find(definitions);
   if (known != programs_.end()) return GLuint(known->second);
   ARETE_TRY(GlProgram made,
             makeProgram({{GL_VERTEX_SHADER, {"frame.glsl", "terrain.vert.glsl"}},
                          {GL_FRAGMENT_SHADER,
                           {"frame.glsl", "ground.glsl", "contours.glsl", "color_map.glsl", "light.glsl",
-                           "terrain.frag.glsl"}}},
-                        definitions));
+                           "terrain.frag.glsl"},
+                          definitions}}));
   return GLuint(programs_.emplace(std::move(definitions), std::move(made)).first->second);
 }
 
@@ -241,6 +251,7 @@ void TerrainPainter::drawWith(GLuint program, const TerrainOnGpu& terrain, const
   colorMaps_.bind();
   glProgramUniform4ui(program, kColorMapPlaces, colorMaps_.place(0), colorMaps_.place(1),
                       colorMaps_.place(2), colorMaps_.place(3));
+  glProgramUniform1f(program, kHeightGrain, float(heightGrain_));
   // Codes follow each other as the bits of the floats that they stand for do.
   const auto bitsOf = [&](OutwardScale::Code code) {
     return std::bit_cast<std::uint32_t>(scale_.decode(code));

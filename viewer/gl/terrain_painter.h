@@ -55,6 +55,7 @@ class TerrainPainter {
   struct Look;
   glm::vec4 sunOf(const ViewLook& look) const;
   void takeColors(const ViewLook& look);
+  /// Made at its first use; without a look, of one colour. Errors: unsupported, by the driver.
   Result<GLuint> programFor(const ViewLook* look);
   void drawWith(GLuint program, const TerrainOnGpu& terrain, const DrawnFront& front, const Look& look);
 
@@ -70,6 +71,7 @@ class TerrainPainter {
     GlTexture overlay = {};
   };
   std::vector<Ground> ground_;
+  double heightGrain_ = 1;  // heights are coloured as multiples of it
   Vec2 eyePlan_;
   MetricFrame metric_;
   Vec2 east_, north_;                // of the map, in metric space

@@ -1,12 +1,11 @@
-// Compiled for what a picture shows, so that what it does not show takes no time: a software renderer computes both
-// sides of a branch. MODE: colouring; FLAT, SHADED, HAZE, CONTOURS: true or false; LAYER_0 to LAYER_3: of each
-// layer on the ground, the lowest first, 1 drape, 2 overlay, 3 contours, 0 none.
+// Compiled for what a picture shows (TerrainPainter::programFor()). MODE: colouring; FLAT, SHADED, HAZE, CONTOURS: true
+// or false; GROUND_LAYERS: the calls of the layers on the ground, the lowest first.
 in vec3 place;
 in vec3 fromEye;
 in vec2 overGround;
 layout(location = 0) out vec4 color;
 layout(std140, binding = 1) uniform Look {
-  vec4 sun;          // direction to it in metric space, 1 = shaded
+  vec4 sun;          // direction to it in metric space, 
   vec4 heightUnits;  // of place.z: height above the base = z * x + y; haze distance
   vec4 modes;        // base of heights (ground.glsl)
   vec4 flatColor;
@@ -28,6 +27,8 @@ layout(location = 6) uniform ivec2 drapeEye[4];       // the pixel under the eye
 layout(location = 10) uniform vec4 drapeStep[4];      // pixels a unit of metric space; where in its pixel the eye is
 layout(location = 14) uniform ivec2 drapeLevel[64];   // first layer, tiles across; 16 levels each
 layout(location = 91) uniform uvec4 colorMaps;         // of heights, slopes, aspects, errors (color_map.glsl)
+// Of heights: a power of two, so that a sea at exactly its level, and whole numbers, meet the stops of a colour map.
+layout(location = 96) uniform float heightGrain;
 layout(location = 92) uniform int drapeClasses[4];     // 1: colours of classes, which are not mixed
 
 float errorOf(uint t) {
@@ -73,20 +74,17 @@ vec4 drapeSeen(sampler2DArray tiles, int slot) {
   return sum / float(count);
 }
 
-vec3 tinted(vec3 below, vec4 tint) { return mix(below, tint.rgb, tint.a); }
-
-/// What is below, and one layer on the ground over it.
-vec3 layered(vec3 base, int kind, int i, sampler2DArray tiles, sampler2D overlay, vec2 plan, Relief relief) {
-  float opacity = ground[i].x;
-  if (kind == 1) {
-    vec4 photo = drapeSeen(tiles, i) * opacity;
-    return base * (1.0 - photo.a) + photo.rgb;
-  }
-  if (kind == 2) {
-    vec4 seen = texture(overlay, plan * overlayFrame[i].xy + overlayFrame[i].zw);
-    return mix(base, seen.rgb, seen.a * opacity);
-  }
-  return mix(base, vec3(0.32, 0.2, 0.1), 0.85 * opacity * contourInk(contours[i].xyz, relief));
+// What is below, and one layer on the ground over it.
+vec3 draped(vec3 base, int i, sampler2DArray tiles) {
+  vec4 photo = drapeSeen(tiles, i) * ground[i].x;
+  return base * (1.0 - photo.a) + photo.rgb;
+}
+vec3 overlaid(vec3 base, int i, sampler2D overlay, vec2 plan) {
+  vec4 seen = texture(overlay, plan * overlayFrame[i].xy + overlayFrame[i].zw);
+  return mix(base, seen.rgb, seen.a * ground[i].x);
+}
+vec3 inked(vec3 base, int i, Relief relief) {
+  return mix(base, vec3(0.32, 0.2, 0.1), 0.85 * ground[i].x * contourInk(contours[i].xyz, relief));
 }
 
 void main() {
@@ -111,31 +109,30 @@ void main() {
   }
   vec3 normal = normalize(vec3(-slope, 1.0));
 
-  vec3 base = vec3(0.78);
+  float value = 0.0;  // that has a colour
   if (MODE == 0) {
     float height = groundMeanHeight(sight);
-    base = tinted(base, colorOf(colorMaps.x, (height < kNoHeight ? place.z * heightUnits.x + heightUnits.y : height) + modes.x));
-  }
-  if (MODE == 1) base = tinted(base, colorOf(colorMaps.y, 90.0 * slopes.x));
-  if (MODE == 2) {
-    float turns = atan(slopes.y, slopes.z) / 6.2831853;
-    // Level ground, and ground that faces everywhere, faces nowhere: the grey of the same lightness.
-    vec3 facing = tinted(base, colorOf(colorMaps.z, 360.0 * fract(turns)));
-    base = mix(vec3(166.0 / 255.0), facing, smoothstep(0.05, 0.2, length(slopes.yz)));
-  }
-  if (MODE == 4) {
+    height = (height < kNoHeight ? place.z * heightUnits.x + heightUnits.y : height) + modes.x;
+    value = roundEven(height / heightGrain) * heightGrain;
+  } else if (MODE == 1) {
+    value = 90.0 * slopes.x;
+  } else if (MODE == 2) {
+    value = 360.0 * fract(atan(slopes.y, slopes.z) / 6.2831853);
+  } else if (MODE == 4) {
     float e = errorOf(drawnId[drawFirst / 3u + uint(gl_PrimitiveID)]);
     float depth = dot(fromEye, forward.xyz);
-    e = heat.x > 0.0 ? e / heat.x : e * morph.z * length(fromEye) / (depth * depth * morph.x);
-    base = colorOf(colorMaps.w, e).rgb;
+    value = heat.x > 0.0 ? e / heat.x : e * morph.z * length(fromEye) / (depth * depth * morph.x);
   }
+  vec3 base = vec3(0.78);
+  if (MODE != 3) {
+    vec4 tint = colorOf(MODE == 4 ? colorMaps.w : colorMaps[MODE > 3 ? 0 : MODE], value);
+    base = mix(base, tint.rgb, tint.a);
+  }
+  // Level ground, and ground that faces everywhere, faces nowhere: the grey of the same lightness.
+  if (MODE == 2) base = mix(vec3(166.0 / 255.0), base, smoothstep(0.05, 0.2, length(slopes.yz)));
   Relief relief = Relief(0.0, 0.0, 0.0, 0.0);
   if (CONTOURS) relief = reliefOf(sight);
-  // Not a loop: Mesa's software renderer does not compile one over samplers.
-  if (LAYER_0 > 0) base = layered(base, LAYER_0, 0, drapeTiles[0], overlays[0], plan, relief);
-  if (LAYER_1 > 0) base = layered(base, LAYER_1, 1, drapeTiles[1], overlays[1], plan, relief);
-  if (LAYER_2 > 0) base = layered(base, LAYER_2, 2, drapeTiles[2], overlays[2], plan, relief);
-  if (LAYER_3 > 0) base = layered(base, LAYER_3, 3, drapeTiles[3], overlays[3], plan, relief);
+  GROUND_LAYERS
   if (SHADED) base = srgbOf(litLinear(linearOf(base), lightOnGround(normal, sun.xyz)));
   if (HAZE) {
     float haze = 1.0 - exp(-pow(length(fromEye) / heightUnits.z, 1.5));
