@@ -82,7 +82,7 @@ TEST(Ground, TheMeanSlopeIsTheSameInPicturesOfAnySize) {
       [](double x, double y) {
         return 0.2 * x + 40 * std::sin(x / 35) * std::cos(y / 55) + 3 * std::sin(x / 5.1) * std::cos(y / 6.3);
       },
-      360, 10);
+      200, 10);
   auto view = TerrainDrawable::create(model, {});
   ASSERT_TRUE(view);
   double sum = 0;
@@ -90,7 +90,7 @@ TEST(Ground, TheMeanSlopeIsTheSameInPicturesOfAnySize) {
   for (const HeightPyramid::Ground& g : pyramid.levels()[0].ground) sum += 90.0 * g.slope / g.covered;
   const double expected = sum / double(pyramid.levels()[0].ground.size());
   const ValuesOfColors slopes(colorTable("slope"), 0, 60);
-  for (const int pixels : {40, 100, 300, 700}) {
+  for (const int pixels : {25, 100, 300}) {
     const Image image = fromAbove(*view, model, Coloring::slope, pixels);
     double total = 0;
     int count = 0;
@@ -116,7 +116,7 @@ TEST(Ground, AspectIsTheCircularMeanOfDirections) {
         const double folded = std::abs(std::remainder(across, period));
         return other + across / 2 + (folded - period / 4) * 1.0;
       },
-      400, 10);
+      200, 10);
   auto view = TerrainDrawable::create(model, {});
   ASSERT_TRUE(view);
   const HeightPyramid pyramid = *HeightPyramid::create(model);
@@ -125,7 +125,7 @@ TEST(Ground, AspectIsTheCircularMeanOfDirections) {
   const double expected = std::atan2(east, north) / kTurn * 360;
   ASSERT_GT(std::hypot(east, north) / HeightPyramid::kOne / double(pyramid.levels()[0].ground.size()), 0.2);
   const ValuesOfColors aspects(colorTable("aspect"), 0, 360);
-  for (const int pixels : {20, 40}) {
+  for (const int pixels : {10, 20}) {
     const Image image = fromAbove(*view, model, Coloring::aspect, pixels);
     Vec2 sum;
     for (int y = pixels / 5; y < pixels - pixels / 5; ++y)
@@ -141,12 +141,12 @@ TEST(Ground, AspectIsTheCircularMeanOfDirections) {
 TEST(Ground, AspectsThatCancelHaveTheColourOfNone) {
   ARETE_NEEDS_OPENGL(context);
   const TerrainModel model =
-      modelFrom([](double x, double) { return 30 * std::sin(x * kTurn / 60); }, 400, 10);
+      modelFrom([](double x, double) { return 30 * std::sin(x * kTurn / 40); }, 160, 10);
   auto view = TerrainDrawable::create(model, {});
   ASSERT_TRUE(view);
-  const Image image = fromAbove(*view, model, Coloring::aspect, 20);
-  for (int y = 4; y < 16; ++y)
-    for (int x = 4; x < 16; ++x) {
+  const Image image = fromAbove(*view, model, Coloring::aspect, 10);
+  for (int y = 2; y < 8; ++y)
+    for (int x = 2; x < 8; ++x) {
       const Rgb c = image.at(x, y);
       EXPECT_LE(std::max({std::abs(c.r - kNoAspectColor.r), std::abs(c.g - kNoAspectColor.g), std::abs(c.b - kNoAspectColor.b)}), 3);
     }
