@@ -50,7 +50,7 @@ struct Viewed {
 /// Of a picture of classes; empty of others.
 Result<Legend> drapeLegend(const std::string& file, const std::vector<int>& bands) {
   ARETE_TRY(const auto classes, readDrapeClasses(file, bands));
-  Legend legend{.title = std::filesystem::path(file).filename().string()};
+  Legend legend{.title = std::filesystem::path(file).filename().string(), .entries = {}};
   for (const DrapeClass& c : classes)
     legend.entries.push_back({Rgba{c.color[0], c.color[1], c.color[2], c.color[3]}, c.name});
   return legend;
@@ -96,7 +96,7 @@ Result<Viewed> readTerrain(const ViewArguments& a, AmtContainer container, Sessi
       ARETE_TRY(DrapeOnGpu drape, DrapeOnGpu::load(file, *model, drapeOptions, session.context()));
       session.warn(drape.warnings(), file);
       Layer& layer = scene.layers.put("drape", std::make_shared<const DrapeOnGpu>(std::move(drape)));
-      ARETE_TRY(layer.legend, drapeLegend(file, drapeOptions.bands));
+      ARETE_TRY(layer.legend, drapeLegend(file, drapeOptions.read.bands));
     }
     if (interval > 0) scene.layers.put("contours", Contours{interval});
     return {};

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <gdal_priv.h>
+#include <gdal_rat.h>
 
 #include <algorithm>
 #include <map>
