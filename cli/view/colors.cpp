@@ -79,6 +79,23 @@ bool ColorArguments::isStated() const {
   return !ramp.empty() || !mode.empty() || !range.empty() || (seaOption && seaOption->count() > 0);
 }
 
+std::string ColorArguments::wordOfSea(const std::string& coloring, const TerrainModel& model) const {
+  if (isStated() || (!coloring.empty() && coloring != "height")) return {};
+  constexpr double kMuch = 0.05;
+  std::uint32_t zeros = 0;
+  const std::uint32_t count = model.mt.vertexCount();
+  bool hasLand = false;
+  for (std::uint32_t v = 0; v < count; ++v) {
+    const double height = model.mt.vertices().height(VertexId(v));
+    zeros += height == 0 ? 1 : 0;
+    hasLand = hasLand || height > 0;
+  }
+  if (!hasLand || zeros < kMuch * count) return {};
+  return fmt::format(
+      "{:.0f} % of the heights are exactly 0, perhaps a sea: --sea-level 0 gives them colours of water",
+      100.0 * zeros / count);
+}
+
 Result<TerrainColors> ColorArguments::of(const std::string& coloring, const TerrainModel& model,
                                          Warnings& warnings) const {
   double lowest = INFINITY, highest = -INFINITY;

@@ -24,6 +24,9 @@ struct ColorArguments {
   void addTo(CLI::App& command, const std::string& group, OptionKinds& kinds);
   bool isStated() const;
 
+  /// A word where much of a terrain is at exactly 0 and has the colours of land; empty: none is needed.
+  std::string wordOfSea(const std::string& coloring, const TerrainModel& model) const;
+
   /// The colours of a terrain.
   ///
   /// @param coloring what is coloured: "height", "slope", "aspect"; empty: height.

@@ -74,6 +74,9 @@ Result<Viewed> readTerrain(const ViewArguments& a, AmtContainer container, Sessi
               readCameraArgument("--camera", a.viewpoint.camera, toDem, *subject->heights()));
     viewed.camera = stated.camera;
   }
+  if (const std::string word = a.appearance.colors.wordOfSea(a.appearance.color, *model);
+      !word.empty() && a.appearance.drape.empty())
+    session.warn(Warnings{{WarningCode::display, word}}, a.model);
   if (a.appearance.colors.isStated()) {
     Warnings said;
     ARETE_TRY(const TerrainColors colors, a.appearance.colors.of(a.appearance.color, *model, said));
@@ -191,8 +194,7 @@ Status runView(ViewArguments a, Session& session) {
 
   const Camera start = flight && !a.viewpoint.statesCamera() ? flight->at(0) : camera;
   if (!a.pictures.isHeadless) {
-    WindowOptions window;
-    window.title = fmt::format("arete - {}", a.model);
+    WindowOptions window{.title = fmt::format("arete - {}", a.model)};
     window.start.settings = settings;
     window.start.frameMilliseconds = a.detail.frameTime;
     window.start.home = a.viewpoint.homeView();

@@ -116,6 +116,21 @@ ColorMap ColorMap::over(double low, double high) const {
   return moved;
 }
 
+ColorMap ColorMap::onGrain(double grain) const {
+  ColorMap moved = *this;
+  for (std::size_t i = 0; i < stops_.size(); ++i) {
+    if (!std::isfinite(stops_[i].value)) continue;
+    double value = std::round(stops_[i].value / grain) * grain;
+    // Values that are apart stay apart.
+    if (i > 0 && std::isfinite(stops_[i - 1].value)) {
+      const bool isStep = stops_[i].value == stops_[i - 1].value;
+      value = std::max(value, moved.stops_[i - 1].value + (isStep ? 0 : grain));
+    }
+    moved.stops_[i].value = double(float(value));
+  }
+  return moved;
+}
+
 ColorMap ColorMap::withNodata(Rgba color) const {
   ColorMap other = *this;
   other.options_.nodata = color;

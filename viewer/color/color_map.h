@@ -54,6 +54,9 @@ class ColorMap {
   /// a map of one value only is moved to `low`.
   /// Precondition: both are finite, low <= high.
   ColorMap over(double low, double high) const;
+  /// The same with finite values moved to multiples of a grain, in the same order: for values that are known
+  /// to half a grain, so that those of stops meet their stops. Precondition: grain > 0.
+  ColorMap onGrain(double grain) const;
   /// The same with another colour for NaN.
   ColorMap withNodata(Rgba color) const;
 

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "viewer/color/terrain_colors.h"
+
 namespace arete {
 namespace {
 
@@ -94,6 +96,8 @@ ColorMap heightColors(double low, double high, std::optional<double> seaLevel) {
   const double shore = std::max(low, *seaLevel);
   return withSea(table.over(shore, std::max(shore, high)), *seaLevel, low);
 }
+
+SharedColors::~SharedColors() = default;
 
 std::span<const Rgb> classColors() {
   static constexpr Rgb kColors[] = {{230, 159, 0}, {86, 180, 233}, {0, 114, 178},  {240, 228, 66},

@@ -56,6 +56,14 @@ std::optional<double> numberOf(std::string_view token) {
   return value;
 }
 
+/// "12,5 255 0 0": the comma may mark decimals, and the rest would be shifted by one.
+bool hasDecimalComma(std::string_view line) {
+  const std::size_t comma = line.find_first_not_of("+-0123456789");
+  if (comma == line.npos || line[comma] != ',') return false;
+  const std::size_t end = line.find_first_not_of("0123456789", comma + 1);
+  return end != line.npos && end > comma + 1 && text::isBlank(line[end]);
+}
+
 /// The words of a line, one after the other.
 class Words {
  public:
@@ -133,6 +141,9 @@ class RampParser {
       if (!value)
         return wrong(fmt::format("begins with {}, not with a value, a per cent, nv or default",
                                  text::quotedToken(key)));
+      if (hasDecimalComma(line))
+        return wrong(
+            "has a comma within its first number and blanks between the others; a point marks decimals");
       read.value = *value;
       if (read.isPercent && !(read.value >= 0 && read.value <= 100))
         return wrong(fmt::format("has {}, which is not between 0 and 100 per cent", text::quotedToken(key)));

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
+#include <utility>
+
 #include "viewer/color/color_tables.h"
 
 namespace arete {
@@ -19,6 +22,20 @@ struct TerrainColors {
     return colors;
   }
   bool operator==(const TerrainColors&) const = default;
+};
+
+/// Colours that many looks share; null by default.
+class SharedColors : public std::shared_ptr<const TerrainColors> {
+ public:
+  SharedColors() noexcept = default;
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  SharedColors(std::shared_ptr<const TerrainColors> colors) noexcept : shared_ptr(std::move(colors)) {}
+  SharedColors(const SharedColors&) = default;
+  SharedColors(SharedColors&&) noexcept = default;
+  SharedColors& operator=(const SharedColors&) = default;
+  SharedColors& operator=(SharedColors&&) noexcept = default;
+  /// Not in this header: where GCC 12 sees through it, it warns of an unset pointer that is never read.
+  ~SharedColors();
 };
 
 }  // namespace arete

@@ -20,7 +20,7 @@ std::string trimmed(std::string text) {
 Result<GlProgram> makeProgram(std::initializer_list<ShaderStage> stages) {
   GlProgram program(glCreateProgram());
   for (const ShaderStage& stage : stages) {
-    std::string source = "#version 450 core\n";
+    std::string source = fmt::format("#version 450 core\n{}", stage.definitions);
     std::string_view last;
     for (const std::string_view file : stage.files) {
       source += fmt::format("#line 1\n{}\n", shaderText(file));

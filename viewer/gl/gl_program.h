@@ -16,6 +16,7 @@ std::string_view shaderText(std::string_view name);
 struct ShaderStage {
   GLenum kind;  ///< GL_VERTEX_SHADER, ...
   std::initializer_list<std::string_view> files;
+  std::string_view definitions = {};  ///< lines before them
 };
 
 /// Compiles and links. Errors: unsupported, with the driver's message, naming the last file of the stage.

@@ -31,8 +31,8 @@ struct TerrainPainter::Look {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
-constexpr GLint kColorMapPlaces = 91;  // shaders/terrain.frag.glsl
-constexpr GLuint kFirstOverlay = 6;    // texture unit, as in the shader
+constexpr GLint kColorMapPlaces = 91, kHeightGrain = 96;  // shaders/terrain.frag.glsl
+constexpr GLuint kFirstOverlay = 6;                       // texture unit, as in the shader
 
 void setSampling(GLuint texture, GLenum minify, GLenum magnify) {
   glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GLint(minify));
@@ -50,17 +50,9 @@ GLsizei levelsOf(std::uint32_t width, std::uint32_t height) {
 Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model, const HeightsOptions& options,
                                               const RunContext& context) {
   TerrainPainter p;
-  const auto program = [](GlProgram& into, std::initializer_list<std::string_view> vertex,
-                          std::initializer_list<std::string_view> fragment) -> Status {
-    ARETE_TRY(GlProgram made, makeProgram({{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}}));
-    into = std::move(made);
-    return {};
-  };
-  for (const Status& ok : {program(p.terrain_, {"frame.glsl", "terrain.vert.glsl"},
-                                   {"frame.glsl", "ground.glsl", "contours.glsl", "color_map.glsl", "light.glsl",
-                                    "terrain.frag.glsl"}),
-                           program(p.sky_, {"sky.vert.glsl"}, {"frame.glsl", "sky.frag.glsl"})})
-    if (!ok) return tl::unexpected(ok.error());
+  ARETE_CHECK(p.useProgramFor({}));
+  ARETE_TRY(p.sky_, makeProgram({{GL_VERTEX_SHADER, {"sky.vert.glsl"}},
+                                 {GL_FRAGMENT_SHADER, {"frame.glsl", "sky.frag.glsl"}}}));
 
   const MultiTriangulation& mt = model.mt;
   p.metric_ = mt.metric();
@@ -93,6 +85,10 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model, const H
   p.east_ = axis(90, {1, 0});
   p.north_ = axis(0, {0, 1});
 
+  // Heights in the shader are right to a few units of the last place of a float; a grain is 4 to 8 of the
+  // largest.
+  const double largest = std::max({std::abs(low), std::abs(high), 1e-30});
+  p.heightGrain_ = std::exp2(std::ceil(std::log2(largest)) - 21);
   p.ownColors_ = std::make_shared<const TerrainColors>(TerrainColors::over(low, high));
   p.takeColors({});
 
@@ -100,9 +96,11 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model, const H
 }
 
 void TerrainPainter::takeColors(const ViewLook& look) {
-  const auto& colors = look.colors ? look.colors : ownColors_;
-  if (colors == colors_) return;
-  const std::array maps = {colors->heights, colors->slopes, colors->aspects, colors->errors};
+  const std::shared_ptr<const TerrainColors>& colors =
+      look.colors ? static_cast<const std::shared_ptr<const TerrainColors>&>(look.colors) : ownColors_;
+  if (colors_ == colors) return;
+  const std::array maps = {colors->heights.onGrain(heightGrain_), colors->slopes, colors->aspects,
+                           colors->errors};
   colorMaps_ = ColorMapsOnGpu(maps);
   colors_ = colors;
 }
@@ -132,6 +130,29 @@ GlTexture overlayTexture(const PlanPicture& picture) {
 
 }  // namespace
 
+// A program has the calls of its layers and no other, so that a layer that is not there takes no time, and
+// Mesa's software renderer meets no loop over samplers, which it does not compile.
+Status TerrainPainter::useProgramFor(const std::vector<Ground>& ground) {
+  std::string calls = "#define GROUND_LAYERS";
+  for (std::size_t i = 0; i < ground.size(); ++i) {
+    const std::size_t kind = ground[i].layer.content.index();
+    calls += kind == 0   ? fmt::format(" base = draped(base, {0}, drapeTiles[{0}]);", i)
+             : kind == 1 ? fmt::format(" base = overlaid(base, {0}, overlays[{0}], plan);", i)
+                         : fmt::format(" base = inked(base, {}, sight);", i);
+  }
+  calls += "\n";
+  GlProgram& program = terrains_[calls];
+  if (program == 0) {
+    ARETE_TRY(program, makeProgram({{GL_VERTEX_SHADER, {"frame.glsl", "terrain.vert.glsl"}},
+                                    {GL_FRAGMENT_SHADER,
+                                     {"frame.glsl", "ground.glsl", "contours.glsl", "color_map.glsl",
+                                      "light.glsl", "terrain.frag.glsl"},
+                                     calls}}));
+  }
+  terrain_ = program;
+  return {};
+}
+
 Status TerrainPainter::setLayers(std::span<const Layer> layers) {
   std::vector<Ground> ground;
   for (const Layer& layer : layers) {
@@ -150,6 +171,7 @@ Status TerrainPainter::setLayers(std::span<const Layer> layers) {
     });
     g.overlay = known != ground_.end() ? std::move(known->overlay) : overlayTexture(**overlay);
   }
+  ARETE_CHECK(useProgramFor(ground));
   ground_ = std::move(ground);
   return {};
 }
@@ -171,10 +193,10 @@ void TerrainPainter::draw(const TerrainOnGpu& terrain, const DrawnFront& front, 
   const double base = heights_->base();
   look.heightUnits = {float(1 / metric_.scale.z), float(metric_.origin.z - base),
                       float(l.hazeKilometres * 1000), 0};
-  look.modes = {float(l.coloring), float(base), float(ground_.size()), 0};
+  look.modes = {float(l.coloring), float(base), 0, 0};
   for (std::size_t i = 0; i < ground_.size(); ++i) {
     const Layer& layer = ground_[i].layer;
-    look.ground[i] = {float(layer.content.index() + 1), float(layer.opacity), 0, 0};
+    look.ground[i] = {float(layer.opacity), 0, 0, 0};
     if (const auto* drape = std::get_if<Layer::Drape>(&layer.content)) {
       (*drape)->bind(terrain_, GLuint(i), eyePlan_, {metric_.scale.x, metric_.scale.y});
     } else if (const auto* overlay = std::get_if<Layer::Overlay>(&layer.content)) {
@@ -222,6 +244,7 @@ void TerrainPainter::drawWith(const TerrainOnGpu& terrain, const DrawnFront& fro
   colorMaps_.bind();
   glProgramUniform4ui(terrain_, kColorMapPlaces, colorMaps_.place(0), colorMaps_.place(1),
                       colorMaps_.place(2), colorMaps_.place(3));
+  glProgramUniform1f(terrain_, kHeightGrain, float(heightGrain_));
   // Codes follow each other as the bits of the floats that they stand for do.
   const auto bitsOf = [&](OutwardScale::Code code) {
     return std::bit_cast<std::uint32_t>(scale_.decode(code));

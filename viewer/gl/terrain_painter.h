@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -49,24 +51,29 @@ class TerrainPainter {
  private:
   TerrainPainter() = default;
   struct Look;
+  struct Ground {
+    Layer layer;
+    GlTexture overlay = {};
+  };
   glm::vec4 sunOf(const ViewLook& look) const;
   void takeColors(const ViewLook& look);
   void drawWith(const TerrainOnGpu& terrain, const DrawnFront& front, const Look& look);
 
-  GlProgram terrain_, sky_;
+  Status useProgramFor(const std::vector<Ground>& ground);
+
+  std::map<std::string, GlProgram> terrains_;  // by their calls of layers
+  GLuint terrain_ = 0;                         // which of them is used
+  GlProgram sky_;
   GlBuffer frame_, look_, noIds_;
   GlVertexArray terrainArray_, emptyArray_;
   std::optional<HeightsOnGpu> heights_;
   ColorMapsOnGpu colorMaps_;                                 // of heights, slopes, aspects, errors
   std::shared_ptr<const TerrainColors> ownColors_, colors_;  // colors_: uploaded
-  struct Ground {
-    Layer layer;
-    GlTexture overlay = {};
-  };
   std::vector<Ground> ground_;
+  double heightGrain_ = 1;  // heights are coloured as multiples of it
   Vec2 eyePlan_;
   MetricFrame metric_;
-  Vec2 east_, north_;                // of the map, in metric space
+  Vec2 east_, north_;  // of the map, in metric space
   OutwardScale scale_;
 };
 

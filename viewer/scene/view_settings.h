@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <optional>
 
 #include "engine/criteria/view.h"
@@ -34,7 +33,7 @@ struct ViewLook {
   /// The error of the hottest colour, in the unit of heights; 0 = as many pixels as the cut allows.
   double heatError = 0;
   /// The colours of heights, slopes, aspects and errors of a terrain. Null: the table's, for its heights.
-  std::shared_ptr<const TerrainColors> colors = {};
+  SharedColors colors = {};
 };
 
 /// How the models of a scene are drawn. What a model does not know is refused by Subject::check().

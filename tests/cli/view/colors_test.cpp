@@ -64,6 +64,24 @@ TEST_F(ColorOptions, OfASeaAreWaterAtAndBelowItsLevel) {
             colorTable("grey").at(0.5 / 250.5));
 }
 
+TEST_F(ColorOptions, AreRecalledWhereMuchIsAtExactlyZero) {
+  const ColorArguments none;
+  EXPECT_EQ(none.wordOfSea("", model_), "") << "one height of thirty is 0";
+  RasterHeightfield field;
+  field.columns = 30;
+  field.rows = 20;
+  for (int i = 0; i < 600; ++i) field.heights.push_back(std::max(0, i % 30 - 9));
+  const TerrainModel coast = build(field).value();
+  EXPECT_EQ(none.wordOfSea("height", coast),
+            "33 % of the heights are exactly 0, perhaps a sea: --sea-level 0 gives them colours of water");
+  EXPECT_EQ(none.wordOfSea("slope", coast), "");
+  ColorArguments stated;
+  stated.ramp = "grey";
+  EXPECT_EQ(stated.wordOfSea("", coast), "");
+  for (double& height : field.heights) height = 0;
+  EXPECT_EQ(none.wordOfSea("", build(field).value()), "") << "all of it";
+}
+
 TEST_F(ColorOptions, OfAFileAreItsOwnAndPerCentIsOfTheHeightsOrTheRange) {
   const std::string ramp = write("ramp.txt", "0% red\n100% blue\nnv 1 2 3\n");
   EXPECT_EQ(of({"--ramp", ramp})->heights.at(-50), (Rgba{255, 0, 0}));

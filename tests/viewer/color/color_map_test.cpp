@@ -99,6 +99,21 @@ TEST(ColorMap, MovesToAnotherRangeAndKeepsInfiniteEnds) {
   EXPECT_EQ(map.withNodata(kRed).at(std::nan("")), kRed);
 }
 
+TEST(ColorMap, MovesItsStopsToAGrainInTheirOrder) {
+  const ColorMap map = made({{-kInfinity, kBlue},
+                             {0, kRed},
+                             {std::nextafter(0.0f, 1.0f), kGreen},
+                             {0.3, kGreen},
+                             {0.3, kBlue},
+                             {7, kRed}})
+                           .onGrain(0.25);
+  EXPECT_EQ(map.stops().front().value, -kInfinity);
+  EXPECT_EQ(map.at(0), kRed);
+  EXPECT_EQ(map.at(0.25), kGreen) << "the next float is one grain on";
+  EXPECT_EQ(map.at(0.5), kBlue) << "a step stays one";
+  EXPECT_EQ(map.at(7), kRed);
+}
+
 TEST(ColorMap, KeepsFiniteColoursBetweenTheLargestFloats) {
   const ColorMap map = made({{-3e38, kRed}, {3e38, kGreen}});
   EXPECT_EQ(map.at(0), (Rgba{128, 128, 0}));

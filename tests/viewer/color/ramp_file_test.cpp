@@ -134,6 +134,8 @@ TEST(RampFile, NamesTheLineThatIsWrong) {
   EXPECT_NE(refusalOf("INTERPOLATION:CUBIC\n").find("line 1 states the interpolation \"CUBIC\""),
             std::string::npos);
   EXPECT_NE(refusalOf("nv red\nnv blue\n").find("line 2 states another colour for nv"), std::string::npos);
+  EXPECT_NE(refusalOf("12,5 255 0 0\n").find("line 1 has a comma within its first number"),
+            std::string::npos);
   EXPECT_NE(refusalOf("1 #12345\n").find("line 1"), std::string::npos);
 }
 

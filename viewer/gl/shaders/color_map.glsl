@@ -4,14 +4,7 @@ layout(std430, binding = 11) readonly buffer ColorMaps { uvec2 colorEntry[]; };
 
 vec4 colorOfEntry(uint packedColor) { return unpackUnorm4x8(packedColor); }
 
-uint mixedChannels(uint a, uint b, int part) {
-  uint mixed = 0u;
-  for (int shift = 0; shift < 32; shift += 8) {
-    int from = int(a >> shift & 0xFFu), to = int(b >> shift & 0xFFu);
-    mixed |= uint((from * (65536 - part) + to * part + 32768) >> 16) << shift;
-  }
-  return mixed;
-}
+ivec4 channelsOf(uint packedColor) { return ivec4(uvec4(packedColor) >> uvec4(0u, 8u, 16u, 24u) & 0xFFu); }
 
 /// sRGB and opacity, not premultiplied.
 vec4 colorOf(uint map, float value) {
@@ -38,5 +31,6 @@ vec4 colorOf(uint map, float value) {
   if (floatBitsToUint(b) == 0x7F800000u) return colorOfEntry(last.y);
   if (floatBitsToUint(a) == 0xFF800000u) return colorOfEntry(next.y);
   precise float part = (0.5 * value - 0.5 * a) / (0.5 * b - 0.5 * a);
-  return colorOfEntry(mixedChannels(last.y, next.y, int(part * 65536.0)));
+  int p = int(part * 65536.0);
+  return vec4((channelsOf(last.y) * (65536 - p) + channelsOf(next.y) * p + 32768) >> 16) / 255.0;
 }

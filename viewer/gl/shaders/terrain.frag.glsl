@@ -5,11 +5,11 @@ layout(location = 0) out vec4 color;
 layout(std140, binding = 1) uniform Look {
   vec4 sun;          // direction to it in metric space, 1 = shaded
   vec4 heightUnits;  // of place.z: height above the base = z * x + y; haze distance; flat colour of the test (1 = on)
-  vec4 modes;        // colouring, base of heights (ground.glsl), layers on the ground
+  vec4 modes;        // colouring, base of heights (ground.glsl)
   vec4 flatColor;
   vec4 eastNorth;    // the map's east and north in metric space
   vec4 heat;         // error of the largest heat; 0 = the cut's pixels
-  vec4 ground[4];        // of each layer on it, the lowest first: 1 drape, 2 overlay, 3 contours; opacity
+  vec4 ground[4];        // of each layer on it, the lowest first: opacity
   vec4 overlayFrame[4];  // of overlays, plan to texture: (u, v) = (x, y) * xy + zw
   vec4 contours[4];      // contours.glsl
 };
@@ -25,6 +25,8 @@ layout(location = 6) uniform ivec2 drapeEye[4];       // the pixel under the eye
 layout(location = 10) uniform vec4 drapeStep[4];      // pixels a unit of metric space; where in its pixel the eye is
 layout(location = 14) uniform ivec2 drapeLevel[64];   // first layer, tiles across; 16 levels each
 layout(location = 91) uniform uvec4 colorMaps;         // of heights, slopes, aspects, errors (color_map.glsl)
+// Of heights: a power of two, so that a sea at exactly its level, and whole numbers, meet the stops of a colour map.
+layout(location = 96) uniform float heightGrain;
 layout(location = 92) uniform int drapeClasses[4];     // 1: colours of classes, which are not mixed
 
 float errorOf(uint t) {
@@ -70,21 +72,17 @@ vec4 drapeSeen(sampler2DArray tiles, int slot) {
   return sum / float(count);
 }
 
-vec3 tinted(vec3 below, vec4 tint) { return mix(below, tint.rgb, tint.a); }
-
-/// What is below, and one layer on the ground over it.
-vec3 layered(vec3 base, int i, sampler2DArray tiles, sampler2D overlay, vec2 plan, Sight sight) {
-  int kind = int(ground[i].x);
-  float opacity = ground[i].y;
-  if (kind == 1) {
-    vec4 photo = drapeSeen(tiles, i) * opacity;
-    return base * (1.0 - photo.a) + photo.rgb;
-  }
-  if (kind == 2) {
-    vec4 seen = texture(overlay, plan * overlayFrame[i].xy + overlayFrame[i].zw);
-    return mix(base, seen.rgb, seen.a * opacity);
-  }
-  return mix(base, vec3(0.32, 0.2, 0.1), 0.85 * opacity * contourInkAt(contours[i].xyz, sight));
+// What is below, and one layer on the ground over it.
+vec3 draped(vec3 base, int i, sampler2DArray tiles) {
+  vec4 photo = drapeSeen(tiles, i) * ground[i].x;
+  return base * (1.0 - photo.a) + photo.rgb;
+}
+vec3 overlaid(vec3 base, int i, sampler2D overlay, vec2 plan) {
+  vec4 seen = texture(overlay, plan * overlayFrame[i].xy + overlayFrame[i].zw);
+  return mix(base, seen.rgb, seen.a * ground[i].x);
+}
+vec3 inked(vec3 base, int i, Sight sight) {
+  return mix(base, vec3(0.32, 0.2, 0.1), 0.85 * ground[i].x * contourInkAt(contours[i].xyz, sight));
 }
 
 void main() {
@@ -110,29 +108,28 @@ void main() {
   }
   vec3 normal = normalize(vec3(-slope, 1.0));
 
-  vec3 base = vec3(0.78);
+  float value = 0.0;  // that has a colour
   if (mode == 0) {
     float height = groundMeanHeight(sight);
-    base = tinted(base, colorOf(colorMaps.x, (height < kNoHeight ? place.z * heightUnits.x + heightUnits.y : height) + modes.y));
-  }
-  if (mode == 1) base = tinted(base, colorOf(colorMaps.y, 90.0 * slopes.x));
-  if (mode == 2) {
-    float turns = atan(slopes.y, slopes.z) / 6.2831853;
-    // Level ground, and ground that faces everywhere, faces nowhere: the grey of the same lightness.
-    vec3 facing = tinted(base, colorOf(colorMaps.z, 360.0 * fract(turns)));
-    base = mix(vec3(166.0 / 255.0), facing, smoothstep(0.05, 0.2, length(slopes.yz)));
-  }
-  if (mode == 4) {
+    height = (height < kNoHeight ? place.z * heightUnits.x + heightUnits.y : height) + modes.y;
+    value = roundEven(height / heightGrain) * heightGrain;
+  } else if (mode == 1) {
+    value = 90.0 * slopes.x;
+  } else if (mode == 2) {
+    value = 360.0 * fract(atan(slopes.y, slopes.z) / 6.2831853);
+  } else if (mode == 4) {
     float e = errorOf(drawnId[drawFirst / 3u + uint(gl_PrimitiveID)]);
     float depth = dot(fromEye, forward.xyz);
-    e = heat.x > 0.0 ? e / heat.x : e * morph.z * length(fromEye) / (depth * depth * morph.x);
-    base = colorOf(colorMaps.w, e).rgb;
+    value = heat.x > 0.0 ? e / heat.x : e * morph.z * length(fromEye) / (depth * depth * morph.x);
   }
-  // Not a loop: Mesa's software renderer does not compile one over samplers.
-  if (modes.z > 0.0) base = layered(base, 0, drapeTiles[0], overlays[0], plan, sight);
-  if (modes.z > 1.0) base = layered(base, 1, drapeTiles[1], overlays[1], plan, sight);
-  if (modes.z > 2.0) base = layered(base, 2, drapeTiles[2], overlays[2], plan, sight);
-  if (modes.z > 3.0) base = layered(base, 3, drapeTiles[3], overlays[3], plan, sight);
+  vec3 base = vec3(0.78);
+  if (mode != 3) {
+    vec4 tint = colorOf(mode == 4 ? colorMaps.w : colorMaps[mode], value);
+    base = mix(base, tint.rgb, tint.a);
+  }
+  // Level ground, and ground that faces everywhere, faces nowhere: the grey of the same lightness.
+  if (mode == 2) base = mix(vec3(166.0 / 255.0), base, smoothstep(0.05, 0.2, length(slopes.yz)));
+  GROUND_LAYERS  // the calls above for each, lowest first (TerrainPainter::setLayers())
   if (sun.w > 0.0) base = srgbOf(litLinear(linearOf(base), lightOnGround(normal, sun.xyz)));
   if (heightUnits.z > 0.0) {
     float haze = 1.0 - exp(-pow(length(fromEye) / heightUnits.z, 1.5));
