@@ -31,7 +31,7 @@ Error inLayer(Error error, const std::string& option) {
 /// Of a picture of classes; empty of others.
 Result<Legend> drapeLegend(const std::string& file, const std::vector<int>& bands) {
   ARETE_TRY(const auto classes, readDrapeClasses(file, bands));
-  Legend legend{.title = std::filesystem::path(file).filename().string()};
+  Legend legend{.title = std::filesystem::path(file).filename().string(), .entries = {}};
   for (const DrapeClass& c : classes)
     legend.entries.push_back({Rgba{c.color[0], c.color[1], c.color[2], c.color[3]}, c.name});
   return legend;

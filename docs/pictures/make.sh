@@ -13,7 +13,7 @@ python() { /usr/bin/python3 "$@"; }
 # One ridge in 200, 2 000 and 20 000 triangles, and in all of them.
 arete-datasets generate -o ridge.tif --size 513 --no-lake --no-sea --seed 3 -q
 arete build ridge.tif -o ridge.amt --features 8 -q
-panel=(--headless --size 1200x520 --camera 409300,5171500,9200msl,353,-24.5,23 --sun 300,30 --pixel-error 0.01 --no-geomorph -q)
+panel=(--headless --size 1200x520 --camera 409300,5171500,9200msl,353,-24.5,23 --sun 300,30 --pixel-error 0.01 --no-geomorph --no-decorations -q)
 for n in 200 2000 20000; do
   arete view ridge.amt "${panel[@]}" --max-triangles $n --wireframe --screenshot "ridge$n.png"
 done

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viewer/decoration/scene_legends.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "terrain/builder/build.h"
+#include "viewer/scene/terrain_subject.h"
+
+namespace arete {
+namespace {
+
+/// A ramp from 200 to 300.
+TerrainModel rampOfHeights() {
+  RasterHeightfield field;
+  field.columns = field.rows = 11;
+  for (std::uint32_t i = 0; i < 121; ++i) field.heights.push_back(200 + 10 * (i % 11));
+  field.georeference.verticalUnit = "m";
+  field.georeference.hasGeoTransform = true;
+  Result<TerrainModel> model = build(field);
+  EXPECT_TRUE(model) << model.error().describe();
+  return std::move(*model);
+}
+
+TEST(SceneLegends, AreOfWhatTheGroundIsColouredBy) {
+  const TerrainModel model = rampOfHeights();
+  const TerrainSubject subject(model);
+  const SceneLegends legends(subject);
+  ViewSettings settings;
+  const auto only = [&] {
+    const auto all = legends.of(settings, {});
+    EXPECT_EQ(all.size(), 1u);
+    return all.empty() ? ColorLegend() : all[0];
+  };
+  const ColorLegend heights = only();
+  EXPECT_EQ(heights.unit, "m");
+  ASSERT_TRUE(heights.scale);
+  EXPECT_EQ(heights.scale->low, 200);
+  EXPECT_EQ(heights.scale->high, 300);
+  EXPECT_EQ(heights.scale->map, heightColors(200, 300));
+  settings.look.coloring = Coloring::aspect;
+  EXPECT_EQ(only().scale->ticks.at(1).second, "east");
+  settings.look.coloring = Coloring::error;
+  settings.pixels = 3;
+  EXPECT_EQ(only().scale->high, 3);
+  EXPECT_EQ(only().unit, "pixels");
+  settings.look.heatError = 12;
+  EXPECT_EQ(only().scale->high, 12);
+  EXPECT_EQ(only().unit, "m");
+  settings.look.coloring = Coloring::plain;
+  EXPECT_TRUE(legends.of(settings, {}).empty());
+}
+
+TEST(SceneLegends, OfLayersComeFirstAndTheHighestIsTheFirst) {
+  const TerrainModel model = rampOfHeights();
+  const TerrainSubject subject(model);
+  const SceneLegends legends(subject);
+  Layers layers;
+  layers.put("contours", Contours{25});
+  layers.put("roads", SpaceVertices{}).legend = {"Roads", {{Rgba{1, 2, 3, 255}, "paved"}}};
+  const auto all = legends.of({}, layers.list());
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0].title, "Roads");
+  EXPECT_EQ(all[0].classes.at(0).label, "paved");
+  EXPECT_EQ(all[0].classes.at(0).colors.at(0), (Rgb{1, 2, 3}));
+  EXPECT_EQ(all[1].classes.at(0).label, "contours, every 25 m");
+  EXPECT_EQ(all[2].title, "height");
+  layers.find("roads")->isVisible = false;
+  EXPECT_EQ(legends.of({}, layers.list()).size(), 2u);
+}
+
+}  // namespace
+}  // namespace arete
