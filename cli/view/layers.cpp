@@ -99,7 +99,12 @@ Status StatedLayers::addTo(Scene& scene, const TerrainModel& model, Session& ses
   if (vectors_.empty()) return {};
   ARETE_TRY(const auto tools, VectorLayerTools::create());
   for (const Vector& stated : vectors_) {
-    if (stated.fill) scene.layers.put(stated.name + " (areas)", stated.fill).opacity = stated.stated.fill;
+    if (stated.fill) {
+      Layer& areas = scene.layers.put(stated.name + " (areas)", stated.fill);
+      areas.opacity = stated.stated.fill;
+      const Rgb& color = stated.stated.style.color;
+      areas.legend = {.title = stated.name, .entries = {{{color.r, color.g, color.b, 255}, "areas"}}};
+    }
     const auto content = std::make_shared<VectorLayer>(stated.features, stated.stated.style, tools);
     Layer& layer = scene.layers.put(stated.name, Layer::Drawn(content));
     layer.opacity = stated.stated.style.opacity;

@@ -63,6 +63,10 @@ Status Scene::draw(const Camera& camera, const ViewSettings& settings) {
 }
 
 Status Scene::drawContents(const Camera& camera, const ViewSettings& settings) {
+  const auto drawsItself = [](const Layer& layer) {
+    return std::holds_alternative<Layer::Drawn>(layer.content);
+  };
+  if (std::ranges::none_of(layers.list(), drawsItself)) return {};
   ARETE_TRY(const FrameView view, drawables_.front()->frameOf(camera, settings));
   std::vector<std::pair<SpaceContent*, SpaceFrame>> contents;
   ++pictures_;

@@ -19,6 +19,7 @@
 #include "engine/parallel/with_threads.h"
 #include "terrain/model/plan_box.h"
 #include "terrain/sight/earth.h"
+#include "viewer/layers/drawn_text.h"
 
 namespace arete {
 namespace {
@@ -266,6 +267,12 @@ class Grounding {
           {WarningCode::omitted,
            fmt::format("{} of {} {} not on the terrain everywhere and drawn where {}", cut, all,
                        agreeing(cut, "is", "are"), agreeing(cut, "it is", "they are"))});
+    const auto foreign = std::size_t(std::ranges::count_if(
+        result_.labels, [](const auto& label) { return !isDrawnAsWritten(label.text); }));
+    if (foreign > 0)
+      result_.warnings.push_back(
+          {WarningCode::display, counted(foreign, "label has letters that the font of pictures lacks",
+                                         "labels have letters that the font of pictures lacks")});
     if (options_.floats) {
       const auto without = std::size_t(
           std::ranges::count_if(layer_.points, [](const auto& point) { return std::isnan(point.z); }));

@@ -54,7 +54,9 @@ Status VectorLayer::drawLabels(const SpaceFrame& frame) {
 }
 
 Legend VectorLayer::legend(const std::string& name) const {
-  return {.title = {}, .entries = {{{style_.color.r, style_.color.g, style_.color.b, 255}, name}}};
+  const bool hasPoints = !features_->points.empty(), hasLines = features_->lines() > 0;
+  const char* what = hasPoints && hasLines ? "points and lines" : hasPoints ? "points" : "lines";
+  return {.title = name, .entries = {{{style_.color.r, style_.color.g, style_.color.b, 255}, what}}};
 }
 
 }  // namespace arete
