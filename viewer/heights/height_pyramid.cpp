@@ -54,7 +54,8 @@ class Slopes {
     const double steepness = std::hypot(east, north);
     HeightPyramid::Ground ground{.covered = coded(1)};
     ground.slope = coded(std::atan(steepness) / (std::numbers::pi / 2));
-    if (steepness > 0) {
+    constexpr double kLevel = 1e-5;  // less is the rounding of heights
+    if (steepness > kLevel) {
       ground.east = coded(-east / steepness);
       ground.north = coded(-north / steepness);
     }
