@@ -153,7 +153,14 @@ GlTexture overlayTexture(const PlanPicture& picture) {
                       picture.rgba.data());
   glGenerateTextureMipmap(texture);
   // The overlay keeps hard edges when it is enlarged: a pixel is one answer.
-  setSampling(texture, GL_LINEAR_MIPMAP_LINEAR, GL_NEAREST);
+  setSampling(texture, GL_LINEAR_MIPMAP_LINEAR, picture.isArea ? GL_LINEAR : GL_NEAREST);
+  if (picture.isArea && !picture.rgba.empty()) {
+    const Rgba& ink = picture.rgba.front();
+    const std::array<float, 4> beyond = {float(ink[0]) / 255, float(ink[1]) / 255, float(ink[2]) / 255, 0};
+    glTextureParameterfv(texture, GL_TEXTURE_BORDER_COLOR, beyond.data());
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  }
   return texture;
 }
 

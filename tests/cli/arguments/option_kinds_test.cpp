@@ -179,6 +179,7 @@ const std::map<std::string, Tried>& triedCommands() {
          {"--range", {"--range 0,1000"}},
          {"--sea-level", {"--sea-level 100"}},
          {"--drape", {"--drape dem.tif"}},
+         {"--layer", {"--layer a.gpkg"}},
          {"--drape-bands", {"--drape-bands 1", "--drape dem.tif"}},
          {"--contours", {"--contours 1"}},
          {"--sun", {"--sun 90,10"}},
