@@ -86,13 +86,14 @@ Result<Viewed> readTerrain(const ViewArguments& a, AmtContainer container, Sessi
     ARETE_TRY(interval, inDataUnit(StatedLength{.number = interval, .unitMetres = 1},
                                    heightUnitOf(model->georeference), stated));
   }
-  viewed.addModel = [&a, &session, model, subject, layers, interval, ground = viewed.ground](Scene& scene) -> Status {
-    ARETE_TRY(TerrainDrawable made,
-              TerrainDrawable::create(
-                  subject,
-                  {.path = a.detail.isCutByProcessor() ? CutPath::processor : CutPath::device,
-                   .heights = {.mostBytes = std::uint64_t(a.appearance.groundMebibytes) << 20}},
-                  session.context()));
+  viewed.addModel = [&a, &session, model, subject, layers, interval,
+                     ground = viewed.ground](Scene& scene) -> Status {
+    ARETE_TRY(
+        TerrainDrawable made,
+        TerrainDrawable::create(subject,
+                                {.path = a.detail.isCutByProcessor() ? CutPath::processor : CutPath::device,
+                                 .heights = {.mostBytes = std::uint64_t(a.appearance.groundMebibytes) << 20}},
+                                session.context()));
     const HeightsOnGpu& heights = made.painter().heights();
     *ground = {{"bytes", heights.bytes()}, {"level", heights.finestLevel()}};
     ARETE_CHECK(scene.add(std::make_unique<TerrainDrawable>(std::move(made))));

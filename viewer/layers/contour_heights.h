@@ -11,8 +11,8 @@
 
 namespace arete {
 
-/// The heights of contour lines, written beside the lines that are drawn heavier: as many as a picture has room
-/// for, far apart from each other.
+/// The heights of contour lines, written beside the lines that are drawn heavier: as many as a picture has
+/// room for, far apart from each other.
 class ContourHeights final : public SpaceContent {
  public:
   /// @param labels  the first ones come first (contourLabels()); those beyond kMost are left out
