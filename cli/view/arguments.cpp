@@ -178,13 +178,14 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
                       ->check(finiteAbove(0))
                       ->type_name("H")
                       ->group(group));
-  kinds.ofTerrain(command
-                      .add_option("--ground-memory", groundMebibytes,
-                                  "Graphics memory of the heights that colours and contours are read from, in MiB "
-                                  "(default 512); with less than all of them need, the finest are left out")
-                      ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 20))
-                      ->type_name("MIB")
-                      ->group(group));
+  kinds.ofTerrain(
+      command
+          .add_option("--ground-memory", groundMebibytes,
+                      "Graphics memory of the heights that colours and contours are read from, in MiB "
+                      "(default 512); with less than all of them need, the finest are left out")
+          ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 20))
+          ->type_name("MIB")
+          ->group(group));
   command.add_option("--sun", sun, "Direction of the sun in degrees (default 315,40)")
       ->type_name("AZIMUTH,ELEVATION")
       ->group(group);

@@ -57,7 +57,7 @@ struct AppearanceArguments {
   std::string color, sun, drapeBands;       ///< empty color: by height, of a surface by material
   std::vector<std::string> drapes, layers;  ///< the lowest first: FILE[,KEY=VALUE]... (layer_argument.h)
   double contours = 0, hazeKilometres = 0, exaggeration = 1;
-  std::int64_t groundMebibytes = 512;  ///< of heights on the device
+  std::int64_t groundMebibytes = 512;          ///< of heights on the device
   std::string contoursWithUnit, hazeWithUnit;  // "OPTION TEXT"; then contours are in metres
   bool hasWireframe = false, isUnshaded = false, isCurved = false;
   bool isPlainPicture = false;  ///< without legend, scale bar, north arrow and graticule

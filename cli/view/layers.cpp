@@ -31,7 +31,8 @@ Error inLayer(Error error, const std::string& option) {
 /// Of a picture of classes; empty of others.
 Result<Legend> drapeLegend(const std::string& file, const std::vector<int>& bands) {
   ARETE_TRY(const auto classes, readDrapeClasses(file, bands));
-  Legend legend{.title = std::filesystem::path(file).filename().string(), .entries = {}};
+  Legend legend;
+  legend.title = std::filesystem::path(file).filename().string();
   for (const DrapeClass& c : classes)
     legend.entries.push_back({Rgba{c.color[0], c.color[1], c.color[2], c.color[3]}, c.name});
   return legend;
@@ -43,7 +44,7 @@ Result<StatedLayers> StatedLayers::read(const AppearanceArguments& arguments,
                                         const std::shared_ptr<const TerrainModel>& model, Session& session) {
   StatedLayers all;
   // Those that the window lays itself.
-  std::vector<std::string> names = {"contours", "viewshed", "line of sight", "flight", "frozen camera"};
+  std::vector<std::string> names = {"contours", "heights of contours", "viewshed", "line of sight", "flight", "frozen camera"};
   const auto named = [&](const std::string& name) { return names.emplace_back(unlike(name, names)); };
   ARETE_TRY(all.drapeOptions_, arguments.drapeOptions());
   for (const std::string& text : arguments.drapes) {

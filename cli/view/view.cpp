@@ -30,6 +30,8 @@
 #include "viewer/camera/flight_json.h"
 #include "viewer/gl/terrain_drawable.h"
 #include "viewer/headless/headless.h"
+#include "viewer/heights/contour_labels.h"
+#include "viewer/layers/contour_heights.h"
 #include "viewer/surface/surface_drawable.h"
 #include "viewer/window/opening.h"
 #include "viewer/window/window.h"
@@ -46,8 +48,8 @@ struct Viewed {
   std::optional<Camera> camera = {};                 ///< that is stated
   std::string source = {};                           ///< that is not to be overwritten
   std::shared_ptr<const TerrainColors> colors = {};  ///< that are stated
-  std::shared_ptr<const StatedLayers> layers = {};
-  FillScene addModel;  ///< keeps the model
+  std::shared_ptr<const StatedLayers> layers = {};   ///< over a terrain
+  FillScene addModel;                                ///< keeps the model
   /// Of the heights on the device; null until the model is added, and of a surface.
   std::shared_ptr<Json> ground = std::make_shared<Json>();
 };
@@ -69,7 +71,7 @@ Result<Viewed> viewedOf(const ViewArguments& a, TerrainModel opened, Session& se
     viewed.camera = stated.camera;
   }
   if (const std::string word = a.appearance.colors.wordOfSea(a.appearance.color, *model);
-      !word.empty() && a.appearance.drape.empty())
+      !word.empty() && a.appearance.drapes.empty())
     session.warn(Warnings{{WarningCode::display, word}}, a.model);
   if (a.appearance.colors.isStated()) {
     Warnings said;
@@ -87,17 +89,22 @@ Result<Viewed> viewedOf(const ViewArguments& a, TerrainModel opened, Session& se
   }
   viewed.addModel = [&a, &session, model, subject, layers, interval,
                      ground = viewed.ground](Scene& scene) -> Status {
-    ARETE_TRY(TerrainDrawable made,
-              TerrainDrawable::create(
-                  subject,
-                  {.path = a.detail.isCutByProcessor() ? CutPath::processor : CutPath::device,
-                   .heights = {.mostBytes = std::uint64_t(a.appearance.groundMebibytes) << 20}},
-                  session.context()));
+    ARETE_TRY(
+        TerrainDrawable made,
+        TerrainDrawable::create(subject,
+                                {.path = a.detail.isCutByProcessor() ? CutPath::processor : CutPath::device,
+                                 .heights = {.mostBytes = std::uint64_t(a.appearance.groundMebibytes) << 20}},
+                                session.context()));
     const HeightsOnGpu& heights = made.painter().heights();
     *ground = {{"bytes", heights.bytes()}, {"level", heights.finestLevel()}};
     ARETE_CHECK(scene.add(std::make_unique<TerrainDrawable>(std::move(made))));
     ARETE_CHECK(layers->addTo(scene, *model, session));
-    if (interval > 0) scene.layers.put("contours", Contours{interval});
+    if (interval > 0) {
+      scene.layers.put("contours", Contours{interval});
+      ARETE_TRY(const std::vector<ContourLabel> labels, contourLabels(*model, interval));
+      ARETE_TRY(auto written, ContourHeights::create(labels));
+      scene.layers.put("heights of contours", Layer::Drawn(std::move(written)));
+    }
     return {};
   };
   return viewed;

@@ -104,9 +104,9 @@ void TerrainPainter::takeColors(const ViewLook& look) {
   colors_ = colors;
 }
 
-// A program is for one look and its layers and has nothing else: what a picture does not show takes no time, and
-// Mesa's software renderer, which computes both sides of a branch, meets no loop over samplers, which it does not
-// compile.
+// A program is for one look and its layers and has nothing else: what a picture does not show takes no time,
+// and Mesa's software renderer, which computes both sides of a branch, meets no loop over samplers, which it
+// does not compile.
 Result<GLuint> TerrainPainter::programFor(const ViewLook* look) {
   std::string layers;
   bool hasContours = false;
@@ -125,12 +125,11 @@ Result<GLuint> TerrainPainter::programFor(const ViewLook* look) {
       look != nullptr && look->hazeKilometres > 0, hasContours, layers);
   const auto known = programs_.find(definitions);
   if (known != programs_.end()) return GLuint(known->second);
-  ARETE_TRY(GlProgram made,
-            makeProgram({{GL_VERTEX_SHADER, {"frame.glsl", "terrain.vert.glsl"}},
-                         {GL_FRAGMENT_SHADER,
-                          {"frame.glsl", "ground.glsl", "contours.glsl", "color_map.glsl", "light.glsl",
-                           "terrain.frag.glsl"},
-                          definitions}}));
+  ARETE_TRY(GlProgram made, makeProgram({{GL_VERTEX_SHADER, {"frame.glsl", "terrain.vert.glsl"}},
+                                         {GL_FRAGMENT_SHADER,
+                                          {"frame.glsl", "ground.glsl", "contours.glsl", "color_map.glsl",
+                                           "light.glsl", "terrain.frag.glsl"},
+                                          definitions}}));
   return GLuint(programs_.emplace(std::move(definitions), std::move(made)).first->second);
 }
 
@@ -242,7 +241,8 @@ Status TerrainPainter::draw(const TerrainOnGpu& terrain, const DrawnFront& front
   return {};
 }
 
-Status TerrainPainter::drawFlat(const TerrainOnGpu& terrain, const DrawnFront& front, const glm::vec4& color) {
+Status TerrainPainter::drawFlat(const TerrainOnGpu& terrain, const DrawnFront& front,
+                                const glm::vec4& color) {
   ARETE_TRY(const GLuint program, programFor(nullptr));
   Look look;
   look.flatColor = color;
@@ -250,14 +250,15 @@ Status TerrainPainter::drawFlat(const TerrainOnGpu& terrain, const DrawnFront& f
   return {};
 }
 
-void TerrainPainter::drawWith(GLuint program, const TerrainOnGpu& terrain, const DrawnFront& front, const Look& look) {
+void TerrainPainter::drawWith(GLuint program, const TerrainOnGpu& terrain, const DrawnFront& front,
+                              const Look& look) {
   glNamedBufferSubData(look_, 0, sizeof look, &look);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, look_);
   glUseProgram(program);
   colorMaps_.bind();
-  glProgramUniform4ui(program, kColorMapPlaces, colorMaps_.place(0), colorMaps_.place(1),
-                      colorMaps_.place(2), colorMaps_.place(3));
+  glProgramUniform4ui(program, kColorMapPlaces, colorMaps_.place(0), colorMaps_.place(1), colorMaps_.place(2),
+                      colorMaps_.place(3));
   glProgramUniform1f(program, kHeightGrain, float(heightGrain_));
   // Codes follow each other as the bits of the floats that they stand for do.
   const auto bitsOf = [&](OutwardScale::Code code) {

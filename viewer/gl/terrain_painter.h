@@ -24,8 +24,8 @@ namespace arete {
 /// Draws fronts of one terrain and the sky behind them, into the framebuffer that is bound.
 class TerrainPainter {
  public:
-  /// Heights, slopes and aspects that are painted are those of full resolution, whatever front is drawn
-  /// (viewer/heights/height_pyramid.h). O(samples). Errors: unsupported, by the driver; those of
+  /// Heights, slopes and aspects that are painted have full resolution, whatever front is drawn
+  /// (viewer/heights/height_pyramid.h). O(samples). Errors: unsupported, by the driver; as
   /// HeightPyramid and HeightsOnGpu.
   static Result<TerrainPainter> create(const TerrainModel& model, const HeightsOptions& options = {},
                                        const RunContext& context = {});
@@ -74,7 +74,7 @@ class TerrainPainter {
   double heightGrain_ = 1;  // heights are coloured as multiples of it
   Vec2 eyePlan_;
   MetricFrame metric_;
-  Vec2 east_, north_;                // of the map, in metric space
+  Vec2 east_, north_;  // of the map, in metric space
   OutwardScale scale_;
 };
 

@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::uint32_t kSquare = 32;
 
-/// Of a square: 0 for those whose column and row are multiples of a large power of two, the more the smaller it is.
+/// The place of a square in the order: the first ones have columns and rows that are multiples of a large
+/// power of two.
 int orderOf(std::uint32_t column, std::uint32_t row) {
   constexpr std::uint32_t kLargest = 1u << 16;
   return 16 - std::min(std::countr_zero(column | kLargest), std::countr_zero(row | kLargest));

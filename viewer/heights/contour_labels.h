@@ -14,12 +14,12 @@ struct ContourLabel {
   double height = 0;  ///< of the line, in the unit of heights
 };
 
-/// Places on the lines that are drawn heavier, every fifth, spread over the terrain: the first ones are far apart,
-/// and those that follow lie between them, so that a picture takes as many as it has room for. At most one of a
-/// level in a square of 32 nodes.
+/// Places on the lines that are drawn heavier, every fifth, spread over the terrain: the first ones are far
+/// apart, and those that follow lie between them, so that a picture takes as many as it has room for. At most
+/// one of a level in a square of 32 nodes.
 ///
 /// @param interval  of all lines, > 0
-/// O(samples), of points O(nodes of a lattice of 2^20). Errors: those of latticeOfTriangles().
+/// O(samples), of points O(nodes of a lattice of 2^20). Errors: as latticeOfTriangles().
 Result<std::vector<ContourLabel>> contourLabels(const TerrainModel& model, double interval);
 
 }  // namespace arete

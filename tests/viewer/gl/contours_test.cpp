@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Contour lines of pictures against the contours of the finest triangulation, marched and projected in the test.
+// Contour lines of pictures against the contours of the finest triangulation, marched and projected in the
+// test.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -81,10 +82,11 @@ auto inkOf(const Image& image) {
 void expectTrueInk(TerrainDrawable& view, const RasterHeightfield& field, const TerrainModel& model,
                    const Camera& camera, double interval, double pixels) {
   SCOPED_TRACE(fmt::format("camera {:.1f},{:.1f},{:.0f},{:.0f},{:.0f}, interval {}, {} pixels", camera.xy.x,
-                           camera.xy.y, camera.height, camera.azimuthDegrees, camera.pitchDegrees, interval, pixels));
+                           camera.xy.y, camera.height, camera.azimuthDegrees, camera.pitchDegrees, interval,
+                           pixels));
   const Picture picture = drawn(view, camera, inkAlone(pixels), interval);
-  const InkReport r = test::compareInk(field, model, camera, interval, pixels + 0.5, picture.depths,
-                                       inkOf(picture.image));
+  const InkReport r =
+      test::compareInk(field, model, camera, interval, pixels + 0.5, picture.depths, inkOf(picture.image));
   EXPECT_LE(r.astray(), 0.01) << r.inkAstray << " of " << r.ink;
   // A tenth of a pixel leaves no room for the ink of lines that bend within one.
   EXPECT_LE(r.indexAway(), pixels < 0.5 ? 0.015 : 0.01) << r.indexWithout << " of " << r.index;
@@ -130,7 +132,8 @@ TEST(Contours, TheSeaAndLakesAtALevelHaveNone) {
   auto view = TerrainDrawable::create(*model, {});
   ASSERT_TRUE(view);
   for (const double height : {400.0, 2500.0, 20000.0}) {
-    const Camera camera{.xy = {900, -900}, .height = height, .pitchDegrees = -90, .widthPixels = 300, .heightPixels = 300};
+    const Camera camera{
+        .xy = {900, -900}, .height = height, .pitchDegrees = -90, .widthPixels = 300, .heightPixels = 300};
     const Picture picture = drawn(*view, camera, inkAlone(1), 50);
     const test::ScreenOfModel screen(camera, *model);
     const auto hasInk = inkOf(picture.image);

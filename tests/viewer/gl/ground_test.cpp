@@ -48,7 +48,8 @@ TerrainModel modelFrom(const auto& height, std::uint32_t side, double step) {
   field.georeference.geoTransform = {0, step, 0, 0, 0, -step};
   field.georeference.hasGeoTransform = true;
   for (std::uint32_t row = 0; row < side; ++row)
-    for (std::uint32_t column = 0; column < side; ++column) field.heights.push_back(height(column * step, -double(row) * step));
+    for (std::uint32_t column = 0; column < side; ++column)
+      field.heights.push_back(height(column * step, -double(row) * step));
   auto model = build(field);
   EXPECT_TRUE(model);
   return std::move(*model);
@@ -148,7 +149,9 @@ TEST(Ground, AspectsThatCancelHaveTheColourOfNone) {
   for (int y = 2; y < 8; ++y)
     for (int x = 2; x < 8; ++x) {
       const Rgb c = image.at(x, y);
-      EXPECT_LE(std::max({std::abs(c.r - kNoAspectColor.r), std::abs(c.g - kNoAspectColor.g), std::abs(c.b - kNoAspectColor.b)}), 3);
+      EXPECT_LE(std::max({std::abs(c.r - kNoAspectColor.r), std::abs(c.g - kNoAspectColor.g),
+                          std::abs(c.b - kNoAspectColor.b)}),
+                3);
     }
 }
 
@@ -171,7 +174,8 @@ TEST(Ground, LevelsThatDoNotFitAreLeftOutWithAWord) {
 // The same picture through tiles of any size: no seam between them.
 TEST(Ground, TilesHaveNoSeams) {
   ARETE_NEEDS_OPENGL(context);
-  const TerrainModel model = modelFrom([](double x, double y) { return 80 * std::sin(x / 90) * std::cos(y / 70); }, 150, 10);
+  const TerrainModel model =
+      modelFrom([](double x, double y) { return 80 * std::sin(x / 90) * std::cos(y / 70); }, 150, 10);
   std::vector<Image> images;
   for (const std::uint32_t side : {5u, 64u, 512u}) {
     auto view = TerrainDrawable::create(model, {.heights = {.tileSide = side}});

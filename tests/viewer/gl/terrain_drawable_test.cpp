@@ -178,8 +178,8 @@ TEST(TerrainDrawable, PicturesAgreeWithARasteriserOfAnotherKind) {
           const int off = std::max(
               {std::abs(expected.r - got.r), std::abs(expected.g - got.g), std::abs(expected.b - got.b)});
           if (off <= 3) continue;
-          // The colour is that of the true height at the place, which a drawn triangle misses by the tolerance: it
-          // lies between those of the heights of the places around.
+          // The colour is that of the true height at the place, which a drawn triangle misses by the
+          // tolerance: it lies between those of the heights of the places around.
           double lowest = 1, highest = 0;
           for (int dy = std::max(-2, -y); dy <= std::min(2, 199 - y); ++dy)
             for (int dx = std::max(-2, -x); dx <= std::min(2, 319 - x); ++dx) {
@@ -189,9 +189,15 @@ TEST(TerrainDrawable, PicturesAgreeWithARasteriserOfAnotherKind) {
               lowest = std::min(lowest, (there->height - low) / (high - low));
               highest = std::max(highest, (there->height - low) / (high - low));
             }
-          const Rgb from = colorTable("height").at(lowest).opaque(), to = colorTable("height").at(highest).opaque();
-          const auto isBetween = [](int a, int b, int c) { return c >= std::min(a, b) - 3 && c <= std::max(a, b) + 3; };
-          wrongColor += isBetween(from.r, to.r, got.r) && isBetween(from.g, to.g, got.g) && isBetween(from.b, to.b, got.b) ? 0 : 1;
+          const Rgb from = colorTable("height").at(lowest).opaque(),
+                    to = colorTable("height").at(highest).opaque();
+          const auto isBetween = [](int a, int b, int c) {
+            return c >= std::min(a, b) - 3 && c <= std::max(a, b) + 3;
+          };
+          wrongColor += isBetween(from.r, to.r, got.r) && isBetween(from.g, to.g, got.g) &&
+                                isBetween(from.b, to.b, got.b)
+                            ? 0
+                            : 1;
         }
       }
     EXPECT_EQ(wrong, 0);

@@ -19,7 +19,8 @@ TEST(ContourLevels, AreCountedFromAMultipleOfTheInterval) {
     for (const double base : {-4321.0, 0.0, 3589.0, 1737400.0}) {
       const ContourLevels levels = contourLevels(interval, base, 4000);
       const double height = base + 12.34, level = (height - base) / interval + levels.shift;
-      EXPECT_NEAR(std::remainder(level - height / interval, ContourLevels::kCycle), 0, 1e-6 * (1 + std::abs(base) / interval));
+      EXPECT_NEAR(std::remainder(level - height / interval, ContourLevels::kCycle), 0,
+                  1e-6 * (1 + std::abs(base) / interval));
       EXPECT_GT(levels.lift, 0);
       EXPECT_LT(levels.lift * interval, std::max(1e-4 * interval, 0.002));
     }

@@ -94,8 +94,9 @@ Sight sightOf(vec2 overGround) {
   s.dy = up * groundStep.xy;
   float xx = s.dx.x * s.dx.x + s.dy.x * s.dy.x, yy = s.dx.y * s.dx.y + s.dy.y * s.dy.y, xy = s.dx.x * s.dx.y + s.dy.x * s.dy.y;
   float middle = 0.5 * (xx + yy), apart = 0.5 * (xx - yy), around = sqrt(apart * apart + xy * xy);
-  s.longer = sqrt(middle + around);
   s.shorter = sqrt(max(middle - around, 0.0));
+  // A triangle that is seen along itself covers ground without end: eight times the shorter axis of it count.
+  s.longer = min(sqrt(middle + around), 8.0 * max(s.shorter, 0.25));
   vec2 axis = apart >= 0.0 ? vec2(apart + around, xy) : vec2(xy, around - apart);
   s.axis = axis * (s.longer / max(length(axis), 1e-30));
   return s;
