@@ -27,7 +27,7 @@ struct ColorTable {
 ///
 /// | name | values | |
 /// |---|---|---|
-/// | height | 0 to 1 | violet grey, sand, straw; neither green (no forest) nor white (no snow) nor blue |
+/// | height | 0 to 1 | mauve brown, ochre, straw; neither green (no forest) nor white (no snow) nor blue |
 /// | depth | 0 (deepest) to 1 (shore) | blues |
 /// | slope | 0 to 60 degrees | cream to dark plum: steep is dark |
 /// | aspect | 0 to 360 degrees clockwise from north | hues of one lightness; north blue, south ochre |
