@@ -78,8 +78,15 @@ const ColorMap& colorTable(std::string_view name) {
 
 ColorMap withSea(const ColorMap& land, double seaLevel, double low) {
   const auto level = float(seaLevel);
-  const double deepest = std::min(low, seaLevel - 1);
-  std::vector<ColorStop> stops = colorTable("depth").over(deepest, double(level)).stops();
+  const ColorMap& depths = colorTable("depth");
+  std::vector<ColorStop> stops;
+  if (low < seaLevel) {
+    stops = depths.over(std::min(low, seaLevel - 1), double(level)).stops();
+  } else {
+    // Without depths all water has the colour of the shore, on a strip of its own in legends.
+    const double strip = std::max(0.05 * (land.high() - seaLevel), 1e-6);
+    for (const double value : {seaLevel - strip, double(level)}) stops.push_back({value, depths.at(1), {}});
+  }
   // A sea at exactly its level is sea, so the land begins at the next float.
   const double shore = double(std::nextafter(level, std::numeric_limits<float>::infinity()));
   ColorMapOptions options = land.options();

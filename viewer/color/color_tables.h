@@ -48,8 +48,8 @@ const ColorTable* findColorTable(std::string_view name);
 inline constexpr Rgb kNoAspectColor = {166, 166, 166};
 
 /// Heights from `low` to `high` as "height". With a sea level, what lies at or below it has the colours of
-/// "depth" down to `low` (at least one unit below the level), and the land's begin above it.
-/// Precondition: finite, low <= high.
+/// "depth" down to `low` (at least one unit below the level), and the land's begin above it. Where nothing
+/// lies below the level, all water has the colour of the shore. Precondition: finite, low <= high.
 ColorMap heightColors(double low, double high, std::optional<double> seaLevel = {});
 
 /// A map with its own colours above a sea level and the colours of "depth" at and below it, down to `low`.
