@@ -17,9 +17,9 @@ namespace arete {
 namespace {
 
 // NOLINTBEGIN(modernize-use-designated-initializers)
-constexpr Rgb kHeightStops[] = {{110, 102, 116}, {137, 115, 117}, {162, 128, 118},
-                                {179, 145, 120}, {197, 162, 122}, {211, 180, 134},
-                                {225, 198, 149}, {237, 217, 170}, {247, 236, 196}};
+constexpr Rgb kHeightStops[] = {{116, 95, 95},   {138, 109, 102}, {161, 124, 108},
+                                {178, 141, 114}, {195, 159, 120}, {210, 178, 132},
+                                {224, 197, 147}, {237, 216, 168}, {247, 236, 196}};
 constexpr Rgb kDepthStops[] = {{14, 40, 84},   {19, 56, 104},   {24, 73, 124},
                                {33, 90, 143},  {48, 107, 159},  {63, 125, 174},
                                {82, 144, 188}, {105, 162, 200}, {128, 180, 212}};
@@ -78,8 +78,15 @@ const ColorMap& colorTable(std::string_view name) {
 
 ColorMap withSea(const ColorMap& land, double seaLevel, double low) {
   const auto level = float(seaLevel);
-  const double deepest = std::min(low, seaLevel - 1);
-  std::vector<ColorStop> stops = colorTable("depth").over(deepest, double(level)).stops();
+  const ColorMap& depths = colorTable("depth");
+  std::vector<ColorStop> stops;
+  if (low < seaLevel) {
+    stops = depths.over(std::min(low, seaLevel - 1), double(level)).stops();
+  } else {
+    // Without depths all water has the colour of the shore, on a strip of its own in legends.
+    const double strip = std::max(0.05 * (land.high() - seaLevel), 1e-6);
+    for (const double value : {seaLevel - strip, double(level)}) stops.push_back({value, depths.at(1), {}});
+  }
   // A sea at exactly its level is sea, so the land begins at the next float.
   const double shore = double(std::nextafter(level, std::numeric_limits<float>::infinity()));
   ColorMapOptions options = land.options();

@@ -27,7 +27,7 @@ struct ColorTable {
 ///
 /// | name | values | |
 /// |---|---|---|
-/// | height | 0 to 1 | violet grey, sand, straw; neither green (no forest) nor white (no snow) nor blue |
+/// | height | 0 to 1 | mauve brown, ochre, straw; neither green (no forest) nor white (no snow) nor blue |
 /// | depth | 0 (deepest) to 1 (shore) | blues |
 /// | slope | 0 to 60 degrees | cream to dark plum: steep is dark |
 /// | aspect | 0 to 360 degrees clockwise from north | hues of one lightness; north blue, south ochre |
@@ -48,8 +48,8 @@ const ColorTable* findColorTable(std::string_view name);
 inline constexpr Rgb kNoAspectColor = {166, 166, 166};
 
 /// Heights from `low` to `high` as "height". With a sea level, what lies at or below it has the colours of
-/// "depth" down to `low` (at least one unit below the level), and the land's begin above it.
-/// Precondition: finite, low <= high.
+/// "depth" down to `low` (at least one unit below the level), and the land's begin above it. Where nothing
+/// lies below the level, all water has the colour of the shore. Precondition: finite, low <= high.
 ColorMap heightColors(double low, double high, std::optional<double> seaLevel = {});
 
 /// A map with its own colours above a sea level and the colours of "depth" at and below it, down to `low`.

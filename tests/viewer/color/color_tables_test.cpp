@@ -108,7 +108,8 @@ TEST(ColorTables, HaveNoHeightThatLooksLikeForestSnowWaterOrNoData) {
       EXPECT_GT(colorDifference(c, sampled(colorTable("depth"), k)), 10) << "no water at " << i;
   }
   for (int k = 0; k <= kSamples; k += 10)
-    EXPECT_GT(colorDifference(kNodataColor, sampled(colorTable("depth"), k)), 10) << "a void is unlike a lake";
+    EXPECT_GT(colorDifference(kNodataColor, sampled(colorTable("depth"), k)), 10)
+        << "a void is unlike a lake";
 }
 
 TEST(ColorTables, ShowASeaAtItsLevelAsSeaAndTheNextFloatAsLand) {
@@ -121,6 +122,9 @@ TEST(ColorTables, ShowASeaAtItsLevelAsSeaAndTheNextFloatAsLand) {
   EXPECT_EQ(map.at(0.01), heights.at(0.01 / 250));
   EXPECT_EQ(map.at(250), heights.at(1));
   EXPECT_EQ(map.at(std::nan("")), Rgba(kNodataColor));
+  EXPECT_EQ(heightColors(0, 2000, 0).at(0), depths.at(1));
+  EXPECT_EQ(heightColors(0, 2000, 0).at(-900), depths.at(1)) << "no depth is known";
+  EXPECT_EQ(heightColors(0, 2000, 0).at(2000), heights.at(1));
   // A level above all of the land, and one below it.
   EXPECT_EQ(heightColors(10, 20, 110).at(20), depths.at(0.1));
   EXPECT_EQ(heightColors(10, 20, -100).at(10), heights.at(0));
