@@ -10,7 +10,7 @@
 #include <numbers>
 #include <utility>
 
-#include "io/geo/crs/names.h"
+#include "io/geo/crs/prime_meridian.h"
 
 namespace arete {
 namespace {

@@ -31,14 +31,6 @@ bool isGeographicCrs(const std::string& crs) {
   return parsed && parsed->IsGeographic() != 0;
 }
 
-double primeMeridianOf(const std::string& crs) {
-  if (crs.empty()) return 0;
-  registerGdal();
-  GdalErrors quiet;
-  const auto parsed = crsFromText(crs);
-  return parsed ? parsed->GetPrimeMeridian() : 0;
-}
-
 CrsAgreement compareCrs(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty()) return CrsAgreement::unknown;
   if (a == b) return CrsAgreement::same;

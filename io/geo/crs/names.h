@@ -14,9 +14,6 @@ std::string crsName(const std::string& crs);
 /// @return True if x and y of the CRS are longitude and latitude. False if it is empty or not understood.
 bool isGeographicCrs(const std::string& crs);
 
-/// Of the prime meridian of a CRS, in degrees east of Greenwich; 0 if the text is empty or not understood.
-double primeMeridianOf(const std::string& crs);
-
 enum class CrsAgreement {
   same,
   different,
