@@ -10,6 +10,8 @@
 #include <numbers>
 #include <utility>
 
+#include "io/geo/crs/prime_meridian.h"
+
 namespace arete {
 namespace {
 
@@ -37,6 +39,13 @@ PictureGround::PictureGround(Parts parts) : parts_(std::move(parts)) {
   // Not every CRS has longitudes: a building site has none.
   if (auto made = CrsLonLat::of(parts_.georeference))
     lonLat_ = std::make_shared<const CrsLonLat>(std::move(*made));
+  primeMeridian_ = primeMeridianOf(parts_.georeference.crsWkt);
+}
+
+Vec2 PictureGround::toCrs(Vec2 lonLat) const {
+  lonLat.x -= primeMeridian_;
+  lonLat_->toCrs({&lonLat, 1});
+  return lonLat;
 }
 
 PictureGround PictureGround::ofMap(const MapView& view, const Georeference& georeference, Vec2 leftTop) {
@@ -59,7 +68,7 @@ std::optional<Vec2> PictureGround::lonLatOf(Vec2 source) const {
   if (!lonLat_) return {};
   lonLat_->toLonLat({&source, 1});
   if (!isFinite(source) || std::abs(source.y) > 90) return {};
-  return source;
+  return Vec2{source.x + primeMeridian_, source.y};
 }
 
 std::optional<Vec2> PictureGround::lonLatAt(Vec2 pixel) const {
@@ -69,9 +78,9 @@ std::optional<Vec2> PictureGround::lonLatAt(Vec2 pixel) const {
 
 std::optional<Vec2> PictureGround::pixelOf(Vec2 lonLat) const {
   if (!lonLat_) return {};
-  lonLat_->toCrs({&lonLat, 1});
-  if (!isFinite(lonLat)) return {};
-  const auto pixel = parts_.toPixel(lonLat);
+  const Vec2 source = toCrs(lonLat);
+  if (!isFinite(source)) return {};
+  const auto pixel = parts_.toPixel(source);
   return pixel && isFinite(*pixel) ? pixel : std::nullopt;
 }
 
@@ -131,8 +140,7 @@ std::optional<PictureGround::North> PictureGround::northAt(Vec2 pixel) const {
     geodesicOf(parts_.georeference)
         .Direct(place->y, place->x, sign < 0 ? 180 : 0, metres, latitude, longitude);
     // Both ends are on one meridian, and a plain longitude keeps its turn.
-    Vec2 source = {place->x, latitude};
-    lonLat_->toCrs({&source, 1});
+    const Vec2 source = toCrs({place->x, latitude});
     if (isFinite(source))
       if (const auto way = towards(source))
         return North{*way * sign, true, -bearingOnMap((source - *here) * sign)};

@@ -54,7 +54,7 @@ class PictureGround {
   bool hasPlainLongitudes() const { return lonLat_ && lonLat_->isPlain(); }
 
   std::optional<Vec2> sourceAt(Vec2 pixel) const { return parts_.toSource(pixel); }
-  /// Of the CRS's own datum, in degrees; longitudes from its own prime meridian.
+  /// Of the CRS's own datum, in degrees; longitudes from Greenwich, whatever its prime meridian.
   std::optional<Vec2> lonLatOf(Vec2 source) const;
   std::optional<Vec2> lonLatAt(Vec2 pixel) const;
   std::optional<Vec2> pixelOf(Vec2 lonLat) const;
@@ -77,8 +77,12 @@ class PictureGround {
   std::optional<North> northAt(Vec2 pixel) const;
 
  private:
+  /// Source coordinates; not finite where the CRS does not reach.
+  Vec2 toCrs(Vec2 lonLat) const;
+
   Parts parts_;
   std::shared_ptr<const CrsLonLat> lonLat_;
+  double primeMeridian_ = 0;  // degrees east of Greenwich
 };
 
 }  // namespace arete

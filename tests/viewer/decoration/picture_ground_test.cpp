@@ -32,6 +32,22 @@ TEST(PictureGround, LeadsFromPixelsToPlacesAndBack) {
   }
 }
 
+TEST(PictureGround, CountsLongitudesFromGreenwich) {
+  // The grid of Paris: its central meridian is 2 degrees 20 minutes 14.025 seconds east.
+  Georeference paris = mapAbout("EPSG:27572", {600000, 2428000}, 10);
+  paris.semiMajorAxisMetres = 6378249.2;
+  paris.inverseFlattening = 293.4660212936265;
+  const PictureGround ground = pictureOf(paris);
+  const auto place = ground.lonLatAt(middleOf(ground));
+  ASSERT_TRUE(place);
+  EXPECT_NEAR(place->x, 2 + 20.0 / 60 + 14.025 / 3600, 1e-5);
+  EXPECT_NEAR(place->y, 48.85, 0.02);
+  const auto back = ground.pixelOf(*place);
+  ASSERT_TRUE(back);
+  EXPECT_NEAR(back->x, middleOf(ground).x, 1e-6);
+  EXPECT_NEAR(ground.northAt(middleOf(ground))->convergenceDegrees, 0, 1e-3);
+}
+
 TEST(PictureGround, KnowsNoPlacesWithoutACrs) {
   const PictureGround ground = pictureOf(mapAbout("", {0, 0}, 2));
   EXPECT_FALSE(ground.hasCrs());
