@@ -47,6 +47,7 @@ class TerrainDrawable final : public Drawable {
   }
   std::uint32_t capacity() const override { return device_ ? device_->capacity() : 0; }
   std::string deviceRefusal() const override { return terrain_.refusal; }
+  Warnings warnings() const override { return painter_.heights().warnings(); }
 
   TerrainPainter& painter() { return painter_; }
   const TerrainOnGpu& terrain() const { return terrain_; }

@@ -169,6 +169,9 @@ TEST(Ground, LevelsThatDoNotFitAreLeftOutWithAWord) {
   EXPECT_LE(half->bytes(), whole->bytes() / 2);
   ASSERT_EQ(half->warnings().size(), 1u);
   EXPECT_FALSE(HeightsOnGpu::load(pyramid, {.mostBytes = 100}));
+  const auto view = TerrainDrawable::create(model, {.heights = {.mostBytes = whole->bytes() / 2}});
+  ASSERT_TRUE(view);
+  EXPECT_EQ(view->warnings(), half->warnings());
 }
 
 // The same picture through tiles of any size: no seam between them.
