@@ -144,10 +144,12 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
   this->colors.addTo(command, group, kinds);
   CLI::Option* picture = kinds.ofTerrain(
       command
-          .add_option(
-              "--drape", drape,
-              "Georeferenced picture over the terrain, in any CRS; --color shows where it does not reach")
-          ->type_name("FILE")
+          .add_option("--drape", drapes,
+                      "Georeferenced picture over the terrain, in any CRS; --color shows where it does not "
+                      "reach. Several "
+                      "lie over each other as stated; ,opacity=O (0 to 1) lets what is below shine through")
+          ->allow_extra_args(false)
+          ->type_name("FILE[,opacity=O]")
           ->group(group));
   kinds.ofTerrain(
       command
@@ -155,6 +157,18 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
                       "Bands of the picture: one (grey) or red, green and blue (default: as the file says)")
           ->needs(picture)
           ->type_name("R,G,B")
+          ->group(group));
+  kinds.ofTerrain(
+      command
+          .add_option(
+              "--layer", layers,
+              "Points, lines or outlines of polygons over the terrain, of any vector file and CRS, as "
+              "stated over each other. Keys: name of its layer, label (field), where (a condition of SQL), "
+              "color (#rrggbb), width "
+              "(pixels), opacity and fill of polygons (0 to 1), crs, title, height (ground; own: as the "
+              "places state)")
+          ->allow_extra_args(false)
+          ->type_name("FILE[,KEY=VALUE]...")
           ->group(group));
   kinds.ofTerrain(command
                       .add_option("--contours", contours,
@@ -164,6 +178,14 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
                       ->check(finiteAbove(0))
                       ->type_name("H")
                       ->group(group));
+  kinds.ofTerrain(
+      command
+          .add_option("--ground-memory", groundMebibytes,
+                      "Graphics memory of the heights that colours and contours are read from, in MiB "
+                      "(default 512); with less than all of them need, the finest are left out")
+          ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 20))
+          ->type_name("MIB")
+          ->group(group));
   command.add_option("--sun", sun, "Direction of the sun in degrees (default 315,40)")
       ->type_name("AZIMUTH,ELEVATION")
       ->group(group);

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "cli/arguments/option_kinds.h"
 #include "cli/session/session.h"
@@ -53,8 +54,10 @@ struct DetailArguments {
 
 /// Colours, light, and the image draped over the terrain.
 struct AppearanceArguments {
-  std::string color, sun, drape, drapeBands;  ///< empty color: by height, of a surface by material
+  std::string color, sun, drapeBands;       ///< empty color: by height, of a surface by material
+  std::vector<std::string> drapes, layers;  ///< the lowest first: FILE[,KEY=VALUE]... (layer_argument.h)
   double contours = 0, hazeKilometres = 0, exaggeration = 1;
+  std::int64_t groundMebibytes = 512;          ///< of heights on the device
   std::string contoursWithUnit, hazeWithUnit;  // "OPTION TEXT"; then contours are in metres
   bool hasWireframe = false, isUnshaded = false, isCurved = false;
   ColorArguments colors;

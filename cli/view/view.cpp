@@ -17,6 +17,7 @@
 #include "cli/arguments/arguments.h"
 #include "cli/surface/camera.h"
 #include "cli/view/arguments.h"
+#include "cli/view/layers.h"
 #include "cli/view/pictures.h"
 #include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/longitude_turns.h"
@@ -25,9 +26,10 @@
 #include "io/store/amt/file.h"
 #include "io/store/amt/surface_file.h"
 #include "viewer/camera/flight_json.h"
-#include "viewer/gl/drape_on_gpu.h"
 #include "viewer/gl/terrain_drawable.h"
 #include "viewer/headless/headless.h"
+#include "viewer/heights/contour_labels.h"
+#include "viewer/layers/contour_heights.h"
 #include "viewer/surface/surface_drawable.h"
 #include "viewer/window/window.h"
 
@@ -43,7 +45,10 @@ struct Viewed {
   std::optional<Camera> camera = {};                 ///< that is stated
   std::string source = {};                           ///< that is not to be overwritten
   std::shared_ptr<const TerrainColors> colors = {};  ///< that are stated
+  std::shared_ptr<const StatedLayers> layers = {};   ///< over a terrain
   FillScene addModel;                                ///< keeps the model
+  /// Of the heights on the device; null until the model is added, and of a surface.
+  std::shared_ptr<Json> ground = std::make_shared<Json>();
 };
 
 Result<Viewed> readTerrain(const ViewArguments& a, AmtContainer container, Session& session) {
@@ -65,7 +70,7 @@ Result<Viewed> readTerrain(const ViewArguments& a, AmtContainer container, Sessi
     viewed.camera = stated.camera;
   }
   if (const std::string word = a.appearance.colors.wordOfSea(a.appearance.color, *model);
-      !word.empty() && a.appearance.drape.empty())
+      !word.empty() && a.appearance.drapes.empty())
     session.warn(Warnings{{WarningCode::display, word}}, a.model);
   if (a.appearance.colors.isStated()) {
     Warnings said;
@@ -73,24 +78,32 @@ Result<Viewed> readTerrain(const ViewArguments& a, AmtContainer container, Sessi
     session.warn(said, a.appearance.colors.ramp);
     viewed.colors = std::make_shared<const TerrainColors>(colors);
   }
-  ARETE_TRY(const DrapeOptions drapeOptions, a.appearance.drapeOptions());
+  ARETE_TRY(StatedLayers readLayers, StatedLayers::read(a.appearance, model, session));
+  const auto layers = std::make_shared<const StatedLayers>(std::move(readLayers));
+  viewed.layers = layers;
   double interval = a.appearance.contours;
   if (const std::string& stated = a.appearance.contoursWithUnit; !stated.empty()) {
     ARETE_TRY(interval, inDataUnit(StatedLength{.number = interval, .unitMetres = 1},
                                    heightUnitOf(model->georeference), stated));
   }
-  viewed.addModel = [&a, &session, model, subject, drapeOptions, interval](Scene& scene) -> Status {
-    ARETE_TRY(TerrainDrawable made,
-              TerrainDrawable::create(
-                  subject, {.path = a.detail.isCutByProcessor() ? CutPath::processor : CutPath::device},
-                  session.context()));
+  viewed.addModel = [&a, &session, model, subject, layers, interval,
+                     ground = viewed.ground](Scene& scene) -> Status {
+    ARETE_TRY(
+        TerrainDrawable made,
+        TerrainDrawable::create(subject,
+                                {.path = a.detail.isCutByProcessor() ? CutPath::processor : CutPath::device,
+                                 .heights = {.mostBytes = std::uint64_t(a.appearance.groundMebibytes) << 20}},
+                                session.context()));
+    const HeightsOnGpu& heights = made.painter().heights();
+    *ground = {{"bytes", heights.bytes()}, {"level", heights.finestLevel()}};
     ARETE_CHECK(scene.add(std::make_unique<TerrainDrawable>(std::move(made))));
-    if (const std::string& file = a.appearance.drape; !file.empty()) {
-      ARETE_TRY(DrapeOnGpu drape, DrapeOnGpu::load(file, *model, drapeOptions, session.context()));
-      session.warn(drape.warnings(), file);
-      scene.layers.put("drape", std::make_shared<const DrapeOnGpu>(std::move(drape)));
+    ARETE_CHECK(layers->addTo(scene, *model, session));
+    if (interval > 0) {
+      scene.layers.put("contours", Contours{interval});
+      ARETE_TRY(const std::vector<ContourLabel> labels, contourLabels(*model, interval));
+      ARETE_TRY(auto written, ContourHeights::create(labels));
+      scene.layers.put("heights of contours", Layer::Drawn(std::move(written)));
     }
-    if (interval > 0) scene.layers.put("contours", Contours{interval});
     return {};
   };
   return viewed;
@@ -179,7 +192,9 @@ Status runView(ViewArguments a, Session& session) {
     std::error_code failed;  // drawFilm() says why; the film may lie in it
     std::filesystem::create_directories(a.pictures.frames, failed);
   }
-  ARETE_CHECK(checkPictureOutputs(a, {a.model, a.viewpoint.path, a.appearance.drape, viewed.source}));
+  std::vector<std::string> inputs = layerFiles(a.appearance);
+  for (const std::string& input : {a.model, a.viewpoint.path, viewed.source}) inputs.push_back(input);
+  ARETE_CHECK(checkPictureOutputs(a, inputs));
 
   const Camera start = flight && !a.viewpoint.statesCamera() ? flight->at(0) : camera;
   if (!a.pictures.isHeadless) {
@@ -202,13 +217,8 @@ Status runView(ViewArguments a, Session& session) {
   session.warn(view.warnings(), a.model);
   Json json = {{"model", a.model}, {"kind", subject.kind()}, {"renderer", view.description()}};
   a.detail.addBudgetTo(json, viewed.finestTriangles);
-  if (const Layer* layer = view.scene().layers.find("drape")) {
-    const DrapeOnGpu& drape = *std::get<Layer::Drape>(layer->content);
-    json["drape"] = {{"file", a.appearance.drape},
-                     {"columns", drape.columns()},
-                     {"rows", drape.rows()},
-                     {"bytes", drape.bytes()}};
-  }
+  if (!viewed.ground->is_null()) json["heights"] = *viewed.ground;
+  if (viewed.layers) viewed.layers->describe(view.scene(), json);
   if (!a.pictures.screenshot.empty()) ARETE_CHECK(takeScreenshot(a, start, view, session, json));
   if (!a.pictures.frames.empty()) ARETE_CHECK(makeFilm(a, *flight, view, session, json));
   session.answer(json);

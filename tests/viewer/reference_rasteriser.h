@@ -42,12 +42,15 @@ class MapCamera {
     const Vec3 s = project(p);
     return s.z > 0 && s.x >= 0 && s.x <= width_ && s.y >= 0 && s.y <= height_;
   }
-  /// The height of what is at so much depth in the middle of a pixel.
-  double heightAt(int x, int y, double depth) const {
+  /// What is at so much depth in the middle of a pixel.
+  Vec3 placeAt(double x, double y, double depth) const {
     const double right = (x + 0.5 - width_ / 2) / focal_ * depth,
                  up = (height_ / 2 - y - 0.5) / focal_ * depth;
-    return eye_.z + depth * forward_.z + right * right_.z + up * up_.z;
+    return {eye_.x + depth * forward_.x + right * right_.x + up * up_.x,
+            eye_.y + depth * forward_.y + right * right_.y + up * up_.y,
+            eye_.z + depth * forward_.z + right * right_.z + up * up_.z};
   }
+  double heightAt(int x, int y, double depth) const { return placeAt(x, y, depth).z; }
 
  private:
   static double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }

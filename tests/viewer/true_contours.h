@@ -34,7 +34,8 @@ class ScreenOfModel {
   Vec3 project(const Vec3& p) const {
     const Vec3 d = p - view_.eye;
     const double depth = dot(d, view_.forward);
-    return {width_ / 2 + focal_ * dot(d, right_) / depth, height_ / 2 - focal_ * dot(d, view_.up) / depth, depth};
+    return {width_ / 2 + focal_ * dot(d, right_) / depth, height_ / 2 - focal_ * dot(d, view_.up) / depth,
+            depth};
   }
   Vec3 unproject(double x, double y, double depth) const {
     return view_.eye + depth * (view_.forward + ((x - width_ / 2) / focal_) * right_ +
@@ -47,8 +48,8 @@ class ScreenOfModel {
   double width_, height_, focal_ = 1;
 };
 
-/// The contours of one cell: visit(level, from, to) with ends in plan coordinates and the level's number. Ground
-/// exactly at a level counts as below it.
+/// The contours of one cell: visit(level, from, to) with ends in plan coordinates and the level's number.
+/// Ground exactly at a level counts as below it.
 template <class Visit>
 void contoursOfCell(const RasterHeightfield& field, std::uint32_t column, std::uint32_t row, double interval,
                     const Visit& visit) {
@@ -75,9 +76,9 @@ void contoursOfCell(const RasterHeightfield& field, std::uint32_t column, std::u
 }
 
 struct InkReport {
-  std::int64_t ink = 0, inkAstray = 0;            ///< pixels with ink; of these too far from every contour
-  std::int64_t index = 0, indexWithout = 0;       ///< pixels of visible index lines; of these without ink
-  std::int64_t contour = 0, contourWithout = 0;   ///< the same of all lines
+  std::int64_t ink = 0, inkAstray = 0;           ///< pixels with ink; of these too far from every contour
+  std::int64_t index = 0, indexWithout = 0;      ///< pixels of visible index lines; of these without ink
+  std::int64_t contour = 0, contourWithout = 0;  ///< the same of all lines
   double astray() const { return ink > 0 ? double(inkAstray) / double(ink) : 0; }
   double without() const { return contour > 0 ? double(contourWithout) / double(contour) : 0; }
   double indexAway() const { return index > 0 ? double(indexWithout) / double(index) : 0; }
@@ -148,7 +149,8 @@ inline InkReport compareInk(const RasterHeightfield& field, const TerrainModel& 
                              to{(plan.x - a.x) * metric.scale.x, (plan.y - a.y) * metric.scale.y};
                          const double length = along.x * along.x + along.y * along.y;
                          const double t =
-                             length > 0 ? std::clamp((along.x * to.x + along.y * to.y) / length, 0.0, 1.0) : 0;
+                             length > 0 ? std::clamp((along.x * to.x + along.y * to.y) / length, 0.0, 1.0)
+                                        : 0;
                          nearest = std::min(nearest, std::hypot(to.x - t * along.x, to.y - t * along.y));
                        });
       }

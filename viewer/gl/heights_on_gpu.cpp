@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// As the tiles of a drape (drape_on_gpu.cpp), but only the first texels of the next tiles are repeated: what is
-// looked up lies between a texel and those to the right of it and below.
+// As the tiles of a drape (drape_on_gpu.cpp), but only the first texels of the next tiles are repeated: what
+// is looked up lies between a texel and those to the right of it and below.
 #include "viewer/gl/heights_on_gpu.h"
 
 #include <fmt/format.h>
@@ -74,16 +74,16 @@ Result<HeightsOnGpu> HeightsOnGpu::load(const HeightPyramid& pyramid, const Heig
     // Older errors are cleared, so that the next one is about the storage.
     while (glGetError() != GL_NO_ERROR) {
     }
-    for (const auto& [texture, format] :
-         {std::pair(&h.heights_, GL_R32F), {&h.slopes_, GL_RGBA16_SNORM}}) {
+    for (const auto& [texture, format] : {std::pair(&h.heights_, GL_R32F), {&h.slopes_, GL_RGBA16_SNORM}}) {
       *texture = makeTexture(GL_TEXTURE_2D_ARRAY);
       glTextureStorage3D(*texture, 1, GLenum(format), GLsizei(h.side_), GLsizei(h.side_), GLsizei(h.layers_));
     }
     if (glGetError() == GL_NO_ERROR) break;
   }
   if (h.finest_ == count)
-    return failure(ErrorCode::unsupported,
-                   fmt::format("{} MiB of graphics memory have no room for its heights", options.mostBytes >> 20));
+    return failure(
+        ErrorCode::unsupported,
+        fmt::format("{} MiB of graphics memory have no room for its heights", options.mostBytes >> 20));
   for (const auto& [texture, filter] : {std::pair(&h.heights_, GL_NEAREST), {&h.slopes_, GL_LINEAR}})
     for (const auto& [name, value] : {std::pair(GL_TEXTURE_MIN_FILTER, filter),
                                       {GL_TEXTURE_MAG_FILTER, filter},
@@ -93,9 +93,10 @@ Result<HeightsOnGpu> HeightsOnGpu::load(const HeightPyramid& pyramid, const Heig
   if (h.finest_ > 0)
     h.warnings_.push_back(
         {WarningCode::display,
-         fmt::format("colours and contours are of means over {0} x {0} samples: full resolution needs more than "
-                     "{1} MiB of graphics memory",
-                     1 << h.finest_, options.mostBytes >> 20)});
+         fmt::format(
+             "colours and contours are of means over {0} x {0} samples: full resolution needs more than "
+             "{1} MiB of graphics memory",
+             1 << h.finest_, options.mostBytes >> 20)});
   ARETE_CHECK(h.upload(pyramid, context));
   return h;
 }

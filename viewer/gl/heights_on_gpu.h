@@ -20,8 +20,8 @@ struct HeightsOptions {
   std::uint32_t tileSide = 0;
 };
 
-/// A HeightPyramid in graphics memory, of any size: every level cut into tiles of two array textures (heights;
-/// slopes, aspects and what is covered), each tile with a border of its neighbours' first texels.
+/// A HeightPyramid in graphics memory, of any size: every level cut into tiles of two array textures
+/// (heights; slopes, aspects and what is covered), each tile with a border of its neighbours' first texels.
 class HeightsOnGpu {
  public:
   /// Errors: unsupported (no room on the device for the coarsest level); interrupted.

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
+
+#include "viewer/scene/space_content.h"
 
 namespace arete {
 
@@ -56,6 +59,22 @@ Status Scene::draw(const Camera& camera, const ViewSettings& settings) {
     for (auto& vertex : drawn.vertices) vertex.place = subject().drawn(vertex.place, settings);
     painter_.draw(drawn, frame, layer.opacity);
   }
+  return drawContents(camera, settings);
+}
+
+Status Scene::drawContents(const Camera& camera, const ViewSettings& settings) {
+  const auto drawsItself = [](const Layer& layer) {
+    return std::holds_alternative<Layer::Drawn>(layer.content);
+  };
+  if (std::ranges::none_of(layers.list(), drawsItself)) return {};
+  ARETE_TRY(const FrameView view, drawables_.front()->frameOf(camera, settings));
+  std::vector<std::pair<SpaceContent*, SpaceFrame>> contents;
+  ++pictures_;
+  for (const Layer& layer : layers.list())
+    if (const auto* drawn = std::get_if<Layer::Drawn>(&layer.content); drawn && *drawn && layer.isVisible)
+      contents.push_back({drawn->get(), {view, subject(), settings, layer.opacity, pictures_}});
+  for (const auto& [content, frame] : contents) ARETE_CHECK(content->draw(frame));
+  for (auto i = contents.rbegin(); i != contents.rend(); ++i) ARETE_CHECK(i->first->drawLabels(i->second));
   return {};
 }
 

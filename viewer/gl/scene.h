@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -45,8 +46,11 @@ class Scene {
 
  private:
   explicit Scene(SpacePainter painter) : painter_(std::move(painter)) {}
+  /// The layers that draw themselves.
+  Status drawContents(const Camera& camera, const ViewSettings& settings);
   std::vector<std::unique_ptr<Drawable>> drawables_;
   SpacePainter painter_;
+  std::uint64_t pictures_ = 0;  // that were drawn
 };
 
 /// Adds models and layers to a scene, with its context of OpenGL current.

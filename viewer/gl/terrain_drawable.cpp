@@ -143,9 +143,9 @@ Status TerrainDrawable::draw(const Camera& camera, const ViewSettings& settings,
     uploadErrors(terrain_, model().mt);
   ARETE_CHECK(painter_.setLayers(layers));
   glBeginQuery(GL_ANY_SAMPLES_PASSED, anySample_);
-  painter_.draw(terrain_, front(), settings.look);
+  const Status drawn = painter_.draw(terrain_, front(), settings.look);
   glEndQuery(GL_ANY_SAMPLES_PASSED);
-  return {};
+  return drawn;
 }
 
 bool TerrainDrawable::isShown() const {

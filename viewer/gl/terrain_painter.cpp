@@ -50,7 +50,6 @@ GLsizei levelsOf(std::uint32_t width, std::uint32_t height) {
 Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model, const HeightsOptions& options,
                                               const RunContext& context) {
   TerrainPainter p;
-  ARETE_CHECK(p.useProgramFor({}));
   ARETE_TRY(p.sky_, makeProgram({{GL_VERTEX_SHADER, {"sky.vert.glsl"}},
                                  {GL_FRAGMENT_SHADER, {"frame.glsl", "sky.frag.glsl"}}}));
 
@@ -105,6 +104,35 @@ void TerrainPainter::takeColors(const ViewLook& look) {
   colors_ = colors;
 }
 
+// A program is for one look and its layers and has nothing else: what a picture does not show takes no time,
+// and Mesa's software renderer, which computes both sides of a branch, meets no loop over samplers, which it
+// does not compile.
+Result<GLuint> TerrainPainter::programFor(const ViewLook* look) {
+  std::string layers;
+  bool hasContours = false;
+  if (look != nullptr)
+    for (std::size_t i = 0; i < ground_.size(); ++i) {
+      const std::size_t kind = ground_[i].layer.content.index();
+      hasContours = hasContours || kind == 2;
+      layers += kind == 0   ? fmt::format(" base = draped(base, {0}, drapeTiles[{0}]);", i)
+                : kind == 1 ? fmt::format(" base = overlaid(base, {0}, overlays[{0}], plan);", i)
+                            : fmt::format(" base = inked(base, {}, relief);", i);
+    }
+  std::string definitions = fmt::format(
+      "#define FLAT {}\n#define MODE {}\n#define SHADED {}\n#define HAZE {}\n#define CONTOURS {}\n"
+      "#define GROUND_LAYERS{}\n",
+      look == nullptr, look != nullptr ? int(look->coloring) : 0, look != nullptr && look->isShaded,
+      look != nullptr && look->hazeKilometres > 0, hasContours, layers);
+  const auto known = programs_.find(definitions);
+  if (known != programs_.end()) return GLuint(known->second);
+  ARETE_TRY(GlProgram made, makeProgram({{GL_VERTEX_SHADER, {"frame.glsl", "terrain.vert.glsl"}},
+                                         {GL_FRAGMENT_SHADER,
+                                          {"frame.glsl", "ground.glsl", "contours.glsl", "color_map.glsl",
+                                           "light.glsl", "terrain.frag.glsl"},
+                                          definitions}}));
+  return GLuint(programs_.emplace(std::move(definitions), std::move(made)).first->second);
+}
+
 void TerrainPainter::setFrame(const FrameView& frame) {
   const FrameBlock block = frameBlock(frame, metric_);
   eyePlan_ = {frame.eyeGround.x / metric_.scale.x + metric_.origin.x,
@@ -124,34 +152,18 @@ GlTexture overlayTexture(const PlanPicture& picture) {
                       picture.rgba.data());
   glGenerateTextureMipmap(texture);
   // The overlay keeps hard edges when it is enlarged: a pixel is one answer.
-  setSampling(texture, GL_LINEAR_MIPMAP_LINEAR, GL_NEAREST);
+  setSampling(texture, GL_LINEAR_MIPMAP_LINEAR, picture.isArea ? GL_LINEAR : GL_NEAREST);
+  if (picture.isArea && !picture.rgba.empty()) {
+    const Rgba& ink = picture.rgba.front();
+    const std::array<float, 4> beyond = {float(ink[0]) / 255, float(ink[1]) / 255, float(ink[2]) / 255, 0};
+    glTextureParameterfv(texture, GL_TEXTURE_BORDER_COLOR, beyond.data());
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  }
   return texture;
 }
 
 }  // namespace
-
-// A program has the calls of its layers and no other, so that a layer that is not there takes no time, and
-// Mesa's software renderer meets no loop over samplers, which it does not compile.
-Status TerrainPainter::useProgramFor(const std::vector<Ground>& ground) {
-  std::string calls = "#define GROUND_LAYERS";
-  for (std::size_t i = 0; i < ground.size(); ++i) {
-    const std::size_t kind = ground[i].layer.content.index();
-    calls += kind == 0   ? fmt::format(" base = draped(base, {0}, drapeTiles[{0}]);", i)
-             : kind == 1 ? fmt::format(" base = overlaid(base, {0}, overlays[{0}], plan);", i)
-                         : fmt::format(" base = inked(base, {}, sight);", i);
-  }
-  calls += "\n";
-  GlProgram& program = terrains_[calls];
-  if (program == 0) {
-    ARETE_TRY(program, makeProgram({{GL_VERTEX_SHADER, {"frame.glsl", "terrain.vert.glsl"}},
-                                    {GL_FRAGMENT_SHADER,
-                                     {"frame.glsl", "ground.glsl", "contours.glsl", "color_map.glsl",
-                                      "light.glsl", "terrain.frag.glsl"},
-                                     calls}}));
-  }
-  terrain_ = program;
-  return {};
-}
 
 Status TerrainPainter::setLayers(std::span<const Layer> layers) {
   std::vector<Ground> ground;
@@ -171,7 +183,6 @@ Status TerrainPainter::setLayers(std::span<const Layer> layers) {
     });
     g.overlay = known != ground_.end() ? std::move(known->overlay) : overlayTexture(**overlay);
   }
-  ARETE_CHECK(useProgramFor(ground));
   ground_ = std::move(ground);
   return {};
 }
@@ -186,19 +197,19 @@ glm::vec4 TerrainPainter::sunOf(const ViewLook& look) const {
           float(std::sin(elevation)), 0};
 }
 
-void TerrainPainter::draw(const TerrainOnGpu& terrain, const DrawnFront& front, const ViewLook& l) {
+Status TerrainPainter::draw(const TerrainOnGpu& terrain, const DrawnFront& front, const ViewLook& l) {
+  ARETE_TRY(const GLuint program, programFor(&l));
   Look look;
   look.sun = sunOf(l);
-  look.sun[3] = l.isShaded ? 1.0f : 0.0f;
   const double base = heights_->base();
   look.heightUnits = {float(1 / metric_.scale.z), float(metric_.origin.z - base),
                       float(l.hazeKilometres * 1000), 0};
-  look.modes = {float(l.coloring), float(base), 0, 0};
+  look.modes = {float(base), 0, 0, 0};
   for (std::size_t i = 0; i < ground_.size(); ++i) {
     const Layer& layer = ground_[i].layer;
     look.ground[i] = {float(layer.opacity), 0, 0, 0};
     if (const auto* drape = std::get_if<Layer::Drape>(&layer.content)) {
-      (*drape)->bind(terrain_, GLuint(i), eyePlan_, {metric_.scale.x, metric_.scale.y});
+      (*drape)->bind(program, GLuint(i), eyePlan_, {metric_.scale.x, metric_.scale.y});
     } else if (const auto* overlay = std::get_if<Layer::Overlay>(&layer.content)) {
       const PlanPicture& picture = **overlay;
       look.overlayFrame[i] = {float(picture.scale.x), float(picture.scale.y), float(picture.shift.x),
@@ -214,42 +225,46 @@ void TerrainPainter::draw(const TerrainOnGpu& terrain, const DrawnFront& front, 
   look.eastNorth = {float(east_.x), float(east_.y), float(north_.x), float(north_.y)};
   look.heat = {float(l.heatError), 0, 0, 0};
   takeColors(l);
-  drawWith(terrain, front, look);
+  drawWith(program, terrain, front, look);
   // Edges are the same triangles drawn as lines of one colour, and the offset keeps them in front of the
   // faces.
   if (l.hasWireframe) {
-    look.heightUnits[3] = 1;
+    ARETE_TRY(const GLuint flat, programFor(nullptr));
     look.flatColor = {0.05f, 0.07f, 0.10f, 1};
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     glEnable(GL_POLYGON_OFFSET_LINE);
     glPolygonOffset(1, 1);  // nearer: depth is reversed
-    drawWith(terrain, front, look);
+    drawWith(flat, terrain, front, look);
     glDisable(GL_POLYGON_OFFSET_LINE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }
+  return {};
 }
 
-void TerrainPainter::drawFlat(const TerrainOnGpu& terrain, const DrawnFront& front, const glm::vec4& color) {
+Status TerrainPainter::drawFlat(const TerrainOnGpu& terrain, const DrawnFront& front,
+                                const glm::vec4& color) {
+  ARETE_TRY(const GLuint program, programFor(nullptr));
   Look look;
-  look.heightUnits[3] = 1;
   look.flatColor = color;
-  drawWith(terrain, front, look);
+  drawWith(program, terrain, front, look);
+  return {};
 }
 
-void TerrainPainter::drawWith(const TerrainOnGpu& terrain, const DrawnFront& front, const Look& look) {
+void TerrainPainter::drawWith(GLuint program, const TerrainOnGpu& terrain, const DrawnFront& front,
+                              const Look& look) {
   glNamedBufferSubData(look_, 0, sizeof look, &look);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, look_);
-  glUseProgram(terrain_);
+  glUseProgram(program);
   colorMaps_.bind();
-  glProgramUniform4ui(terrain_, kColorMapPlaces, colorMaps_.place(0), colorMaps_.place(1),
-                      colorMaps_.place(2), colorMaps_.place(3));
-  glProgramUniform1f(terrain_, kHeightGrain, float(heightGrain_));
+  glProgramUniform4ui(program, kColorMapPlaces, colorMaps_.place(0), colorMaps_.place(1), colorMaps_.place(2),
+                      colorMaps_.place(3));
+  glProgramUniform1f(program, kHeightGrain, float(heightGrain_));
   // Codes follow each other as the bits of the floats that they stand for do.
   const auto bitsOf = [&](OutwardScale::Code code) {
     return std::bit_cast<std::uint32_t>(scale_.decode(code));
   };
-  glProgramUniform2ui(terrain_, 1, bitsOf(1), bitsOf(2) - bitsOf(1));
+  glProgramUniform2ui(program, 1, bitsOf(1), bitsOf(2) - bitsOf(1));
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, front.ids != 0 ? front.ids : noIds_);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 9,
                    terrain.triangleErrors != 0 ? terrain.triangleErrors : noIds_);

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,8 +24,8 @@ namespace arete {
 /// Draws fronts of one terrain and the sky behind them, into the framebuffer that is bound.
 class TerrainPainter {
  public:
-  /// Heights, slopes and aspects that are painted are those of full resolution, whatever front is drawn
-  /// (viewer/heights/height_pyramid.h). O(samples). Errors: unsupported, by the driver; those of
+  /// Heights, slopes and aspects that are painted have full resolution, whatever front is drawn
+  /// (viewer/heights/height_pyramid.h). O(samples). Errors: unsupported, by the driver; as
   /// HeightPyramid and HeightsOnGpu.
   static Result<TerrainPainter> create(const TerrainModel& model, const HeightsOptions& options = {},
                                        const RunContext& context = {});
@@ -43,32 +44,32 @@ class TerrainPainter {
 
   /// What the look's colours leave transparent is plain ground.
   /// Preconditions: the frame is set; colouring by error: terrain.triangleErrors are there.
-  void draw(const TerrainOnGpu& terrain, const DrawnFront& front, const ViewLook& look);
+  /// Errors: unsupported, by the driver.
+  Status draw(const TerrainOnGpu& terrain, const DrawnFront& front, const ViewLook& look);
   void drawSky(const ViewLook& look);
   /// Draws in one colour, without the sky, to count covered pixels.
-  void drawFlat(const TerrainOnGpu& terrain, const DrawnFront& front, const glm::vec4& color);
+  Status drawFlat(const TerrainOnGpu& terrain, const DrawnFront& front, const glm::vec4& color);
 
  private:
   TerrainPainter() = default;
   struct Look;
-  struct Ground {
-    Layer layer;
-    GlTexture overlay = {};
-  };
   glm::vec4 sunOf(const ViewLook& look) const;
   void takeColors(const ViewLook& look);
-  void drawWith(const TerrainOnGpu& terrain, const DrawnFront& front, const Look& look);
+  /// Made at its first use; without a look, of one colour. Errors: unsupported, by the driver.
+  Result<GLuint> programFor(const ViewLook* look);
+  void drawWith(GLuint program, const TerrainOnGpu& terrain, const DrawnFront& front, const Look& look);
 
-  Status useProgramFor(const std::vector<Ground>& ground);
-
-  std::map<std::string, GlProgram> terrains_;  // by their calls of layers
-  GLuint terrain_ = 0;                         // which of them is used
+  std::map<std::string, GlProgram> programs_;  // of the terrain, by their definitions
   GlProgram sky_;
   GlBuffer frame_, look_, noIds_;
   GlVertexArray terrainArray_, emptyArray_;
   std::optional<HeightsOnGpu> heights_;
   ColorMapsOnGpu colorMaps_;                                 // of heights, slopes, aspects, errors
   std::shared_ptr<const TerrainColors> ownColors_, colors_;  // colors_: uploaded
+  struct Ground {
+    Layer layer;
+    GlTexture overlay = {};
+  };
   std::vector<Ground> ground_;
   double heightGrain_ = 1;  // heights are coloured as multiples of it
   Vec2 eyePlan_;

@@ -78,7 +78,8 @@ void extendByOne(HeightLattice& lattice) {
           sum += std::isnan(far) ? near : 2 * near - far;
           ++weight;
         }
-      if (weight > 0) lattice.heights[std::size_t(row) * lattice.columns + std::size_t(column)] = sum / weight;
+      if (weight > 0)
+        lattice.heights[std::size_t(row) * lattice.columns + std::size_t(column)] = sum / weight;
     }
 }
 
@@ -124,7 +125,8 @@ Result<HeightLattice> latticeOfTriangles(const TerrainModel& model, double step,
   lattice.columns = std::uint32_t(nodes(width, step));
   lattice.rows = std::uint32_t(nodes(height, step));
   requireMemory(std::uint64_t(lattice.columns) * lattice.rows * sizeof(double));
-  lattice.heights.assign(std::size_t(lattice.columns) * lattice.rows, std::numeric_limits<double>::quiet_NaN());
+  lattice.heights.assign(std::size_t(lattice.columns) * lattice.rows,
+                         std::numeric_limits<double>::quiet_NaN());
   forFinestTriangles(mt, [&](const std::array<std::uint32_t, 3>& corners) {
     std::array<Vec2, 3> p;
     std::array<double, 3> z;

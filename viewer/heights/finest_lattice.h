@@ -14,7 +14,7 @@ namespace arete {
 struct HeightLattice {
   std::uint32_t columns = 0, rows = 0;
   Vec2 first, step;
-  std::vector<double> heights = {};  ///< row by row; NaN where there is no data
+  std::vector<double> heights = {};  ///< row by row; NaN without data
   /// Each cell is the one or two triangles of the finest triangulation that RasterCells says: heights between
   /// nodes are exact, too.
   bool isExact = false;
@@ -24,8 +24,8 @@ struct HeightLattice {
 /// lies in a cell as RasterCells has it. Precondition: model.isRaster. O(samples).
 HeightLattice latticeOfSamples(const TerrainModel& model);
 
-/// Heights of the finest triangulation at the nodes of a lattice whose steps have one length on the ground, in
-/// the middle of the model; nodes beside a border, within a step of it, are extrapolated.
+/// Heights of the finest triangulation at the nodes of a lattice whose steps have one length on the ground,
+/// in the middle of the model; nodes beside a border, within a step of it, are extrapolated.
 ///
 /// @param step  in metric units; 0 = a quarter of the mean spacing of vertices, or as many nodes as `most`
 /// @param most  nodes; a step that needs more of them is widened

@@ -19,7 +19,7 @@ GroundScale::GroundScale(const Georeference& georeference, const Box2& box) : bo
   }
   if (georeference.isGeographic) {
     constexpr int kLatitudes = 1025;
-    // At a pole a unit of longitude has no length: it gets that of a place close to it.
+    // At a pole a unit of longitude has no length: it gets the length close to it.
     const double pole = (90 - 1e-6) * std::numbers::pi / 180 / georeference.angularUnitRadians;
     rows_ = kLatitudes;
     for (int j = 0; j < rows_; ++j) {
@@ -30,7 +30,8 @@ GroundScale::GroundScale(const Georeference& georeference, const Box2& box) : bo
   }
   const double unit = georeference.linearUnitMetres;
   Vec2 middle{unit, unit};
-  if (georeference.mapScale) middle = {unit / (*georeference.mapScale)[0], unit / (*georeference.mapScale)[1]};
+  if (georeference.mapScale)
+    middle = {unit / (*georeference.mapScale)[0], unit / (*georeference.mapScale)[1]};
   constexpr int kPlaces = 9;
   columns_ = rows_ = kPlaces;
   for (int j = 0; j < rows_; ++j)

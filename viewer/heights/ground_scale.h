@@ -8,9 +8,9 @@
 
 namespace arete {
 
-/// How long units of a map are on the ground, place by place: on a geographic CRS by geodesics at the latitude
-/// of the place, on a projected one by the scale of the map there. Interpolated in a table. Without a CRS a
-/// unit is 1.
+/// How long units of a map are on the ground, place by place: on a geographic CRS by geodesics at the
+/// latitude of the place, on a projected one by the scale of the map there. Interpolated in a table. Without
+/// a CRS a unit is 1.
 class GroundScale {
  public:
   /// @param box  of the places, in source coordinates

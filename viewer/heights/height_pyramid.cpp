@@ -44,17 +44,20 @@ class Slopes {
   HeightPyramid::Ground at(std::uint32_t column, std::uint32_t row) const {
     const double here = height(column, row);
     if (std::isnan(here)) return {};
-    const double c = along(height(std::int64_t(column) - 1, row), here, height(std::int64_t(column) + 1, row)),
-                 r = along(height(column, std::int64_t(row) - 1), here, height(column, std::int64_t(row) + 1));
-    const Vec2 unit = scale_.at(model_.toSource({lattice_.first.x + column * lattice_.step.x,
-                                                 lattice_.first.y + row * lattice_.step.y}));
+    const double c = along(height(std::int64_t(column) - 1, row), here,
+                           height(std::int64_t(column) + 1, row)),
+                 r = along(height(column, std::int64_t(row) - 1), here,
+                           height(column, std::int64_t(row) + 1));
+    const Vec2 unit = scale_.at(model_.toSource(
+        {lattice_.first.x + column * lattice_.step.x, lattice_.first.y + row * lattice_.step.y}));
     const double rise = model_.georeference.verticalUnitMetres / determinant_;
     const double east = (axes_[3] * c - axes_[2] * r) * rise / unit.x,
                  north = (axes_[0] * r - axes_[1] * c) * rise / unit.y;
     const double steepness = std::hypot(east, north);
     HeightPyramid::Ground ground{.covered = coded(1)};
     ground.slope = coded(std::atan(steepness) / (std::numbers::pi / 2));
-    if (steepness > 0) {
+    constexpr double kLevel = 1e-5;  // less is the rounding of heights
+    if (steepness > kLevel) {
       ground.east = coded(-east / steepness);
       ground.north = coded(-north / steepness);
     }
@@ -75,7 +78,8 @@ class Slopes {
   const TerrainModel& model_;
   const HeightLattice& lattice_;
   const GroundScale& scale_;
-  std::array<double, 4> axes_{};  // source units of a step along a row (x), a column (x), a row (y), a column (y)
+  std::array<double, 4>
+      axes_{};  // source units of a step along a row (x), a column (x), a row (y), a column (y)
   double determinant_ = 1;
 };
 

@@ -21,12 +21,12 @@ struct PyramidOptions {
   std::uint64_t mostNodes = std::uint64_t(1) << 24;  ///< of that lattice
 };
 
-/// Heights, slopes and aspects of a terrain at full resolution and as means over squares of 2, 4, 8 ... nodes:
-/// what is painted on the ground reads it, whatever triangles are drawn.
+/// Heights, slopes and aspects of a terrain at full resolution and as means over squares of 2, 4, 8 ...
+/// nodes: what is painted on the ground reads it, whatever triangles are drawn.
 ///
-/// The nodes of level 0 are the samples of a raster, whose cells are its finest triangles; of points, and of a
-/// raster that is triangulated in another way, a lattice over the finest triangulation. Slopes at a node are
-/// those of central differences [ZevenbergenThorne1987] (one-sided beside what has no data), in metres on the
+/// The nodes of level 0 are the samples of a raster, whose cells are its finest triangles; of points, and of
+/// a raster that is triangulated in another way, a lattice over the finest triangulation. Slopes at a node
+/// are central differences [ZevenbergenThorne1987] (one-sided beside what has no data), in metres on the
 /// ground at the place, whatever the CRS and its unit. A coarser level has means over what has data: of
 /// heights, of the angles of slopes, and of the unit vectors of aspects, which add up to nothing where
 /// aspects cancel.
@@ -34,20 +34,20 @@ class HeightPyramid {
  public:
   /// Means over a node's square, each times the part of it that has data.
   struct Ground {
-    std::int16_t slope = 0;           ///< kOne = 90 degrees
-    std::int16_t east = 0, north = 0; ///< downhill, kOne = 1; axes of the map
-    std::int16_t covered = 0;         ///< the part that has data, kOne = all
+    std::int16_t slope = 0;            ///< kOne = 90 degrees
+    std::int16_t east = 0, north = 0;  ///< downhill, kOne = 1; axes of the map
+    std::int16_t covered = 0;          ///< the part that has data, kOne = all
   };
   static constexpr double kOne = 32767;
 
   struct Level {
     std::uint32_t columns = 0, rows = 0;
-    std::vector<float> heights = {};  ///< above base(); kNone where there is no data
+    std::vector<float> heights = {};  ///< above base(); kNone without data
     std::vector<Ground> ground = {};
   };
   static constexpr float kNone = -3e38f;
 
-  /// O(nodes), parallel. Errors: those of latticeOfTriangles(); interrupted.
+  /// O(nodes), parallel. Errors: as latticeOfTriangles(); interrupted.
   static Result<HeightPyramid> create(const TerrainModel& model, const PyramidOptions& options = {},
                                       const RunContext& context = {});
 
@@ -58,7 +58,7 @@ class HeightPyramid {
   double base() const { return base_; }
   /// The farthest that a height is from the base.
   double reach() const { return reach_; }
-  /// Whether heights between nodes of level 0 are those of the finest triangulation.
+  /// Whether heights between nodes of level 0 are exactly the finest triangulation's.
   bool isExact() const { return isExact_; }
   /// The spacing of nodes in metric units, along x and y.
   Vec2 spacing() const { return spacing_; }

@@ -2,12 +2,16 @@
 #include "viewer/scene/layer.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
+
+#include "viewer/scene/space_content.h"
 
 namespace arete {
 
 std::string_view Layer::kind() const {
   static constexpr std::array<std::string_view, 4> kNames = {"a drape", "an overlay", "contours", "lines"};
+  if (const auto* drawn = std::get_if<Drawn>(&content)) return *drawn ? (*drawn)->kind() : "nothing";
   return kNames[content.index()];
 }
 

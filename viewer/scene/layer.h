@@ -14,6 +14,7 @@
 namespace arete {
 
 class DrapeOnGpu;
+class SpaceContent;
 
 /// What the colours of a layer mean; may be empty.
 struct Legend {
@@ -31,6 +32,8 @@ struct PlanPicture {
   int width = 0, height = 0;
   std::vector<Rgba> rgba;
   Vec2 scale, shift;
+  bool isArea =
+      false;  ///< one colour, which fades where it ends: smooth when enlarged, nothing beyond the edges
 };
 
 /// Lines where the heights of a terrain are multiples of an interval, in the unit of heights, > 0.
@@ -57,15 +60,16 @@ struct SpaceVertices {
 struct Layer {
   using Drape = std::shared_ptr<const DrapeOnGpu>;
   using Overlay = std::shared_ptr<const PlanPicture>;
+  using Drawn = std::shared_ptr<SpaceContent>;
 
   std::string name;  ///< each has its own
-  std::variant<Drape, Overlay, Contours, SpaceVertices> content;
+  std::variant<Drape, Overlay, Contours, SpaceVertices, Drawn> content;
   double opacity = 1;  ///< 0 to 1
   bool isVisible = true;
   Legend legend = {};
 
   bool isOnGround() const { return content.index() < 3; }
-  /// "a drape", "an overlay", "contours", "lines".
+  /// "a drape", "an overlay", "contours", "lines", or as its content calls itself.
   std::string_view kind() const;
 };
 

@@ -21,7 +21,7 @@ Status Subject::checkColoring(Coloring coloring) const {
 }
 
 Status Subject::check(const Layer& layer) const {
-  if (isTerrain() || !layer.isOnGround()) return {};
+  if (isTerrain() || std::holds_alternative<SpaceVertices>(layer.content)) return {};
   return failure(ErrorCode::usage,
                  fmt::format("{} {} for terrain", layer.kind(), layer.kind() == "contours" ? "are" : "is"),
                  layer.name);

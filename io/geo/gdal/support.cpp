@@ -138,7 +138,7 @@ void GdalDatasetCloser::operator()(GDALDataset* dataset) const {
   removeNetworkCopy(description);
 }
 
-GdalDatasetPtr openGdal(const std::string& path, unsigned flags) {
+GdalDatasetPtr openGdal(const std::string& path, unsigned flags, const std::vector<std::string>& options) {
   registerGdal();
   silenceHdf5();
   if (findPipeProblem(path)) return nullptr;
@@ -146,7 +146,10 @@ GdalDatasetPtr openGdal(const std::string& path, unsigned flags) {
   std::string served = servedDatasetPath(path);
   if ((flags & GDAL_OF_RASTER) != 0) served = pathWithoutNetcdf(served);
   const CPLConfigOptionSetter noSchema("GML_DOWNLOAD_WFS_SCHEMA", "NO", true);
-  return GdalDatasetPtr(GDALDataset::Open(served.c_str(), flags | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  CPLStringList list;
+  for (const std::string& option : options) list.AddString(option.c_str());
+  return GdalDatasetPtr(GDALDataset::Open(served.c_str(), flags | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                          nullptr, list.List()));
 }
 
 std::optional<Error> findPipeProblem(const std::string& path) {

@@ -62,8 +62,10 @@ class GdalErrors {
 /// GML_DOWNLOAD_WFS_SCHEMA).
 ///
 /// @param flags GDAL_OF_RASTER or GDAL_OF_VECTOR.
+/// @param options "NAME=value", as the driver takes them.
 /// @return Null if GDAL cannot open it.
-GdalDatasetPtr openGdal(const std::string& path, unsigned flags);
+GdalDatasetPtr openGdal(const std::string& path, unsigned flags,
+                        const std::vector<std::string>& options = {});
 
 /// @return An error for a pipe, a socket or a device: opening one may block, and no format can be read from
 /// one.

@@ -10,11 +10,11 @@
 namespace arete {
 
 Result<GdalDatasetPtr> openVectors(const std::string& path, std::string_view kind, GdalErrors& errors,
-                                   Warnings& warnings) {
+                                   Warnings& warnings, const std::vector<std::string>& options) {
   const NetworkReading network(nullptr);  // so that a file of the network is requested once
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
   ARETE_CHECK(checkLengthByContent(path));
-  GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR);
+  GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR, options);
   if (!dataset) return tl::unexpected(explainOpenFailure(path, kind, errors));
   if (const std::string said = errors.firstFileFailure(); !said.empty())
     return failure(ErrorCode::corrupt, fmt::format("is cut short or damaged: {}", said));

@@ -19,12 +19,13 @@ namespace arete {
 /// says meanwhile.
 ///
 /// @param kind Completes "is not a ...": "set of points".
+/// @param options "NAME=value", as the driver takes them.
 /// @param errors The innermost scope of the caller. Messages of the opening that are no error move to
 /// `warnings`.
 ///
 /// Errors: those of explainOpenFailure(). unreadable, corrupt: a part of the file is missing.
 Result<GdalDatasetPtr> openVectors(const std::string& path, std::string_view kind, GdalErrors& errors,
-                                   Warnings& warnings);
+                                   Warnings& warnings, const std::vector<std::string>& options = {});
 
 /// Holds the features read against the count that the header of a FlatGeobuf states: GDAL ends without a word
 /// where a file is cut between two of them. Layers of other formats pass.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
 #include <vector>
 
 #include "io/geo/gdal/support.h"
@@ -12,6 +13,7 @@ namespace {
 
 bool mayHold(OGRwkbGeometryType declared, LayerKind kind) {
   const OGRwkbGeometryType type = wkbFlatten(declared);
+  if (kind == LayerKind::any) return type != wkbNone;
   if (type == wkbUnknown || type == wkbGeometryCollection) return true;
   if (kind == LayerKind::points) return type == wkbPoint || type == wkbMultiPoint;
   const bool isLines = OGR_GT_IsSubClassOf(type, wkbCurve) || OGR_GT_IsSubClassOf(type, wkbMultiCurve);
@@ -20,6 +22,13 @@ bool mayHold(OGRwkbGeometryType declared, LayerKind kind) {
   if (kind == LayerKind::polygonsAndLines && isLines) return true;
   if (kind == LayerKind::surfaces && OGR_GT_IsSubClassOf(type, wkbPolyhedralSurface)) return true;
   return OGR_GT_IsSubClassOf(type, wkbCurvePolygon) || OGR_GT_IsSubClassOf(type, wkbMultiSurface);
+}
+
+/// Whether a layer holds the vertices of another one's lines: the points of tracks and routes in a GPX file.
+bool repeatsLines(GDALDataset& dataset, OGRLayer& layer) {
+  const std::string_view name = layer.GetName();
+  return dataset.GetDriver() && EQUAL(dataset.GetDriver()->GetDescription(), "GPX") &&
+         (name == "track_points" || name == "route_points");
 }
 
 /// The only one of some layers that has features; null if there is none or several.
@@ -56,6 +65,7 @@ Result<OGRLayer*> chooseLayer(GDALDataset& dataset, const std::string& name, Lay
     all.emplace_back(layer->GetName());
     if (!name.empty() && name == layer->GetName()) return layer;
     if (!mayHold(layer->GetGeomType(), kind)) continue;
+    if (kind == LayerKind::any && repeatsLines(dataset, *layer)) continue;
     fitting.emplace_back(layer->GetName());
     found = layer;
   }
@@ -64,6 +74,7 @@ Result<OGRLayer*> chooseLayer(GDALDataset& dataset, const std::string& name, Lay
                      : kind == LayerKind::polygons         ? "polygons"
                      : kind == LayerKind::polygonsAndLines ? "polygons or lines"
                      : kind == LayerKind::linesOrTable     ? "lines or a table"
+                     : kind == LayerKind::any              ? "points, lines or polygons"
                                                            : "surfaces";
   if (!name.empty())
     return failure(ErrorCode::notFound,

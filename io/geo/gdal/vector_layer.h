@@ -18,6 +18,7 @@ enum class LayerKind {
   shapes,        ///< polygons and lines, or else points
   linesOrTable,  ///< lines, points, or rows without a geometry
   surfaces,      ///< polygons, TINs and polyhedral surfaces
+  any,           ///< whatever has a geometry; of a GPX file not the points that its lines repeat
 };
 
 /// Finds a layer by name or, for an empty name, the only layer that may hold geometries of that kind, or else

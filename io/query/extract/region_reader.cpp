@@ -16,7 +16,7 @@
 
 #include "engine/base/caught_failure.h"
 #include "engine/base/counted.h"
-#include "io/geo/crs/chain_projection.h"
+#include "io/geo/crs/chain_transform.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/reader.h"
 #include "io/geo/gdal/polygon_set.h"
@@ -30,11 +30,6 @@ namespace {
 constexpr std::size_t kFeaturesPerReport = 256;
 
 using Chain = std::vector<Vec2>;
-
-struct TransformationCloser {
-  void operator()(OGRCoordinateTransformation* t) const { OGRCoordinateTransformation::DestroyCT(t); }
-};
-using TransformationPtr = std::unique_ptr<OGRCoordinateTransformation, TransformationCloser>;
 
 /// The geometries of a layer; lines and points only if they are taken.
 struct Shapes {
@@ -120,52 +115,6 @@ Status collectLayer(GDALDataset& dataset, OGRLayer& layer, Shapes& all, Warnings
   return {};
 }
 
-/// Reprojects chains; without transformation they stay.
-class Reprojection {
- public:
-  Status prepare(const OGRSpatialReference& source, const OGRSpatialReference& target) {
-    if (source.IsSame(&target)) return {};
-    GdalErrors errors;
-    there_.reset(OGRCreateCoordinateTransformation(&source, &target));
-    back_.reset(there_ ? OGRCreateCoordinateTransformation(&target, &source) : nullptr);
-    if (!there_ || !back_)
-      return failure(
-          ErrorCode::invalidData,
-          fmt::format("there is no way from its CRS to that of the DEM: {}", errors.firstFailure()));
-    chains_.forward = mapBy(*there_);
-    chains_.back = mapBy(*back_);
-    Georeference onTarget;
-    ARETE_CHECK(describeCrs(target, onTarget));
-    chains_.turn = turnOf(onTarget);
-    // In a cylindrical map no pole is nearer than this; in some it is infinitely far.
-    chains_.pole = target.IsGeographic() ? chains_.turn / 4 : chains_.turn;
-    return {};
-  }
-
-  bool isIdentity() const { return there_ == nullptr; }
-
-  Result<Chain> operator()(const Chain& chain, bool isRing) const {
-    if (isIdentity()) return chain;
-    const GdalErrors quiet;
-    auto projected = isRing ? projectRing(chain, chains_) : projectLine(chain, chains_);
-    if (!projected)
-      return failure(ErrorCode::invalidData, "has a vertex, or an edge, that the CRS of the DEM cannot tell");
-    return std::move(*projected);
-  }
-
- private:
-  static ChainProjection::Map mapBy(OGRCoordinateTransformation& transformation) {
-    return [&transformation](Vec2 p) -> std::optional<Vec2> {
-      if (!transformation.Transform(1, &p.x, &p.y) || !std::isfinite(p.x) || !std::isfinite(p.y))
-        return std::nullopt;
-      return p;
-    };
-  }
-
-  TransformationPtr there_, back_;
-  ChainProjection chains_;
-};
-
 Status checkFinite(const Chain& chain) {
   for (const Vec2& p : chain)
     if (!std::isfinite(p.x) || !std::isfinite(p.y))
@@ -190,25 +139,13 @@ Chain chainOf(const OGRLineString& line) {
   return chain;
 }
 
-/// Whether an edge leads over more than half a turn, as where a shape that crosses the antimeridian is not
-/// cut there. Edges along whole turns, as those of a box around the Earth, are meant.
-bool isLong(double way, double turn) {
-  return std::abs(way) > turn / 2 && std::abs(way) < turn * (1 - 1e-9);
-}
-
-/// Of a geographic CRS; 0 of others.
-double turnOfDegrees(const OGRSpatialReference& source) {
-  Georeference onSource;
-  return !source.IsEmpty() && source.IsGeographic() && describeCrs(source, onSource) ? turnOf(onSource) : 0;
-}
-
 void warnOfLongEdges(const OGRMultiPolygon& polygons, double turn, Warnings& warnings) {
   if (turn == 0) return;
   bool isFound = false;
   for (const OGRPolygon* polygon : polygons)
     for (const OGRLinearRing* ring : *polygon)
       for (int i = 1; i < ring->getNumPoints(); ++i)
-        isFound = isFound || isLong(ring->getX(i) - ring->getX(i - 1), turn);
+        isFound = isFound || leadsTheLongWay(ring->getX(i) - ring->getX(i - 1), turn);
   if (isFound)
     warnings.push_back(
         {WarningCode::position,
@@ -216,14 +153,6 @@ void warnOfLongEdges(const OGRMultiPolygon& polygons, double turn, Warnings& war
          "drawn, "
          "the long "
          "way; a shape that crosses the antimeridian is cut there, or goes on beyond 180 degrees"});
-}
-
-/// Leads a line the short way where an edge is long.
-void takeShortWays(Chain& line, double turn) {
-  if (turn == 0) return;
-  for (std::size_t i = 1; i < line.size(); ++i)
-    if (const double way = line[i].x - line[i - 1].x; isLong(way, turn))
-      line[i].x -= turn * std::round(way / turn);
 }
 
 /// The polygons as rings that the even-odd rule understands, before they are reprojected.
@@ -254,9 +183,9 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
 
   ARETE_TRY(auto source, chooseCrs(layer->GetSpatialRef(), options.crs, read.warnings));
   ARETE_TRY(auto target, targetCrs.empty() ? OGRSpatialReference() : crsFromText(targetCrs));
-  Reprojection reproject;
+  ChainTransform reproject;
   if (!source.IsEmpty() && !target.IsEmpty()) {
-    ARETE_CHECK(reproject.prepare(source, target));
+    ARETE_TRY(reproject, ChainTransform::between(source, target));
   } else if (source.IsEmpty() != target.IsEmpty()) {
     read.lacksCrs = true;
     read.warnings.push_back({WarningCode::position,
@@ -340,8 +269,7 @@ Result<std::vector<Vec2>> reprojectRing(const std::vector<Vec2>& ring, const std
   registerGdal();
   ARETE_TRY(const auto source, crsFromUser(fromCrs));
   ARETE_TRY(const auto target, crsFromText(toCrs));
-  Reprojection reproject;
-  ARETE_CHECK(reproject.prepare(source, target));
+  ARETE_TRY(const auto reproject, ChainTransform::between(source, target));
   return reproject(ring, true);
 } catch (...) {
   return caughtFailure();

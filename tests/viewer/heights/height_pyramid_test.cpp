@@ -15,8 +15,6 @@
 #include "datasets/random.h"
 #include "terrain/builder/build.h"
 #include "terrain/locate/ground_height.h"
-#include "viewer/heights/contour_levels.h"
-#include "viewer/heights/ground_scale.h"
 
 namespace arete {
 namespace {
@@ -100,7 +98,8 @@ TEST(HeightPyramid, ACoarseNodeHasTheMeanOfWhatHasDataBelowIt) {
           ASSERT_EQ(g.covered, 0);
           continue;
         }
-        ASSERT_NEAR(double(coarse.heights[i]) + pyramid.base(), heights / count, 1e-3 * (1 + pyramid.reach()));
+        ASSERT_NEAR(double(coarse.heights[i]) + pyramid.base(), heights / count,
+                    1e-3 * (1 + pyramid.reach()));
         ASSERT_NEAR(g.covered / HeightPyramid::kOne, count / 16.0, 1e-4);
         ASSERT_NEAR(g.slope, slopes / 16, 2);
         ASSERT_NEAR(g.east, east / 16, 2);
@@ -140,7 +139,8 @@ TEST(HeightPyramid, SlopesAreInMetresOfTheGroundWhateverTheMapAndItsUnits) {
   check(rasterOf(20, 30, {0, 30, 0, 0, 0, -30}, plane), "metres");
   check(rasterOf(20, 30, {0, 30, 0, 0, 0, 30}, plane), "south up");
   check(rasterOf(20, 30, {0, 25, 9, 0, 12, -31}, plane), "turned and sheared");
-  RasterHeightfield feet = rasterOf(20, 30, {0, 30, 0, 0, 0, -30}, [&](double x, double y) { return plane(x, y) / kFoot; });
+  RasterHeightfield feet =
+      rasterOf(20, 30, {0, 30, 0, 0, 0, -30}, [&](double x, double y) { return plane(x, y) / kFoot; });
   feet.georeference.verticalUnitMetres = kFoot;
   feet.georeference.verticalUnit = "ft";
   check(feet, "heights in feet");
@@ -152,7 +152,8 @@ TEST(HeightPyramid, SlopesAreInMetresOfTheGroundWhateverTheMapAndItsUnits) {
     for (std::uint32_t column = 0; column < 5; ++column) {
       const double y = degrees.georeference.toSource(column, row).y * kDegree;
       constexpr double kAxis = 6378137, kSquare = 0.00669437999;
-      const double metres = kAxis / std::sqrt(1 - kSquare * std::sin(y) * std::sin(y)) * std::cos(y) * 1e-3 * kDegree;
+      const double metres =
+          kAxis / std::sqrt(1 - kSquare * std::sin(y) * std::sin(y)) * std::cos(y) * 1e-3 * kDegree;
       degrees.heights[row * 5 + column] = -kRise * metres * column;
     }
   const HeightPyramid pyramid = pyramidOf(built(degrees));
@@ -160,11 +161,13 @@ TEST(HeightPyramid, SlopesAreInMetresOfTheGroundWhateverTheMapAndItsUnits) {
 }
 
 TEST(HeightPyramid, AspectsOfARidgeCancel) {
-  const auto field = rasterOf(64, 64, {0, 10, 0, 0, 0, -10}, [](double x, double) { return -std::abs(x - 320) * 0.6; });
+  const auto field =
+      rasterOf(64, 64, {0, 10, 0, 0, 0, -10}, [](double x, double) { return -std::abs(x - 320) * 0.6; });
   const HeightPyramid pyramid = pyramidOf(built(field));
   const HeightPyramid::Level& coarsest = pyramid.levels().back();
   double east = 0, slope = 0, covered = 0;
-  for (const HeightPyramid::Ground& g : coarsest.ground) east += g.east, slope += g.slope, covered += g.covered;
+  for (const HeightPyramid::Ground& g : coarsest.ground)
+    east += g.east, slope += g.slope, covered += g.covered;
   EXPECT_LT(std::abs(east / covered), 0.02);
   EXPECT_NEAR(90 * slope / covered, std::atan(0.6) / kDegree, 1);
 }
@@ -199,17 +202,6 @@ TEST(HeightPyramid, ManyPointsWidenTheStep) {
   const HeightPyramid pyramid = pyramidOf(*model, {.mostNodes = 900});
   EXPECT_LE(pyramid.levels()[0].heights.size(), 900u);
   EXPECT_GT(pyramid.levels()[0].heights.size(), 500u);
-}
-
-TEST(ContourLevels, AreCountedFromAMultipleOfTheInterval) {
-  for (const double interval : {0.1, 1.0, 20.0, 250.0})
-    for (const double base : {-4321.0, 0.0, 3589.0, 1737400.0}) {
-      const ContourLevels levels = contourLevels(interval, base, 4000);
-      const double height = base + 12.34, level = (height - base) / interval + levels.shift;
-      EXPECT_NEAR(std::remainder(level - height / interval, ContourLevels::kCycle), 0, 1e-6 * (1 + std::abs(base) / interval));
-      EXPECT_GT(levels.lift, 0);
-      EXPECT_LT(levels.lift * interval, std::max(1e-4 * interval, 0.002));
-    }
 }
 
 }  // namespace

@@ -62,13 +62,14 @@ float groundHeight(int level, vec2 at) {
   return from + dot(weights, (vec4(a, b, c, d) - from) * vec4(has)) / sum;
 }
 
+// Loops and not calls: each call is compiled anew, which takes a software renderer seconds.
 float groundHeightAt(float lod, vec2 at) {
   int fine = int(lod);
-  float height = groundHeight(fine, at);
-  if (lod > float(fine)) {
-    float coarse = groundHeight(fine + 1, at);
-    if (height < kNoHeight) return coarse;
-    if (coarse > kNoHeight) height += (lod - float(fine)) * (coarse - height);
+  float height = 2.0 * kNoHeight, part = lod - float(fine);
+  for (int level = fine; level <= (part > 0.0 ? fine + 1 : fine); ++level) {
+    float found = groundHeight(level, at);
+    if (height < kNoHeight) height = found;
+    else if (found > kNoHeight) height += part * (found - height);
   }
   return height;
 }
@@ -93,8 +94,9 @@ Sight sightOf(vec2 overGround) {
   s.dy = up * groundStep.xy;
   float xx = s.dx.x * s.dx.x + s.dy.x * s.dy.x, yy = s.dx.y * s.dx.y + s.dy.y * s.dy.y, xy = s.dx.x * s.dx.y + s.dy.x * s.dy.y;
   float middle = 0.5 * (xx + yy), apart = 0.5 * (xx - yy), around = sqrt(apart * apart + xy * xy);
-  s.longer = sqrt(middle + around);
   s.shorter = sqrt(max(middle - around, 0.0));
+  // A triangle that is seen along itself covers ground without end: eight times the shorter axis of it count.
+  s.longer = min(sqrt(middle + around), 8.0 * max(s.shorter, 0.25));
   vec2 axis = apart >= 0.0 ? vec2(apart + around, xy) : vec2(xy, around - apart);
   s.axis = axis * (s.longer / max(length(axis), 1e-30));
   return s;
@@ -104,10 +106,10 @@ float groundLod(float nodes) {
   return clamp(log2(max(nodes, 1e-6)), float(groundTiles.z), float(groundTiles.y - 1));
 }
 
-/// Means over the pixel: up to 8 places along the longer axis, each at the level whose nodes are as far apart as
+/// Means over the pixel: up to 4 places along the longer axis, each at the level whose nodes are as far apart as
 /// the shorter one is long. x: the height; less than kNoHeight where there is none.
 float groundMeanHeight(Sight pixel) {
-  int count = int(clamp(ceil(pixel.longer / max(pixel.shorter, 1.0) - 0.01), 1.0, 8.0));
+  int count = int(clamp(ceil(pixel.longer / max(pixel.shorter, 1.0) - 0.01), 1.0, 4.0));
   float lod = groundLod(max(pixel.longer / float(count), pixel.shorter)), sum = 0.0, found = 0.0;
   for (int i = 0; i < count; ++i) {
     float height = groundHeightAt(lod, pixel.at + ((float(i) + 0.5) / float(count) - 0.5) * pixel.axis);
@@ -118,15 +120,14 @@ float groundMeanHeight(Sight pixel) {
 
 /// x: the mean angle of slopes, 1 = 90 degrees; yz: the mean unit vector downhill, east and north; w: 0 = no data.
 vec4 groundMeanSlope(Sight pixel) {
-  int count = int(clamp(ceil(pixel.longer / max(pixel.shorter, 1.0) - 0.01), 1.0, 8.0));
+  int count = int(clamp(ceil(pixel.longer / max(pixel.shorter, 1.0) - 0.01), 1.0, 4.0));
   float lod = groundLod(max(pixel.longer / float(count), pixel.shorter));
-  int fine = int(lod), coarse = min(fine + 1, groundTiles.y - 1);
+  int fine = int(lod), coarse = lod > float(fine) ? fine + 1 : fine;
   vec4 sum = vec4(0.0);
   for (int i = 0; i < count; ++i) {
     vec2 place = pixel.at + ((float(i) + 0.5) / float(count) - 0.5) * pixel.axis;
-    vec4 slope = groundSlope(fine, place);
-    if (lod > float(fine)) slope = mix(slope, groundSlope(coarse, place), lod - float(fine));
-    sum += slope;
+    for (int level = fine; level <= coarse; ++level)
+      sum += (level == fine ? float(fine) + 1.0 - lod : lod - float(fine)) * groundSlope(level, place);
   }
   return sum.w > 0.0 ? vec4(sum.xyz / sum.w, 1.0) : vec4(0.0);
 }

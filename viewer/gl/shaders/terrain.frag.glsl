@@ -1,11 +1,13 @@
+// Compiled for what a picture shows (TerrainPainter::programFor()). MODE: colouring; FLAT, SHADED, HAZE, CONTOURS: true
+// or false; GROUND_LAYERS: the calls of the layers on the ground, the lowest first.
 in vec3 place;
 in vec3 fromEye;
 in vec2 overGround;
 layout(location = 0) out vec4 color;
 layout(std140, binding = 1) uniform Look {
-  vec4 sun;          // direction to it in metric space, 1 = shaded
-  vec4 heightUnits;  // of place.z: height above the base = z * x + y; haze distance; flat colour of the test (1 = on)
-  vec4 modes;        // colouring, base of heights (ground.glsl)
+  vec4 sun;          // direction to it in metric space, 
+  vec4 heightUnits;  // of place.z: height above the base = z * x + y; haze distance
+  vec4 modes;        // base of heights (ground.glsl)
   vec4 flatColor;
   vec4 eastNorth;    // the map's east and north in metric space
   vec4 heat;         // error of the largest heat; 0 = the cut's pixels
@@ -81,19 +83,18 @@ vec3 overlaid(vec3 base, int i, sampler2D overlay, vec2 plan) {
   vec4 seen = texture(overlay, plan * overlayFrame[i].xy + overlayFrame[i].zw);
   return mix(base, seen.rgb, seen.a * ground[i].x);
 }
-vec3 inked(vec3 base, int i, Sight sight) {
-  return mix(base, vec3(0.32, 0.2, 0.1), 0.85 * ground[i].x * contourInkAt(contours[i].xyz, sight));
+vec3 inked(vec3 base, int i, Relief relief) {
+  return mix(base, vec3(0.32, 0.2, 0.1), 0.85 * ground[i].x * contourInk(contours[i].xyz, relief));
 }
 
 void main() {
-  if (heightUnits.w > 0.0) { color = flatColor; return; }
+  if (FLAT) { color = flatColor; return; }
   vec2 plan = place.xy / metricScale.xy + metricOrigin.xy;
   Sight sight = sightOf(overGround);
   vec3 flatNormal = cross(dFdx(fromEye), dFdy(fromEye));
-  int mode = int(modes.x);
   vec4 slopes = vec4(0.0);  // slope and direction downhill
   vec2 slope = vec2(0.0);
-  if (sun.w > 0.0 || mode == 1 || mode == 2) {
+  if (SHADED || MODE == 1 || MODE == 2) {
     slopes = groundMeanSlope(sight);
     if (slopes.w == 0.0) {
       // Turned as the vertical of the place to the z axis.
@@ -109,29 +110,31 @@ void main() {
   vec3 normal = normalize(vec3(-slope, 1.0));
 
   float value = 0.0;  // that has a colour
-  if (mode == 0) {
+  if (MODE == 0) {
     float height = groundMeanHeight(sight);
-    height = (height < kNoHeight ? place.z * heightUnits.x + heightUnits.y : height) + modes.y;
+    height = (height < kNoHeight ? place.z * heightUnits.x + heightUnits.y : height) + modes.x;
     value = roundEven(height / heightGrain) * heightGrain;
-  } else if (mode == 1) {
+  } else if (MODE == 1) {
     value = 90.0 * slopes.x;
-  } else if (mode == 2) {
+  } else if (MODE == 2) {
     value = 360.0 * fract(atan(slopes.y, slopes.z) / 6.2831853);
-  } else if (mode == 4) {
+  } else if (MODE == 4) {
     float e = errorOf(drawnId[drawFirst / 3u + uint(gl_PrimitiveID)]);
     float depth = dot(fromEye, forward.xyz);
     value = heat.x > 0.0 ? e / heat.x : e * morph.z * length(fromEye) / (depth * depth * morph.x);
   }
   vec3 base = vec3(0.78);
-  if (mode != 3) {
-    vec4 tint = colorOf(mode == 4 ? colorMaps.w : colorMaps[mode], value);
+  if (MODE != 3) {
+    vec4 tint = colorOf(MODE == 4 ? colorMaps.w : colorMaps[MODE > 3 ? 0 : MODE], value);
     base = mix(base, tint.rgb, tint.a);
   }
   // Level ground, and ground that faces everywhere, faces nowhere: the grey of the same lightness.
-  if (mode == 2) base = mix(vec3(166.0 / 255.0), base, smoothstep(0.05, 0.2, length(slopes.yz)));
-  GROUND_LAYERS  // the calls above for each, lowest first (TerrainPainter::setLayers())
-  if (sun.w > 0.0) base = srgbOf(litLinear(linearOf(base), lightOnGround(normal, sun.xyz)));
-  if (heightUnits.z > 0.0) {
+  if (MODE == 2) base = mix(vec3(166.0 / 255.0), base, smoothstep(0.05, 0.2, length(slopes.yz)));
+  Relief relief = Relief(0.0, 0.0, 0.0, 0.0);
+  if (CONTOURS) relief = reliefOf(sight);
+  GROUND_LAYERS
+  if (SHADED) base = srgbOf(litLinear(linearOf(base), lightOnGround(normal, sun.xyz)));
+  if (HAZE) {
     float haze = 1.0 - exp(-pow(length(fromEye) / heightUnits.z, 1.5));
     base = srgbOf(mix(linearOf(base), linearOf(vec3(0.74, 0.81, 0.88)), haze));
   }
