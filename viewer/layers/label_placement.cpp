@@ -26,9 +26,14 @@ std::optional<Rect> LabelPlacement::place(Vec2 at, double width, double height, 
 }
 
 std::optional<Rect> LabelPlacement::find(Vec2 at, double width, double height, double away) const {
-  const std::array<Vec2, 4> corners = {
-      Vec2{at.x - width / 2, at.y - away - height}, Vec2{at.x + away, at.y - height / 2},
-      Vec2{at.x - away - width, at.y - height / 2}, Vec2{at.x - width / 2, at.y + away}};
+  const std::array<Vec2, 8> corners = {{{at.x - width / 2, at.y - away - height},
+                                        {at.x + away, at.y - height / 2},
+                                        {at.x - away - width, at.y - height / 2},
+                                        {at.x - width / 2, at.y + away},
+                                        {at.x + away, at.y - away - height},
+                                        {at.x - away - width, at.y - away - height},
+                                        {at.x + away, at.y + away},
+                                        {at.x - away - width, at.y + away}}};
   for (const Vec2& corner : corners) {
     const Rect area{std::round(corner.x), std::round(corner.y), width, height};
     if (area.left < 0 || area.top < 0 || area.right() > width_ || area.bottom() > height_) continue;

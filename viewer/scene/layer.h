@@ -32,8 +32,7 @@ struct PlanPicture {
   int width = 0, height = 0;
   std::vector<Rgba> rgba;
   Vec2 scale, shift;
-  bool isArea =
-      false;  ///< one colour, which fades where it ends: smooth when enlarged, nothing beyond the edges
+  bool isArea = false;  ///< one colour that fades at its rim: smooth, with nothing beyond the edges
 };
 
 /// Lines where the heights of a terrain are multiples of an interval, in the unit of heights, > 0.

@@ -78,10 +78,17 @@ TEST_F(ViewLayers, AreDrawnInScreenshotsAndCounted) {
   EXPECT_NE(both.err.find("1 of 3 points is not on the terrain"), std::string::npos) << both.err;
   EXPECT_EQ(layers[1]["lines"], 1);
   EXPECT_EQ(layers[2]["name"], "way 2") << "names of layers differ";
-  EXPECT_NE(read("both.png"), read("plain.png"));
-  const Outcome hidden = shoot("hidden.png", {"--layer", "way.csv,opacity=0"});
-  ASSERT_EQ(hidden.code, 0) << hidden.err;
-  EXPECT_EQ(read("hidden.png"), read("plain.png"));
+  EXPECT_FALSE(read("both.png") == read("plain.png"));
+  // A layer that shines through wholly is not there, however wide it is.
+  for (const char* name : {"thin", "wide", "seen"}) {
+    const std::string keys = name == std::string("thin")   ? ",opacity=0"
+                             : name == std::string("wide") ? ",opacity=0,width=20"
+                                                           : ",width=20";
+    const Outcome one = shoot(std::string(name) + ".png", {"--layer", "way.csv" + keys});
+    ASSERT_EQ(one.code, 0) << one.err;
+  }
+  EXPECT_TRUE(read("thin.png") == read("wide.png"));
+  EXPECT_FALSE(read("thin.png") == read("seen.png"));
 }
 
 TEST_F(ViewLayers, ThatAreNotOnTheTerrainAreRefusedBeforeAnythingIsDrawn) {
@@ -106,7 +113,7 @@ TEST_F(ViewLayers, DrapesLieOverEachOther) {
   EXPECT_EQ(two.json()["layers"].size(), 2u);
   EXPECT_EQ(two.json()["layers"][1]["name"], "drape 2");
   EXPECT_EQ(two.json()["drape"]["file"], "other.tif");
-  EXPECT_NE(read("one.png"), read("two.png"));
+  EXPECT_FALSE(read("one.png") == read("two.png"));
 }
 
 }  // namespace
