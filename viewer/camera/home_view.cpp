@@ -75,25 +75,29 @@ Vec3 inAxes(const Vec3& p, const PictureAxes& axes) {
   return {dot(p, axes.right), dot(p, axes.up), dot(p, axes.ahead)};
 }
 
-/// The points that lie farthest in the directions from the middle of a cube to its corners and to the middles
-/// of its edges and faces.
+/// The vertices that lie farthest in the directions from the middle of a cube to its corners and to the
+/// middles of its edges and faces: 13 axes, both ways.
 struct Farthest {
-  std::array<float, 26> along;
-  std::array<std::uint32_t, 26> vertex;
+  std::array<float, 13> low, high;
+  std::array<std::uint32_t, 13> lowest, highest;
 
-  Farthest() { along.fill(-std::numeric_limits<float>::infinity()); }
-  void take(const Vec3& p, std::uint32_t v) {
-    std::size_t i = 0;
-    for (int x = -1; x <= 1; ++x)
-      for (int y = -1; y <= 1; ++y)
-        for (int z = -1; z <= 1; ++z) {
-          if (x == 0 && y == 0 && z == 0) continue;
-          if (const auto there = float(x * p.x + y * p.y + z * p.z); there > along[i]) {
-            along[i] = there;
-            vertex[i] = v;
-          }
-          ++i;
-        }
+  Farthest() {
+    low.fill(std::numeric_limits<float>::infinity());
+    high.fill(-std::numeric_limits<float>::infinity());
+  }
+  void take(float x, float y, float z, std::uint32_t v) {
+    const std::array<float, 13> along{x,     y,     z,         x + y,     x - y,     x + z,    x - z,
+                                      y + z, y - z, x + y + z, x + y - z, x - y + z, x - y - z};
+    for (std::size_t i = 0; i < along.size(); ++i) {
+      if (along[i] > high[i]) {
+        high[i] = along[i];
+        highest[i] = v;
+      }
+      if (along[i] < low[i]) {
+        low[i] = along[i];
+        lowest[i] = v;
+      }
+    }
   }
 };
 
@@ -165,6 +169,9 @@ HomeShape homeShape(std::uint32_t vertices, const std::function<Vec3(std::uint32
     return to > from ? (value - from) / (to - from) : 0.0;
   };
   std::unordered_map<std::uint32_t, Farthest> cells;
+  // Vertices that follow each other often lie in one cell.
+  std::uint32_t last = std::numeric_limits<std::uint32_t>::max();
+  Farthest* inLast = nullptr;
   for (std::uint32_t v = 0; v < vertices; ++v) {
     const Vec3 p = at(v);
     if (!isFinite(p)) continue;
@@ -172,11 +179,15 @@ HomeShape homeShape(std::uint32_t vertices, const std::function<Vec3(std::uint32
     std::uint32_t cell = 0;
     for (const double along : {q.x, q.y, q.z})
       cell = cell * kCellsOfShape + std::uint32_t(std::min(int(along * kCellsOfShape), kCellsOfShape - 1));
-    cells[cell].take(q, v);
+    if (cell != last) inLast = &cells[cell];
+    last = cell;
+    inLast->take(float(q.x), float(q.y), float(q.z), v);
   }
   std::vector<std::uint32_t> taken;
-  for (const auto& [cell, farthest] : cells)
-    taken.insert(taken.end(), farthest.vertex.begin(), farthest.vertex.end());
+  for (const auto& [cell, farthest] : cells) {
+    taken.insert(taken.end(), farthest.lowest.begin(), farthest.lowest.end());
+    taken.insert(taken.end(), farthest.highest.begin(), farthest.highest.end());
+  }
   std::ranges::sort(taken);
   const auto repeated = std::ranges::unique(taken);
   taken.erase(repeated.begin(), repeated.end());

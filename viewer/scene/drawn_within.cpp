@@ -11,6 +11,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/morph/geomorph.h"
+
 namespace arete {
 
 double drawnWithin(const Subject& subject, const Camera& cutFor, const ViewSettings& settings, double pixels,
@@ -27,10 +29,13 @@ double drawnWithin(const Subject& subject, const Camera& cutFor, const ViewSetti
   if (!isSeen || !std::isfinite(pixels)) return subject.boundAt(pick, kAny);
   const double drawn = pixels * place.z * place.z / norm(place) / frustum.pixelsPerUnit();
   const double allowed = drawn / (settings.stretch * subject.space().metresPerHeight()) * kEdge;
-  const double bound = subject.boundAt(pick, allowed);
+  // Moving vertices have a part of the tolerance, and triangles the rest.
+  const bool moves = settings.isGeomorphed && subject.isTerrain();
+  const double cut = moves ? allowed * MorphCamera::Options{}.cutShare : allowed;
+  const double bound = subject.boundAt(pick, cut);
   // On a curved Earth a triangle is also as far below the ground between its corners as the error of the
   // curved model allows beyond that of the flat one.
-  return settings.isCurved ? 2 * bound + allowed : bound;
+  return (settings.isCurved ? 2 * bound + cut : bound) + (allowed - cut);
 }
 
 std::string boundText(double bound) {

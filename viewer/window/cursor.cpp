@@ -33,7 +33,8 @@ bool Cursor::Now::operator==(const Now& other) const {
   const bool isMouseSame = mouse.has_value() == other.mouse.has_value() &&
                            (!mouse || (mouse->x == other.mouse->x && mouse->y == other.mouse->y));
   return isMouseSame && isSame(camera, other.camera) && isSame(cutFor, other.cutFor) &&
-         pixels == other.pixels && stretch == other.stretch && isCurved == other.isCurved;
+         pixels == other.pixels && stretch == other.stretch && isCurved == other.isCurved &&
+         isGeomorphed == other.isGeomorphed;
 }
 
 void Cursor::update(const Now& now) {
@@ -52,7 +53,8 @@ void Cursor::ask(const Now& now) {
   text_.clear();
   if (!now.mouse) return;
   ++asked_;
-  const ViewSettings settings{.stretch = now.stretch, .isCurved = now.isCurved};
+  const ViewSettings settings{
+      .isGeomorphed = now.isGeomorphed, .stretch = now.stretch, .isCurved = now.isCurved};
   pick_ = subject_.pick(now.camera, *now.mouse, settings);
   if (!pick_) {
     if (subject_.isVoid(now.camera, *now.mouse, settings)) text_ = "no data";
@@ -63,9 +65,11 @@ void Cursor::ask(const Now& now) {
 }
 
 std::string Cursor::textOf(const Pick& pick) const {
+  // The bound has no more digits than the height.
+  const double within = tools_ && within_ > 0 ? std::max(within_, 0.01) : within_;
   const std::string unit = subject_.heightUnit().empty() ? std::string() : " " + subject_.heightUnit();
-  const std::string drawn = within_ > 0 ? fmt::format("drawn within {}{} of it", boundText(within_), unit)
-                                        : std::string("drawn as it is");
+  const std::string drawn = within > 0 ? fmt::format("drawn within {}{} of it", boundText(within), unit)
+                                       : std::string("drawn as it is");
   if (!tools_) {
     const std::string place = coordinates(subject_.inFile(pick.metric), subject_.box().diagonal());
     return place + unit + (pick.material.empty() ? "" : "   " + pick.material) + ", " + drawn;

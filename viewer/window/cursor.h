@@ -24,7 +24,7 @@ class Cursor {
     Camera camera = {}, cutFor = {};  ///< that is shown, and that the cut was taken for
     double pixels = 0;                ///< the tolerance of the cut
     double stretch = 1;
-    bool isCurved = false;
+    bool isCurved = false, isGeomorphed = false;
 
     bool operator==(const Now& other) const;
   };

@@ -101,7 +101,8 @@ void ViewerSession::readCursor(const InputState& input) {
                  .cutFor = frozen.value_or(rig.camera()),
                  .pixels = figures.pixels > 0 ? figures.pixels : std::numeric_limits<double>::infinity(),
                  .stretch = settings.stretch,
-                 .isCurved = settings.isCurved});
+                 .isCurved = settings.isCurved,
+                 .isGeomorphed = settings.isGeomorphed});
 }
 
 void ViewerSession::layMarks() {

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "engine/base/caught_failure.h"

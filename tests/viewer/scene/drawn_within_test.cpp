@@ -18,6 +18,8 @@
 namespace arete {
 namespace {
 
+const ViewSettings kAtRest{.isGeomorphed = false};
+
 /// The height of a mesh at a place of the plan, by barycentric coordinates of each triangle.
 std::optional<double> heightOf(const SurfaceMesh& mesh, Vec2 at) {
   for (const auto& t : mesh.triangles) {
@@ -50,7 +52,7 @@ TEST(DrawnWithin, WhatIsDrawnOverAPickedPlaceIsNoFartherFromIt) {
       for (int k = 0; k < 60; ++k) {
         const auto pick = subject.pick(camera, {random.between(0, 400), random.between(0, 300)});
         if (!pick) continue;
-        const double within = drawnWithin(subject, camera, {}, pixels, *pick);
+        const double within = drawnWithin(subject, camera, kAtRest, pixels, *pick);
         const auto drawn = heightOf(tin->mesh, pick->xy);
         ASSERT_TRUE(drawn) << family.name << ", seed " << seed;
         const double off = std::abs(*drawn - pick->height);
@@ -63,6 +65,21 @@ TEST(DrawnWithin, WhatIsDrawnOverAPickedPlaceIsNoFartherFromIt) {
   EXPECT_GT(closest, 0.1) << "and it is not said for safety's sake";
 }
 
+TEST(DrawnWithin, MovingVerticesTakeAThirdOfTheTolerance) {
+  const TerrainModel& model = test::cameraModels()[0].model;
+  const TerrainSubject subject(model);
+  const Camera camera = subject.home(HomeView::fromAbove, {}, {});
+  const auto pick = subject.pick(camera, {960, 540});
+  ASSERT_TRUE(pick);
+  // The eye looks straight down: a pixel is as large on the ground as its distance makes it. So fine a cut
+  // has the finest triangles, and only their motion is left.
+  const double metres = 1e-3 * pick->metres * 2 *
+                        std::tan(camera.verticalFieldOfViewDegrees / 2 * 0.0174532925) / camera.heightPixels;
+  const double height = metres / subject.space().metresPerHeight();
+  EXPECT_EQ(drawnWithin(subject, camera, kAtRest, 1e-3, *pick), 0);
+  EXPECT_NEAR(drawnWithin(subject, camera, {}, 1e-3, *pick), height / 3, 1e-3 * height);
+}
+
 TEST(DrawnWithin, IsThatOfAnyCutWhereTheCameraOfTheCutDoesNotLook) {
   const TerrainModel& model = test::cameraModels()[0].model;
   const TerrainSubject subject(model);
@@ -71,10 +88,10 @@ TEST(DrawnWithin, IsThatOfAnyCutWhereTheCameraOfTheCutDoesNotLook) {
   ASSERT_TRUE(pick);
   Camera away = camera;
   away.pitchDegrees = 90;
-  const double any = drawnWithin(subject, away, {}, 0.01, *pick);
-  EXPECT_EQ(any, drawnWithin(subject, camera, {}, INFINITY, *pick));
-  EXPECT_GT(any, drawnWithin(subject, camera, {}, 0.01, *pick));
-  EXPECT_EQ(drawnWithin(subject, camera, {}, 1e-9, *pick), 0) << "the finest triangles";
+  const double any = drawnWithin(subject, away, kAtRest, 0.01, *pick);
+  EXPECT_EQ(any, drawnWithin(subject, camera, kAtRest, INFINITY, *pick));
+  EXPECT_GT(any, drawnWithin(subject, camera, kAtRest, 0.01, *pick));
+  EXPECT_EQ(drawnWithin(subject, camera, kAtRest, 1e-9, *pick), 0) << "the finest triangles";
 }
 
 TEST(DrawnWithin, IsSmallerWhereHeightsAreDrawnHigher) {

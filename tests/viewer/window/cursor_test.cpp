@@ -46,7 +46,8 @@ TEST(Cursor, ShowsTheHeightOfFullResolutionAndHowFarTheDrawnOneMayBeFromIt) {
     EXPECT_NE(looked.cursor.text().find(looked.cursor.within() > 0 ? "drawn within" : "drawn as it is"),
               std::string::npos)
         << looked.cursor.text();
-    EXPECT_EQ(looked.cursor.within(), drawnWithin(looked.subject, looked.camera, {}, 1, *pick));
+    EXPECT_EQ(looked.cursor.within(),
+              drawnWithin(looked.subject, looked.camera, {.isGeomorphed = false}, 1, *pick));
   }
 }
 
