@@ -8,7 +8,7 @@
 
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
-#include "io/geo/crs/chain_transform.h"
+#include "io/geo/bent/chain_transform.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/features/feature_layer.h"
 

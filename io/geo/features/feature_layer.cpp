@@ -17,7 +17,7 @@
 
 #include "engine/base/caught_failure.h"
 #include "io/files/text_scan.h"
-#include "io/geo/crs/chain_transform.h"
+#include "io/geo/bent/chain_transform.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/reader.h"
 #include "io/geo/features/chain_placer.h"

@@ -16,7 +16,7 @@
 
 #include "engine/base/caught_failure.h"
 #include "engine/base/counted.h"
-#include "io/geo/crs/chain_transform.h"
+#include "io/geo/bent/chain_transform.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/reader.h"
 #include "io/geo/gdal/polygon_set.h"

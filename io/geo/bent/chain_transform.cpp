@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/geo/crs/chain_transform.h"
+#include "io/geo/bent/chain_transform.h"
 
 #include <fmt/format.h>
 
