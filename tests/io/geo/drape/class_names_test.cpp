@@ -26,7 +26,7 @@ class DrapeClasses : public testing::Test {
     fs::remove(path_ + ".aux.xml");
   }
 
-  /// 8 x 8 with the classes 1, 2 and 5, of which 5 is transparent.
+  /// 8 x 8 with the classes 1, 2 and 5, of which 5 is NODATA.
   void save(bool hasNames) const {
     GDALDataset* file =
         GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path_.c_str(), 8, 8, 1, GDT_Byte, nullptr);
@@ -34,10 +34,11 @@ class DrapeClasses : public testing::Test {
     GDALRasterBand& band = *file->GetRasterBand(1);
     GDALColorTable colors;
     for (short i = 0; i < 6; ++i) {
-      const GDALColorEntry entry = {short(10 * i), short(20 * i), short(30 * i), short(i == 5 ? 0 : 255)};
+      const GDALColorEntry entry = {short(10 * i), short(20 * i), short(30 * i), 255};
       colors.SetColorEntry(i, &entry);
     }
     band.SetColorTable(&colors);
+    band.SetNoDataValue(5);
     if (hasNames) {
       const char* names[] = {"nothing", "water", "forest", "ice", nullptr};
       band.SetCategoryNames(const_cast<char**>(names));
