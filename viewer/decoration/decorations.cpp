@@ -34,49 +34,43 @@ void decorate(Canvas& canvas, const PictureGround& ground, std::span<const Color
   const Rect& frame = ground.frame();
   if (std::min(frame.width, frame.height) < kLeastSide) return;
   const double size = decorationTextSize(frame), pad = size * 0.7, margin = size * 0.6;
-  const auto fits = [&](Vec2 room) { return room.x <= frame.width * 0.6 && room.y <= frame.height * 0.75; };
 
   std::vector<GraticuleLine> lines;
   if (decorations.graticule)
     lines = graticuleOf(ground, std::max(70.0, (ground.isPerspective() ? 1.6 : 1) * kSpacing * size));
   drawGraticuleLines(canvas, ground, lines);
 
+  // From the lower right corner to the left: the legends, the scale bar, the north arrow.
   std::vector<Rect> taken;
-  double left = frame.left + margin;
-  const auto lowerLeft = [&](Vec2 room) {
-    const Rect panel = {left, frame.bottom() - margin - room.y - pad, room.x + 2 * pad, room.y + pad};
+  double right = frame.right() - margin;
+  const auto panelOf = [&](Vec2 room) -> std::optional<Vec2> {
+    const double width = room.x + 2 * pad, height = room.y + pad;
+    const Rect panel = {right - width, frame.bottom() - margin - height, width, height};
+    if (panel.left < frame.left + margin || panel.top < frame.top + margin) return {};
     drawPanel(canvas, panel);
     taken.push_back(panel);
-    left = panel.right() + margin / 2;
+    right = panel.left - margin / 2;
     return Vec2{panel.left + pad, panel.top + pad / 2};
   };
-  if (decorations.scaleBar)
-    if (const auto bar = scaleBarOf(ground, std::min(frame.width * 0.25, size * 14)))
-      if (const Vec2 room = scaleBarSize(canvas, *bar, size); fits(room))
-        drawScaleBar(canvas, *bar, lowerLeft(room), size);
-  if (decorations.north)
-    if (const auto arrow = northArrowOf(ground))
-      if (const Vec2 room = northArrowSize(canvas, *arrow, size);
-          fits(room) && left + room.x + 2 * pad < frame.left + frame.width * 0.75)
-        drawNorthArrow(canvas, *arrow, lowerLeft(room), size);
-  if (decorations.legend && !legends.empty()) {
+  if (decorations.legend) {
     const LegendStyle style = {.textSize = size,
                                .barHeight = std::min(frame.height * 0.35, size * 12),
                                .maxHeight = frame.height * 0.7};
+    // The last legends have no room in a small picture.
+    while (!legends.empty() && legendSize(legends, style).y > frame.height * 0.85)
+      legends = legends.first(legends.size() - 1);
     const Vec2 room = legendSize(legends, style);
-    if (room.x <= frame.width * 0.5 && room.y <= frame.height * 0.8) {
-      const double panelLeft = frame.right() - margin - room.x - 2 * pad;
-      // Above the other panels where both do not fit beside each other.
-      const double below = panelLeft < left ? taken.empty() ? 0 : taken.front().height + margin : 0;
-      const Rect panel = {panelLeft, frame.bottom() - margin - below - room.y - pad, room.x + 2 * pad,
-                          room.y + pad};
-      if (panel.top >= frame.top) {
-        drawPanel(canvas, panel);
-        taken.push_back(panel);
-        drawLegends(canvas, legends, {panel.left + pad, panel.top + pad / 2}, style);
-      }
-    }
+    if (!legends.empty() && room.x <= frame.width * 0.5)
+      if (const auto corner = panelOf(room)) drawLegends(canvas, legends, *corner, style);
   }
+  if (decorations.scaleBar)
+    if (const auto bar = scaleBarOf(ground, std::min(frame.width * 0.25, size * 14)))
+      if (const auto corner = panelOf(scaleBarSize(canvas, *bar, size)))
+        drawScaleBar(canvas, *bar, *corner, size);
+  if (decorations.north)
+    if (const auto arrow = northArrowOf(ground))
+      if (const auto corner = panelOf(northArrowSize(canvas, *arrow, size)))
+        drawNorthArrow(canvas, *arrow, *corner, size);
   drawGraticuleLabels(canvas, ground, lines, taken, 0.85 * size);
 }
 

@@ -18,8 +18,8 @@ struct Decorations {
   bool operator==(const Decorations&) const = default;
 };
 
-/// Draws graticule, scale bar and north arrow (lower left) and legends (lower right) over a picture. A part
-/// that would take more than half of a small picture is left out.
+/// Draws the graticule over a picture, and from its lower right corner to the left the legends, the scale bar
+/// and the north arrow. What has no room in a small picture is left out.
 void decorate(Canvas& canvas, const PictureGround& ground, std::span<const ColorLegend> legends,
               const Decorations& decorations = {});
 

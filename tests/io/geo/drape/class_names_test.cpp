@@ -2,6 +2,7 @@
 #include "io/geo/drape/class_names.h"
 
 #include <gdal_priv.h>
+#include <gdal_rat.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -18,7 +19,7 @@ class DrapeClasses : public testing::Test {
   void SetUp() override {
     GDALAllRegister();
     path_ = (fs::temp_directory_path() /
-             ("arete_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".tif"))
+             ("arete_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".img"))
                 .string();
   }
   void TearDown() override {
@@ -26,21 +27,26 @@ class DrapeClasses : public testing::Test {
     fs::remove(path_ + ".aux.xml");
   }
 
-  /// 8 x 8 with the classes 1, 2 and 5, of which 5 is transparent.
+  /// 8 x 8 with the classes 1, 2 and 5, of which 5 is NODATA.
   void save(bool hasNames) const {
     GDALDataset* file =
-        GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path_.c_str(), 8, 8, 1, GDT_Byte, nullptr);
+        GetGDALDriverManager()->GetDriverByName("HFA")->Create(path_.c_str(), 8, 8, 1, GDT_Byte, nullptr);
     ASSERT_NE(file, nullptr);
     GDALRasterBand& band = *file->GetRasterBand(1);
     GDALColorTable colors;
     for (short i = 0; i < 6; ++i) {
-      const GDALColorEntry entry = {short(10 * i), short(20 * i), short(30 * i), short(i == 5 ? 0 : 255)};
+      const GDALColorEntry entry = {short(10 * i), short(20 * i), short(30 * i), 255};
       colors.SetColorEntry(i, &entry);
     }
     band.SetColorTable(&colors);
+    band.SetNoDataValue(5);
     if (hasNames) {
-      const char* names[] = {"nothing", "water", "forest", "ice", nullptr};
-      band.SetCategoryNames(const_cast<char**>(names));
+      GDALDefaultRasterAttributeTable table;
+      table.CreateColumn("Class_Names", GFT_String, GFU_Name);
+      table.SetRowCount(4);
+      int row = 0;
+      for (const char* name : {"nothing", "water", "forest", "ice"}) table.SetValue(row++, 0, name);
+      band.SetDefaultRAT(&table);
     }
     std::vector<std::uint8_t> values(64, 1);
     for (std::size_t i = 20; i < 40; ++i) values[i] = 2;
@@ -72,7 +78,7 @@ TEST_F(DrapeClasses, HaveNumbersWithoutNames) {
 
 TEST_F(DrapeClasses, AreNoneInAPictureOfColours) {
   GDALDataset* file =
-      GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path_.c_str(), 4, 4, 3, GDT_Byte, nullptr);
+      GetGDALDriverManager()->GetDriverByName("HFA")->Create(path_.c_str(), 4, 4, 3, GDT_Byte, nullptr);
   GDALClose(file);
   const auto classes = readDrapeClasses(path_);
   ASSERT_TRUE(classes);
