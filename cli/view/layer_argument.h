@@ -31,7 +31,7 @@ Result<double> readOpacity(const std::string& text, std::string_view key = "opac
 /// One of `layer`, as a person states it.
 struct LayerArgument {
   std::string file;
-  FeatureOptions read;
+  FeatureReadOptions read;
   GroundFeatureOptions ground;
   FeatureStyle style;
   double fill = 0;    ///< opacity of the areas of polygons; 0: they are not filled

@@ -66,7 +66,7 @@ bool swapsAxes(const OGRSpatialReference* crs) {
 /// @param own of the file; may be null.
 /// @param isTable its format states no CRS, so that its absence is not worth a warning.
 Result<ChainPlacer> placerOf(const OGRSpatialReference* own, const TerrainModel& model,
-                             const FeatureOptions& options, bool isTable, Warnings& warnings) {
+                             const FeatureReadOptions& options, bool isTable, Warnings& warnings) {
   ARETE_TRY(OGRSpatialReference source, chooseCrs(isKnownCrs(own) ? own : nullptr, options.crs, warnings));
   const bool swaps = options.crs.empty() && swapsAxes(own);
   const LongitudeTurns turns(model);
@@ -121,7 +121,7 @@ std::string listed(const std::vector<std::string>& names) {
   return names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ", "));
 }
 
-Status readTable(PointTable table, const TerrainModel& model, const FeatureOptions& options,
+Status readTable(PointTable table, const TerrainModel& model, const FeatureReadOptions& options,
                  FeatureLayer& layer, const RunContext& context) {
   layer.warnings = std::move(table.warnings);
   std::optional<std::size_t> labels;
@@ -169,7 +169,7 @@ std::vector<std::string> csvOptions(const std::string& path) {
   return {fmt::format("GEOM_POSSIBLE_NAMES={}", fmt::join(ColumnNames::wkt(), ","))};
 }
 
-Status readVectors(const std::string& path, const TerrainModel& model, const FeatureOptions& options,
+Status readVectors(const std::string& path, const TerrainModel& model, const FeatureReadOptions& options,
                    FeatureLayer& layer, const RunContext& context) {
   GdalErrors errors;
   const CPLConfigOptionSetter withHeights("GPX_ELE_AS_25D", "YES", true);
@@ -204,7 +204,7 @@ Status readVectors(const std::string& path, const TerrainModel& model, const Fea
   return {};
 }
 
-Status readInto(const std::string& path, const TerrainModel& model, const FeatureOptions& options,
+Status readInto(const std::string& path, const TerrainModel& model, const FeatureReadOptions& options,
                 FeatureLayer& layer, const RunContext& context) {
   registerGdal();
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
@@ -227,7 +227,7 @@ Status readInto(const std::string& path, const TerrainModel& model, const Featur
 }  // namespace
 
 Result<FeatureLayer> readFeatures(const std::string& path, const TerrainModel& model,
-                                  const FeatureOptions& options, const RunContext& context) try {
+                                  const FeatureReadOptions& options, const RunContext& context) try {
   FeatureLayer layer;
   Status read = readInto(path, model, options, layer, context);
   if (!read) {

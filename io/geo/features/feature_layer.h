@@ -45,7 +45,7 @@ struct FeatureLayer {
   Warnings warnings;
 };
 
-struct FeatureOptions {
+struct FeatureReadOptions {
   std::string layer = {};  ///< needed where a file has several that hold something
   std::string label = {};  ///< the field with the texts of labels; empty: no labels
   std::string where = {};  ///< a condition of SQL that features meet; no table of points in text has any
@@ -74,6 +74,6 @@ struct FeatureOptions {
 /// them); invalidData: nothing to draw, a file with a CRS on a DEM without, no way between the two; usage:
 /// options.crs or options.where makes no sense; interrupted; outOfMemory. O(vertices of the result).
 Result<FeatureLayer> readFeatures(const std::string& path, const TerrainModel& model,
-                                  const FeatureOptions& options = {}, const RunContext& context = {});
+                                  const FeatureReadOptions& options = {}, const RunContext& context = {});
 
 }  // namespace arete

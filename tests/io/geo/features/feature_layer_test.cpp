@@ -42,14 +42,14 @@ TerrainModel demIn(const std::string& crs) {
 }
 
 FeatureLayer read(const std::string& path, const std::string& crs = "EPSG:32611",
-                  const FeatureOptions& options = {}) {
+                  const FeatureReadOptions& options = {}) {
   auto layer = readFeatures(path, demIn(crs), options);
   EXPECT_TRUE(layer) << layer.error().describe();
   return layer ? std::move(*layer) : FeatureLayer{};
 }
 
 Error errorOf(const std::string& path, const std::string& crs = "EPSG:32611",
-              const FeatureOptions& options = {}) {
+              const FeatureReadOptions& options = {}) {
   auto layer = readFeatures(path, demIn(crs), options);
   EXPECT_FALSE(layer) << path;
   return layer ? Error{} : layer.error();
