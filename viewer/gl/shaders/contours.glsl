@@ -5,8 +5,8 @@
 // as the ground rises to it, the next one below as far as it falls: so a line along a crest, or along the edge
 // of flat ground, which has a gradient on one side only, is as wide as any other.
 const float kReach = 0.6;  // pixels from the middle to where heights are taken
-const vec2 kMinorInk = vec2(0.5, 0.85);  // the most ink; pixels from the line to where it ends
-const vec2 kFifthInk = vec2(0.8, 0.75);
+const vec2 kMinorInk = vec2(0.46, 0.85);  // the most ink; pixels from the line to where it ends
+const vec2 kFifthInk = vec2(0.72, 0.75);
 
 /// What all contour lines of a pixel need: the height in its middle, how far the ground rises and falls within a
 /// pixel, and how far it does in the neighbourhood, whatever side slopes face. Heights above the base.
