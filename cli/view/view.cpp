@@ -32,6 +32,7 @@
 #include "viewer/headless/headless.h"
 #include "viewer/heights/contour_labels.h"
 #include "viewer/layers/contour_heights.h"
+#include "viewer/scene/heights_of_contours.h"
 #include "viewer/surface/surface_drawable.h"
 #include "viewer/window/opening.h"
 #include "viewer/window/window.h"
@@ -50,6 +51,7 @@ struct Viewed {
   std::shared_ptr<const TerrainColors> colors = {};  ///< that are stated
   std::shared_ptr<const StatedLayers> layers = {};   ///< over a terrain
   FillScene addModel;                                ///< keeps the model
+  WriteHeights heightsOfContours = {};               ///< as addModel; empty of a surface
   /// Of the heights on the device; null until the model is added, and of a surface.
   std::shared_ptr<Json> ground = std::make_shared<Json>();
 };
@@ -99,13 +101,13 @@ Result<Viewed> viewedOf(const ViewArguments& a, TerrainModel opened, Session& se
     *ground = {{"bytes", heights.bytes()}, {"level", heights.finestLevel()}};
     ARETE_CHECK(scene.add(std::make_unique<TerrainDrawable>(std::move(made))));
     ARETE_CHECK(layers->addTo(scene, *model, session));
-    if (interval > 0) {
-      scene.layers.put("contours", Contours{interval});
-      ARETE_TRY(const std::vector<ContourLabel> labels, contourLabels(*model, interval));
-      ARETE_TRY(auto written, ContourHeights::create(labels));
-      scene.layers.put("heights of contours", Layer::Drawn(std::move(written)));
-    }
+    if (interval > 0) scene.layers.put("contours", Contours{interval});
     return {};
+  };
+  viewed.heightsOfContours = [model](double every) -> Result<Layer::Drawn> {
+    ARETE_TRY(const std::vector<ContourLabel> labels, contourLabels(*model, every));
+    ARETE_TRY(auto written, ContourHeights::create(labels));
+    return Layer::Drawn(std::move(written));
   };
   return viewed;
 }
@@ -265,6 +267,7 @@ Status runView(ViewArguments a, Session& session) {
     window.start.showsDecorations = !a.appearance.isPlainPicture;
     window.lastPicture = a.pictures.windowScreenshot;
     window.frames = a.pictures.windowFrames;
+    window.heightsOfContours = viewed.heightsOfContours;
     return runWindow(std::move(*shown), viewed.addModel, window, session.context());
   }
 
@@ -273,6 +276,7 @@ Status runView(ViewArguments a, Session& session) {
                                   a.appearance.isPlainPicture ? Decorations::none() : Decorations()},
                                  viewed.addModel));
   session.warn(view.warnings(), a.model);
+  ARETE_CHECK(HeightsOfContours(viewed.heightsOfContours).follow(view.scene().layers));
   Json json = {{"model", a.model}, {"kind", subject.kind()}, {"renderer", view.description()}};
   a.detail.addBudgetTo(json, viewed.finestTriangles);
   if (!viewed.ground->is_null()) json["heights"] = *viewed.ground;

@@ -83,6 +83,7 @@ class WindowLoop {
         window_(std::move(window)),
         panelContext_(window_.handle(), window_.contentScale()),
         scene_(std::move(scene)),
+        heights_(options.heightsOfContours),
         session_(scene_.subject(), scene_.layers, startOf(options, window_)) {
     session_.device.renderer = window_.description();
     session_.device.refusal = scene_.deviceRefusal();
@@ -133,6 +134,7 @@ class WindowLoop {
     panel_.draw(session_, window_.pixelsPerUnit());
     ImGui::Render();
 
+    ARETE_CHECK(heights_.follow(scene_.layers, ImGui::IsAnyItemActive()));
     ARETE_CHECK(drawScene(context));
     // Pictures are saved before the panel is drawn over the terrain. The time is taken before the swap, which
     // waits for the screen.
@@ -258,6 +260,7 @@ class WindowLoop {
   GlfwWindow window_;
   PanelContext panelContext_;
   Scene scene_;
+  HeightsOfContours heights_;
   std::optional<DecorationOverlay> overlay_;  // once the loop runs
   ViewerSession session_;
   Panel panel_;

@@ -8,6 +8,7 @@
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
 #include "viewer/gl/scene.h"
+#include "viewer/scene/heights_of_contours.h"
 #include "viewer/window/glfw_window.h"
 #include "viewer/window/viewer_session.h"
 
@@ -20,6 +21,8 @@ struct WindowOptions {
   int samples = 4;                 ///< per pixel, to smooth edges
   bool waitsForScreen = true;      ///< vertical synchronisation
 
+  /// Of the contours that are shown; empty: none are written.
+  WriteHeights heightsOfContours = {};
   /// Before every frame, counted from 0; false ends. May be empty.
   std::function<bool(ViewerSession&, int frame)> onFrame = {};
   /// Saved when the window closes: what it shows, panel and all. Empty = nothing.
