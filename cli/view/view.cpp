@@ -169,6 +169,15 @@ ModelKind kindOf(const Model& model) {
   return std::holds_alternative<SurfaceModel>(model) ? ModelKind::surface : ModelKind::terrain;
 }
 
+/// Options that are not for a kind of model.
+Status refuseOtherKinds(const ViewArguments& a, ModelKind kind) {
+  ARETE_CHECK(a.kinds.refuseOther(kind));
+  if (kind == ModelKind::surface && a.viewpoint.isRound && a.pictures.frames.empty() &&
+      a.pictures.film.empty())
+    return failure(ErrorCode::usage, "requires --frames, where the file is of a surface", "--round");
+  return {};
+}
+
 /// The model, read or built behind a bar in the window, if there is one. Nothing: the window was closed.
 ///
 /// @param file of a model; nothing: it is to be built.
@@ -198,7 +207,7 @@ Result<std::optional<Model>> openModelOf(const ViewArguments& a, std::optional<A
   if (opened->isBuilt && opening.seconds() > kSecondsWorthAFile)
     session.note(fmt::format("{} was built in {:.0f} s; '{}' keeps the model for the next time", name,
                              opening.seconds(), buildCommandOf(a.model)));
-  ARETE_CHECK(a.kinds.refuseOther(kindOf(opened->model)));
+  ARETE_CHECK(refuseOtherKinds(a, kindOf(opened->model)));
   return std::optional(std::move(opened->model));
 }
 
@@ -207,7 +216,7 @@ Status runView(ViewArguments a, Session& session) {
   std::optional<AmtContainer> file;
   if (isModelFile(a.model)) {
     ARETE_TRY(file, openModelFile(a.model));
-    ARETE_CHECK(a.kinds.refuseOther(kindOf(*file)));
+    ARETE_CHECK(refuseOtherKinds(a, kindOf(*file)));
   }
   ARETE_CHECK(a.check());
   ARETE_TRY(const FramesFolder framesFolder, FramesFolder::of(a.pictures));
@@ -219,9 +228,6 @@ Status runView(ViewArguments a, Session& session) {
   }
   ARETE_TRY(std::optional<Model> model, openModelOf(a, std::move(file), shown ? &*shown : nullptr, session));
   if (!model) return {};
-  const bool isSurface = kindOf(*model) == ModelKind::surface;
-  if (isSurface && a.viewpoint.isRound && a.pictures.frames.empty())
-    return failure(ErrorCode::usage, "requires --frames, where the file is of a surface", "--round");
   ARETE_TRY(const Viewed viewed,
             std::visit([&](auto&& one) { return viewedOf(a, std::move(one), session); }, std::move(*model)));
   const Subject& subject = *viewed.subject;

@@ -60,6 +60,7 @@ EXCEPTED = {
     ("profile", "layer"): "the line is rows, or of shapely", ("profile", "csv"): "output", ("profile", "png"): "plot()",
     ("viewshed", "observers"): "observer may be rows", ("viewshed", "layer"): "as observers",
     ("viewshed", "observer-height"): "the third number of each row", ("viewshed", "polygons"): "output",
+    ("viewshed", "png"): "plot()", ("viewshed", "no-decorations"): "of --png",
     ("measure", "as"): "Model.measure() has the samples of the model, points or not",
     ("measure", "error-raster"): "output; Tin.save() has it", ("measure", "error-mesh"): "output",
     ("mesh decimate", "map"): "output; source_vertices of the result", ("convert", "up"): "of a file written of a file",
