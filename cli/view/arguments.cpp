@@ -147,7 +147,9 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
           .add_option("--drape", drapes,
                       "Georeferenced picture over the terrain, in any CRS; --color shows where it does not "
                       "reach. Several "
-                      "lie over each other as stated; ,opacity=O (0 to 1) lets what is below shine through")
+                      "lie over each other as stated, 4 at most with contours and filled areas; ,opacity=O "
+                      "(0 to 1) lets "
+                      "what is below shine through")
           ->allow_extra_args(false)
           ->type_name("FILE[,opacity=O]")
           ->group(group));
@@ -186,7 +188,7 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
           ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 20))
           ->type_name("MIB")
           ->group(group));
-  command.add_option("--sun", sun, "Direction of the sun in degrees (default 315,40)")
+  command.add_option("--sun", sun, "Direction of the sun in degrees, from the map's north (default 315,40)")
       ->type_name("AZIMUTH,ELEVATION")
       ->group(group);
   kinds.ofTerrain(command

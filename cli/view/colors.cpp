@@ -145,6 +145,9 @@ Result<TerrainColors> ColorArguments::of(const std::string& coloring, const Terr
                      fmt::format("is for named ramps; {} states the colours of the sea itself", ramp));
     const ColoredRange over = stated.value_or(ofData);
     ARETE_TRY(map, file->map(over.low, over.high, between, warnings));
+    if (file->nodata)
+      warnings.push_back({WarningCode::display,
+                          "the colour of NODATA is not shown: places without data have no ground to colour"});
     return colors;
   }
   if (between == ColorsBetween::exact)

@@ -29,10 +29,11 @@ Error inLayer(Error error, const std::string& option) {
 }
 
 /// Of a picture of classes; empty of others.
-Result<Legend> drapeLegend(const std::string& file, const std::vector<int>& bands) {
+Result<Legend> drapeLegend(const std::string& file, const std::vector<int>& bands, double opacity) {
   ARETE_TRY(const auto classes, readDrapeClasses(file, bands));
   Legend legend;
   legend.title = std::filesystem::path(file).filename().string();
+  if (opacity < 1) legend.title += fmt::format(", {:.0f} % opaque", 100 * opacity);
   for (const DrapeClass& c : classes)
     legend.entries.push_back({Rgba{c.color[0], c.color[1], c.color[2], c.color[3]}, c.name});
   return legend;
@@ -44,7 +45,8 @@ Result<StatedLayers> StatedLayers::read(const AppearanceArguments& arguments,
                                         const std::shared_ptr<const TerrainModel>& model, Session& session) {
   StatedLayers all;
   // Those that the window lays itself.
-  std::vector<std::string> names = {"contours", "heights of contours", "viewshed", "line of sight", "flight", "frozen camera"};
+  std::vector<std::string> names = {"contours", "heights of contours", "viewshed", "line of sight",
+                                    "flight",   "frozen camera"};
   const auto named = [&](const std::string& name) { return names.emplace_back(unlike(name, names)); };
   ARETE_TRY(all.drapeOptions_, arguments.drapeOptions());
   for (const std::string& text : arguments.drapes) {
@@ -95,7 +97,7 @@ Status StatedLayers::addTo(Scene& scene, const TerrainModel& model, Session& ses
     session.warn(drape.warnings(), stated.file);
     Layer& layer = scene.layers.put(stated.name, std::make_shared<const DrapeOnGpu>(std::move(drape)));
     layer.opacity = stated.opacity;
-    ARETE_TRY(layer.legend, drapeLegend(stated.file, drapeOptions_.read.bands));
+    ARETE_TRY(layer.legend, drapeLegend(stated.file, drapeOptions_.read.bands, stated.opacity));
   }
   if (vectors_.empty()) return {};
   ARETE_TRY(const auto tools, VectorLayerTools::create());

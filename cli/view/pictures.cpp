@@ -119,6 +119,9 @@ Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView
   const Subject& subject = view.scene().subject();
   const Result<FrameFigures> figures = view.draw(camera, session.context());
   if (!figures) return namedByOption(figures.error(), a);
+  // A picture is drawn in one go, so an interruption is noticed behind it.
+  if (session.context().cancelled())
+    return failure(ErrorCode::interrupted, "the picture was interrupted", a.pictures.screenshot);
   ARETE_TRY(const Image picture, view.picture());
   ARETE_CHECK(savePng(picture, a.pictures.screenshot));
   if (!figures->isShown) session.warn(fmt::format("the picture shows nothing of the {}", subject.kind()));
@@ -159,7 +162,10 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, HeadlessView& view
     large += exceedsBudget(a, frame.figures) ? 1 : 0;
     triangles += frame.figures.triangles;
     Json entry = {{"seconds", frame.seconds}, {"camera", jsonOf(frame.camera, subject)}};
-    if (!p.dropsFrames) entry["file"] = frame.file;
+    if (p.dropsFrames)
+      noteRestored(frame.file);
+    else
+      entry["file"] = frame.file;
     entry.update(jsonOf(frame.figures, subject));
     list.push_back(std::move(entry));
   }

@@ -31,7 +31,7 @@ std::vector<WrittenFile> writtenFiles();
 /// Adds a file. Does nothing before listWrittenFiles(). Thread-safe.
 void noteWritten(WrittenFile file);
 
-/// Takes a file off the list: it has got its older content back. Thread-safe.
+/// Takes a file off the list: it has got its older content back, or was for the program itself. Thread-safe.
 void noteRestored(const std::filesystem::path& path);
 
 }  // namespace arete

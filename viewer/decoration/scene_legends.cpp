@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viewer/decoration/scene_legends.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -56,7 +58,8 @@ std::vector<ColorLegend> SceneLegends::of(const ViewSettings& settings, std::spa
     if (!layer.isVisible) continue;
     if (const auto* lines = std::get_if<Contours>(&layer.content); lines && layer.legend.entries.empty()) {
       const std::string words =
-          "contours, every " + numberText(lines->interval) + (unit.empty() ? "" : " " + unit);
+          fmt::format("contours, every {0}{2}; close ones every {1}{2}", numberText(lines->interval),
+                      numberText(5 * lines->interval), unit.empty() ? "" : " " + unit);
       legends.push_back({.title = "", .classes = {{{kContourInk}, words, true}}});
     }
     if (layer.legend.entries.empty()) continue;
@@ -69,6 +72,10 @@ std::vector<ColorLegend> SceneLegends::of(const ViewSettings& settings, std::spa
   if (!look.colors && !usual_) usual_ = model ? usualColors(*model) : TerrainColors();
   ColorLegend ground =
       legendOf(look.coloring, look.colors ? *look.colors : *usual_, unit, look.heatError, settings.pixels);
+  // Directions are the grid's, which true north is beside.
+  if (look.coloring == Coloring::aspect && model && !model->georeference.crsWkt.empty() &&
+      !model->georeference.isGeographic)
+    ground.title = "aspect: slopes down to the grid's";
   if (ground.scale || !ground.classes.empty()) legends.push_back(std::move(ground));
   return legends;
 }

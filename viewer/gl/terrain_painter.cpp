@@ -170,10 +170,11 @@ Status TerrainPainter::setLayers(std::span<const Layer> layers) {
   for (const Layer& layer : layers) {
     if (!layer.isOnGround() || !layer.isVisible) continue;
     if (ground.size() == Layers::kMostOnGround)
-      return failure(ErrorCode::unsupported,
-                     fmt::format("more than {} layers on the ground are not painted at once; hide some",
-                                 Layers::kMostOnGround),
-                     layer.name);
+      return failure(
+          ErrorCode::usage,
+          fmt::format("more than {} layers lie on the ground (drapes, filled areas, contours); hide some",
+                      Layers::kMostOnGround),
+          layer.name);
     Ground& g = ground.emplace_back(Ground{.layer = layer});
     const auto* overlay = std::get_if<Layer::Overlay>(&layer.content);
     if (!overlay) continue;

@@ -35,7 +35,7 @@ class TerrainPainter {
   void setFrame(const FrameView& frame);
 
   /// The layers of the next pictures, the lowest first: those on the ground that are visible. A picture of an
-  /// overlay is uploaded once. Errors: unsupported: more than Layers::kMostOnGround, naming the first too
+  /// overlay is uploaded once. Errors: usage: more than Layers::kMostOnGround, naming the first too
   /// many.
   Status setLayers(std::span<const Layer> layers);
 

@@ -19,6 +19,7 @@
 
 #include "engine/base/stopwatch.h"
 #include "io/files/text_scan.h"
+#include "io/files/written_files.h"
 #include "viewer/gl/terrain_drawable.h"
 #include "viewer/overlay/picture_of_scene.h"
 
@@ -203,8 +204,17 @@ Status encodeFilm(const std::filesystem::path& folder, std::size_t frames, doubl
   }
   std::error_code error;
   if (status == 0 && !context.cancelled()) {
+    const auto sizeOf = [](const std::filesystem::path& file) -> std::optional<std::uint64_t> {
+      std::error_code none;
+      const auto bytes = std::filesystem::file_size(file, none);
+      return none ? std::nullopt : std::optional<std::uint64_t>(bytes);
+    };
+    const auto older = sizeOf(film);
     std::filesystem::rename(part, film, error);
-    if (!error) return {};
+    if (!error) {
+      noteWritten({.path = film.string(), .bytes = sizeOf(film).value_or(0), .olderBytes = older});
+      return {};
+    }
   }
   std::filesystem::remove(part, error);
   if (context.cancelled())

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viewer/layers/contour_heights.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "viewer/layers/label_placement.h"
+#include "viewer/picture/ticks.h"
 #include "viewer/scene/subject.h"
 
 namespace arete {
@@ -15,10 +15,15 @@ namespace arete {
 Result<std::shared_ptr<ContourHeights>> ContourHeights::create(std::span<const ContourLabel> labels) {
   ARETE_TRY(FeaturePainter painter, FeaturePainter::create());
   std::shared_ptr<ContourHeights> made(new ContourHeights(std::move(painter)));
+  // As many digits as tell the levels apart.
+  std::vector<double> levels;
+  for (const ContourLabel& label : labels) levels.push_back(label.height);
+  std::ranges::sort(levels);
+  levels.erase(std::ranges::unique(levels).begin(), levels.end());
+  const std::vector<std::string> texts = tickTexts(levels);
   for (const ContourLabel& label : labels.first(std::min(labels.size(), kMost))) {
-    // As many digits as tell the levels apart; -0 is 0.
-    const double height = std::abs(label.height) < 1e-9 ? 0 : label.height;
-    made->features_.labels.push_back({fmt::format("{:.10g}", height), {label.xy, label.height}});
+    const auto level = std::size_t(std::ranges::lower_bound(levels, label.height) - levels.begin());
+    made->features_.labels.push_back({texts[level], {label.xy, label.height}});
   }
   return made;
 }
@@ -52,7 +57,8 @@ Status ContourHeights::drawLabels(const SpaceFrame& frame) {
   if (!buffers_) return {};
   begin(frame);
   constexpr double kApart = 70;  // pixels
-  LabelPlacement placement(int(frame.view.view.widthPixels), int(frame.view.view.heightPixels), kApart);
+  LabelPlacement placement(int(frame.view.view.widthPixels), int(frame.view.view.heightPixels), kApart,
+                           LabelPlacement::Where::on);
   return painter_.drawLabels(*buffers_, features_, style(frame), placement);
 }
 

@@ -11,7 +11,7 @@
 
 namespace arete {
 
-/// The heights of contour lines, written beside the lines that are drawn heavier: as many as a picture has
+/// The heights of contour lines, written on the lines that are drawn heavier: as many as a picture has
 /// room for, far apart from each other.
 class ContourHeights final : public SpaceContent {
  public:

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace arete {
 namespace {
@@ -34,7 +35,9 @@ std::optional<Rect> LabelPlacement::find(Vec2 at, double width, double height, d
                                         {at.x - away - width, at.y - away - height},
                                         {at.x + away, at.y + away},
                                         {at.x - away - width, at.y + away}}};
-  for (const Vec2& corner : corners) {
+  const std::array<Vec2, 1> middle = {{{at.x - width / 2, at.y - height / 2}}};
+  for (const Vec2& corner :
+       where_ == Where::on ? std::span<const Vec2>(middle) : std::span<const Vec2>(corners)) {
     const Rect area{std::round(corner.x), std::round(corner.y), width, height};
     if (area.left < 0 || area.top < 0 || area.right() > width_ || area.bottom() > height_) continue;
     if (isFree(area)) return area;

@@ -12,12 +12,13 @@
 namespace arete {
 
 /// Finds room for labels in a picture, one by one: who comes first stays. Each stands above its place, or
-/// else beside or below it, within the picture and over no other label.
+/// else beside or below it, within the picture and over no other label; or on its place and nowhere else.
 class LabelPlacement {
  public:
+  enum class Where { beside, on };
   /// @param gap pixels that stay free around a label.
-  LabelPlacement(int widthPixels, int heightPixels, double gap = 3)
-      : width_(widthPixels), height_(heightPixels), gap_(gap) {}
+  LabelPlacement(int widthPixels, int heightPixels, double gap = 3, Where where = Where::beside)
+      : width_(widthPixels), height_(heightPixels), gap_(gap), where_(where) {}
 
   /// @param at its place in pixels, y downwards
   /// @param width,height of the text; it stays `away` pixels from the place
@@ -39,6 +40,7 @@ class LabelPlacement {
 
   int width_, height_;
   double gap_;
+  Where where_;
   std::vector<Rect> taken_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>
       cells_;  // into taken_, by squares of the picture

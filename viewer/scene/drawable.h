@@ -29,7 +29,7 @@ class Drawable {
   virtual Result<FrameFigures> cut(const Camera& camera, const ViewSettings& settings,
                                    const RunContext& context = {}) = 0;
   /// Draws the last cut for the camera into the framebuffer that is bound; `layers`: of which those on the
-  /// ground are painted on it. Errors: usage, of the camera; unsupported: more layers than can be painted.
+  /// ground are painted on it. Errors: usage, of the camera, or of more layers than can be painted.
   virtual Status draw(const Camera& camera, const ViewSettings& settings,
                       std::span<const Layer> layers = {}) = 0;
   /// Draws what is behind all models, where nothing has been drawn. Precondition: draw() for the same frame.

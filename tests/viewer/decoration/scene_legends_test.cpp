@@ -66,7 +66,7 @@ TEST(SceneLegends, OfLayersComeFirstAndTheHighestIsTheFirst) {
   EXPECT_EQ(all[0].title, "Roads");
   EXPECT_EQ(all[0].classes.at(0).label, "paved");
   EXPECT_EQ(all[0].classes.at(0).colors.at(0), (Rgb{1, 2, 3}));
-  EXPECT_EQ(all[1].classes.at(0).label, "contours, every 25 m");
+  EXPECT_EQ(all[1].classes.at(0).label, "contours, every 25 m; close ones every 125 m");
   EXPECT_EQ(all[2].title, "height");
   layers.find("roads")->isVisible = false;
   EXPECT_EQ(legends.of({}, layers.list()).size(), 2u);

@@ -15,7 +15,7 @@
 namespace arete {
 namespace {
 
-TEST(ContourHeights, StandBesideEveryFifthLineAndFarFromEachOther) {
+TEST(ContourHeights, StandOnEveryFifthLineAndFarFromEachOther) {
   { ARETE_NEEDS_OPENGL(context); }
   // A plane that rises by 1 m in 1 m to the east: every fifth line of 10 m is a meridian at a multiple of 50.
   RasterHeightfield field;
