@@ -18,6 +18,7 @@
 #include "cli/arguments/arguments.h"
 #include "engine/base/counted.h"
 #include "io/files/file_writer.h"
+#include "io/files/written_files.h"
 
 namespace arete {
 namespace {
