@@ -67,6 +67,20 @@ TEST(ProfileChart, ShowsWhereTheLineIsCutOff) {
   EXPECT_LT(pixelsLike(*zone, {255, 255, 255}), pixelsLike(*other, {255, 255, 255}));
 }
 
+TEST(ProfileChart, DrawsTheLineOverAGapUnlikeTheFreeLine) {
+  constexpr Rgb kAssumed = {118, 122, 132};
+  const SightLine high = lineAt(200);
+  Profile whole = wall();
+  whole.vertices[5].isJoined = true;
+  whole.gapMetres = 0;
+  const auto over = drawProfile(wall(), ProfileSight{high, {}}, {.title = "T"});
+  const auto none = drawProfile(whole, ProfileSight{high, {}}, {.title = "T"});
+  ASSERT_TRUE(over && none);
+  EXPECT_LT(pixelsLike(*over, kClear), 0.85 * pixelsLike(*none, kClear));
+  EXPECT_GT(pixelsLike(*over, kAssumed), 100);
+  EXPECT_EQ(pixelsLike(*none, kAssumed), 0);
+}
+
 TEST(ProfileChart, DrawsExtremeShapesWithTheirLegends) {
   const auto at = [](double s, double z, bool joined = true) { return ProfileVertex{s, {s, 0}, z, joined}; };
   const auto profile = [](double length, std::vector<ProfileVertex> vertices) {
