@@ -91,7 +91,9 @@ Result<double> readOpacity(const std::string& text, std::string_view key) {
   return *value;
 }
 
-Result<LayerArgument> LayerArgument::of(const std::string& text, std::size_t number) {
+namespace {
+
+Result<LayerArgument> readLayerArgument(const std::string& text, std::size_t number) {
   ARETE_TRY(const FileWithKeys stated,
             readFileWithKeys(text, {"name", "label", "where", "crs", "color", "width", "opacity", "fill",
                                     "height", "title"}));
@@ -129,6 +131,15 @@ Result<LayerArgument> LayerArgument::of(const std::string& text, std::size_t num
                    "height=" + height);
     layer.ground.floats = height == "own";
   }
+  return layer;
+}
+
+}  // namespace
+
+Result<LayerArgument> LayerArgument::of(const std::string& text, std::size_t number) {
+  auto layer = readLayerArgument(text, number);
+  if (!layer && layer.error().culprit != text)
+    layer.error().culprit = fmt::format("{} of {}", layer.error().culprit, text);
   return layer;
 }
 

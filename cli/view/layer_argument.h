@@ -38,7 +38,7 @@ struct LayerArgument {
   std::string title;  ///< of the legend and the list of layers; empty: of the file
 
   /// @param number of the layer, from 0: layers without a colour differ by it.
-  /// Errors: usage.
+  /// Errors, with the text in the culprit: usage.
   static Result<LayerArgument> of(const std::string& text, std::size_t number);
 };
 

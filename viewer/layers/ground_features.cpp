@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
@@ -20,6 +21,7 @@
 #include "terrain/model/plan_box.h"
 #include "terrain/sight/earth.h"
 #include "viewer/layers/drawn_text.h"
+#include "viewer/layers/polygon_place.h"
 
 namespace arete {
 namespace {
@@ -216,8 +218,33 @@ class Grounding {
     return length;
   }
 
+  /// Inside the largest polygon of a label's feature that has a place on the terrain.
+  std::optional<Vec2> placeOf(const FeatureLayer::Label& label) const {
+    const auto placeIn = [&](std::uint64_t polygon) {
+      const auto rings = std::ranges::equal_range(ringLines_, polygon, {}, &FeatureLayer::Line::polygon);
+      return placeInside(layer_, {rings.begin(), rings.end()}, profiles_.heights());
+    };
+    std::optional<Vec2> place = placeIn(label.polygon);
+    for (std::uint64_t i = label.firstPolygon; !place && i < label.endPolygon; ++i)
+      if (i != label.polygon) place = placeIn(i);
+    return place;
+  }
+
   void layLabels() {
-    for (const auto& label : layer_.labels) {
+    std::ranges::copy_if(layer_.lines, std::back_inserter(ringLines_), [](const FeatureLayer::Line& line) {
+      return line.polygon != FeatureLayer::kNoPolygon;
+    });
+    std::vector<std::optional<Vec2>> inside(layer_.labels.size());
+    parallelFor(std::size_t(0), inside.size(), [&](std::size_t i) {
+      if (layer_.labels[i].polygon != FeatureLayer::kNoPolygon) inside[i] = placeOf(layer_.labels[i]);
+    });
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      const FeatureLayer::Label& label = layer_.labels[i];
+      if (label.polygon != FeatureLayer::kNoPolygon) {
+        if (const auto ground = inside[i] ? groundAt(*inside[i]) : std::nullopt)
+          result_.labels.push_back({label.text, {*inside[i], *ground}});
+        continue;
+      }
       if (label.line == FeatureLayer::kNoLine) {
         if (stands(label.at.z))
           result_.labels.push_back({label.text, {label.at.xy, label.at.z}});
@@ -267,6 +294,13 @@ class Grounding {
           {WarningCode::omitted,
            fmt::format("{} of {} {} not on the terrain everywhere and drawn where {}", cut, all,
                        agreeing(cut, "is", "are"), agreeing(cut, "it is", "they are"))});
+    const std::size_t unplaced = layer_.labels.size() - result_.labels.size();
+    if (unplaced > 0)
+      result_.warnings.push_back(
+          {WarningCode::omitted,
+           fmt::format("{} of {} {} no place on the terrain and {} not drawn", unplaced,
+                       counted(layer_.labels.size(), "label", "labels"), agreeing(unplaced, "has", "have"),
+                       agreeing(unplaced, "is", "are"))});
     const auto foreign = std::size_t(std::ranges::count_if(
         result_.labels, [](const auto& label) { return !isDrawnAsWritten(label.text); }));
     if (foreign > 0)
@@ -303,12 +337,17 @@ class Grounding {
       widen(modelLow, modelHigh, model_.toSource(corner));
     const bool looksLonLat = !model_.georeference.crsWkt.empty() && !model_.georeference.isGeographic &&
                              low.x >= -180 && high.x <= 360 && low.y >= -90 && high.y <= 90;
+    const bool meets =
+        low.x <= modelHigh.x && high.x >= modelLow.x && low.y <= modelHigh.y && high.y >= modelLow.y;
+    const int digits = model_.georeference.isGeographic || looksLonLat ? 6 : 0;
+    const auto place = [&](Vec2 p) { return fmt::format("{:.{}f} {:.{}f}", p.x, digits, p.y, digits); };
     return {ErrorCode::invalidData,
             fmt::format(
-                "nothing of the layer '{}' is on the terrain: in the DEM's CRS it reaches from {:.6g} {:.6g} "
-                "to {:.6g} {:.6g}, and the terrain from {:.6g} {:.6g} to {:.6g} {:.6g}{}",
-                layer_.name, low.x, low.y, high.x, high.y, modelLow.x, modelLow.y, modelHigh.x, modelHigh.y,
+                "nothing of the layer '{}' is on the terrain: in the DEM's CRS it reaches from {} to {}, and "
+                "the terrain from {} to {}{}",
+                layer_.name, place(low), place(high), place(modelLow), place(modelHigh),
                 looksLonLat ? "; its coordinates look like longitudes and latitudes, whose CRS can be stated"
+                : meets     ? "; the terrain has voids there"
                             : ""),
             {}};
   }
@@ -322,6 +361,7 @@ class Grounding {
   std::uint64_t open_ = FeatureLayer::kNoLine;  // the line whose vertices are being written
   std::uint64_t pointsBeside_ = 0;
   std::vector<char> linesOn_, linesCut_;
+  std::vector<FeatureLayer::Line> ringLines_;  // in the order of their polygons
   std::vector<std::pair<std::uint64_t, double>>
       longestOf_;  // of a line, the number of its longest run, from 1
 };

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 #include <ogr_geometry.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -15,7 +17,6 @@
 #include "engine/base/counted.h"
 #include "io/files/text/grouped.h"
 #include "io/files/text/utf8.h"
-#include "io/geo/gdal/support.h"
 #include "io/geo/table/feature_rows.h"
 
 namespace arete {
@@ -82,19 +83,6 @@ void FeatureCollector::collectLine(const OGRSimpleCurve& line, std::uint64_t pol
     labelLine_ = added;
 }
 
-void FeatureCollector::findPlaceInside(const OGRPolygon& polygon) {
-  const double area = polygon.get_Area();
-  if (!(area > largestArea_)) return;
-  const GdalErrors quiet;  // of GEOS, about polygons that cross themselves
-  OGRPoint inside;
-  if (polygon.PointOnSurface(&inside) != OGRERR_NONE && polygon.Centroid(&inside) != OGRERR_NONE) return;
-  if (inside.IsEmpty()) return;
-  if (const auto there = placer_.place({inside.getX(), inside.getY()})) {
-    largestArea_ = area;
-    labelInside_ = FeatureLayer::Place{*there, kNoHeight};
-  }
-}
-
 void FeatureCollector::collect(const OGRGeometry& geometry) {
   const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
   if (geometry.IsEmpty()) {
@@ -107,8 +95,15 @@ void FeatureCollector::collect(const OGRGeometry& geometry) {
   } else if (type == wkbPolygon || type == wkbTriangle) {
     const OGRPolygon& polygon = *geometry.toPolygon();
     const std::uint64_t number = layer_.polygons++;
+    const std::size_t before = layer_.lines.size();
     for (const OGRLinearRing* ring : polygon) collectLine(*ring, number);
-    if (field_ >= 0) findPlaceInside(polygon);
+    const double area = field_ >= 0 ? polygon.get_Area() : -1;
+    const bool isArea = std::any_of(layer_.lines.begin() + std::ptrdiff_t(before), layer_.lines.end(),
+                                    [&](const FeatureLayer::Line& line) { return line.polygon == number; });
+    if (isArea && area > largestArea_) {
+      largestArea_ = area;
+      labelPolygon_ = number;
+    }
   } else if (OGR_GT_IsSubClassOf(type, wkbPolyhedralSurface)) {
     for (const OGRPolygon* polygon : *geometry.toPolyhedralSurface()) collect(*polygon);
   } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
@@ -129,8 +124,11 @@ void FeatureCollector::addLabels(std::string text) {
   if (text.empty()) return;
   for (const FeatureLayer::Place& at : labelPlaces_) layer_.labels.push_back({text, at});
   if (!labelPlaces_.empty()) return;
-  if (labelInside_)
-    layer_.labels.push_back({text, *labelInside_});
+  if (labelPolygon_)
+    layer_.labels.push_back({.text = text,
+                             .polygon = *labelPolygon_,
+                             .firstPolygon = firstPolygon_,
+                             .endPolygon = layer_.polygons});
   else if (labelLine_)
     layer_.labels.push_back({text, {}, *labelLine_});
 }
@@ -153,8 +151,9 @@ Status FeatureCollector::add(OGRFeature& feature) {
   }
   labelPlaces_.clear();
   labelLine_.reset();
-  labelInside_.reset();
+  labelPolygon_.reset();
   largestArea_ = -1;
+  firstPolygon_ = layer_.polygons;
   if (geometry->hasCurveGeometry()) {
     const std::unique_ptr<OGRGeometry> linear(geometry->getLinearGeometry());
     if (linear)
@@ -176,7 +175,7 @@ Status FeatureCollector::addPoint(Vec2 xy, double z, std::string_view label) {
   }
   labelPlaces_.clear();
   labelLine_.reset();
-  labelInside_.reset();
+  labelPolygon_.reset();
   place(xy, z);
   if (!label.empty()) addLabels(std::string(label));
   return checkSize();

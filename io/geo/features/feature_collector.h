@@ -36,7 +36,6 @@ class FeatureCollector {
   /// @param polygon its number where the line is a ring of one
   void collectLine(const OGRSimpleCurve& line, std::uint64_t polygon = FeatureLayer::kNoPolygon);
   void place(Vec2 xy, double z);
-  void findPlaceInside(const OGRPolygon& polygon);
   void addLabels(std::string text);
   Status checkSize() const;
 
@@ -48,8 +47,9 @@ class FeatureCollector {
   // Of the feature that is being added.
   std::vector<FeatureLayer::Place> labelPlaces_;  // of its points
   std::optional<std::uint64_t> labelLine_;
-  std::optional<FeatureLayer::Place> labelInside_;  // of its largest polygon
+  std::optional<std::uint64_t> labelPolygon_;  // its largest one with a closed ring
   double largestArea_ = -1;
+  std::uint64_t firstPolygon_ = 0;
   std::vector<Vec2> xy_;
   std::vector<double> z_;
 

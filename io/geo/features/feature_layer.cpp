@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -27,6 +28,7 @@
 #include "io/geo/gdal/vector_layer.h"
 #include "io/geo/table/feature_rows.h"
 #include "io/geo/table/point_table.h"
+#include "io/geo/text/cell_number.h"
 #include "io/geo/text/column_rules.h"
 #include "io/geo/text/point_text.h"
 #include "terrain/model/plan_box.h"
@@ -121,6 +123,23 @@ std::string listed(const std::vector<std::string>& names) {
   return names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// The heights of points by their column of heights, where they state none themselves; empty without one.
+std::vector<double> heightsOf(PointTable& table) {
+  if (!table.z.empty()) return std::move(table.z);
+  const auto& columns = table.attributes.columns;
+  const auto column = findColumn(
+      columns.size(), [&](std::size_t c) -> std::string_view { return columns[c].name; }, ColumnNames::z());
+  std::vector<double> heights;
+  if (!column) return heights;
+  for (std::size_t i = 0; i < table.stated.size(); ++i) {
+    const CellNumber cell = readCell(table.attributes.at(i, *column));
+    heights.push_back(cell.kind == CellNumber::Kind::number && std::isfinite(cell.value)
+                          ? cell.value
+                          : std::numeric_limits<double>::quiet_NaN());
+  }
+  return heights;
+}
+
 Status readTable(PointTable table, const TerrainModel& model, const FeatureReadOptions& options,
                  FeatureLayer& layer, const RunContext& context) {
   layer.warnings = std::move(table.warnings);
@@ -152,14 +171,17 @@ Status readTable(PointTable table, const TerrainModel& model, const FeatureReadO
                      table.xName, table.yName)});
   }
   ARETE_TRY(ChainPlacer placer, placerOf(&own, model, options, true, layer.warnings));
+  const std::vector<double> heights = heightsOf(table);
   FeatureCollector collector(std::move(placer), labels ? 0 : -1, options.mostVertices, layer);
   for (std::size_t i = 0; i < table.stated.size(); ++i) {
     if (i % 4096 == 0 && context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
     ARETE_CHECK(collector.addPoint(table.stated[i],
-                                   table.z.empty() ? std::numeric_limits<double>::quiet_NaN() : table.z[i],
+                                   heights.empty() ? std::numeric_limits<double>::quiet_NaN() : heights[i],
                                    labels ? table.attributes.at(i, *labels) : std::string_view()));
   }
-  return collector.finish();
+  ARETE_CHECK(collector.finish());
+  scaleHeights(layer, heightFactor(&own, dem));
+  return {};
 }
 
 /// GDAL finds WKT in a column of a CSV by the names that it is given.
@@ -199,6 +221,9 @@ Status readVectors(const std::string& path, const TerrainModel& model, const Fea
   ARETE_CHECK(forFeatures(*dataset, *chosen, errors, context,
                           [&](OGRFeature& feature) { return collector.add(feature); }));
   errors.moveTo(layer.warnings);
+  if (!options.where.empty() && layer.features == 0)
+    return failure(ErrorCode::invalidData, fmt::format("no feature of the layer '{}' meets the condition {}",
+                                                       layer.name, options.where));
   ARETE_CHECK(collector.finish());
   scaleHeights(layer, heightFactor(chosen->GetSpatialRef(), model.georeference));
   return {};

@@ -30,9 +30,11 @@ struct FeatureLayer {
     std::uint64_t polygon = kNoPolygon;  ///< whose ring it is, whole; rings of one polygon follow one another
   };
   struct Label {
-    std::string text;              ///< UTF-8, one line
-    Place at = {};                 ///< of a point, or within a polygon
-    std::uint64_t line = kNoLine;  ///< else the label belongs to this line, wherever along it
+    std::string text;                    ///< UTF-8, one line
+    Place at = {};                       ///< of a point
+    std::uint64_t line = kNoLine;        ///< else the label belongs to this line, wherever along it
+    std::uint64_t polygon = kNoPolygon;  ///< or to this polygon, the largest of its feature
+    std::uint64_t firstPolygon = 0, endPolygon = 0;  ///< then all of its feature
   };
 
   std::string name;

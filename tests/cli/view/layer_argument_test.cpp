@@ -43,6 +43,7 @@ TEST(LayerArgument, RefusesWhatItDoesNotKnow) {
     ASSERT_FALSE(layer) << text;
     EXPECT_EQ(layer.error().code, ErrorCode::usage) << text;
     EXPECT_NE(layer.error().describe().find(part), std::string::npos) << layer.error().describe();
+    EXPECT_NE(layer.error().culprit.find(text), std::string::npos) << "of several layers, which";
   }
 }
 

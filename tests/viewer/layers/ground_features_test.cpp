@@ -131,6 +131,83 @@ TEST(GroundFeatures, CountsWhatIsBesideTheTerrainAndEndsLinesAtVoids) {
   EXPECT_TRUE(says("2 of 3 points are not on the terrain and not drawn"));
   EXPECT_TRUE(says("1 of 2 lines is not on the terrain and not drawn"));
   EXPECT_TRUE(says("1 of 2 lines is not on the terrain everywhere and drawn where it is"));
+  EXPECT_TRUE(says("2 of 4 labels have no place on the terrain and are not drawn"));
+}
+
+TEST(GroundFeatures, PutsTheLabelOfAPolygonIntoItsPartOnTheTerrain) {
+  const TerrainModel model = withAHole();
+  FeatureLayer layer;
+  layer.name = "parks";
+  const auto ring = [&](std::uint64_t polygon, const std::vector<Vec2>& corners) {
+    layer.lines.push_back({layer.vertices.size(), corners.size() + 1, polygon});
+    for (const Vec2& corner : corners) layer.vertices.push_back(model.toSource(corner));
+    layer.vertices.push_back(model.toSource(corners.front()));
+  };
+  const auto square = [](double x, double y, double side) {
+    return std::vector<Vec2>{{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}};
+  };
+  const auto label = [&](const std::string& text, std::uint64_t first, std::uint64_t end) {
+    layer.labels.push_back({.text = text, .polygon = first, .firstPolygon = first, .endPolygon = end});
+  };
+  ring(0, square(0, 0, 2));  // with a hole of its own
+  ring(0, square(0.6, 0.6, 0.8));
+  label("holed", 0, 1);
+  ring(1, {{0, 3}, {0.5, 3}, {0.5, 6.5}, {3, 6.5}, {3, 7}, {0, 7}});
+  label("bent", 1, 2);
+  ring(2, square(6, 0, 20));
+  label("over the edge", 2, 3);
+  ring(3, square(1.5, 1.5, 4));
+  label("around the void", 3, 4);
+  ring(4, square(50, 50, 9));
+  ring(5, square(5, 5, 1));
+  label("largest part elsewhere", 4, 6);
+  ring(6, square(1.9, 1.9, 3.3));
+  label("mostly void", 6, 7);
+  ring(7, {{0, 0}, {7, 6.99}, {7, 7}});
+  label("narrow", 7, 8);
+  ring(8, square(50, 50, 9));
+  label("elsewhere", 8, 9);
+  const auto ground = layOnGround(layer, Profiles(model));
+  ASSERT_TRUE(ground) << ground.error().describe();
+  const GroundHeights heights(model);
+  const auto isIn = [&](std::uint64_t polygon, Vec2 p) {
+    bool in = false;
+    for (const auto& line : layer.lines)
+      for (std::uint64_t i = line.first + 1; line.polygon == polygon && i < line.first + line.count; ++i) {
+        const Vec2 a = model.toPlan(layer.vertices[i - 1]), b = model.toPlan(layer.vertices[i]);
+        if ((a.y <= p.y) != (b.y <= p.y) && a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x) in = !in;
+      }
+    return in;
+  };
+  ASSERT_EQ(ground->labels.size(), layer.labels.size() - 1) << "all but the one elsewhere";
+  for (std::size_t i = 0; i < ground->labels.size(); ++i) {
+    const auto& made = ground->labels[i];
+    EXPECT_EQ(made.text, layer.labels[i].text);
+    const Vec2 p = model.toPlan(made.at.xy);
+    bool isInside = false;
+    for (std::uint64_t k = layer.labels[i].firstPolygon; k < layer.labels[i].endPolygon; ++k)
+      isInside = isInside || isIn(k, p);
+    EXPECT_TRUE(isInside) << made.text << " at " << p.x << " " << p.y;
+    const auto there = heights.at(made.at.xy);
+    ASSERT_TRUE(there) << made.text;
+    EXPECT_NEAR(made.at.height, there->height, 1e-9) << made.text;
+  }
+  const Vec2 edge = model.toPlan(ground->labels[2].at.xy);
+  EXPECT_NEAR(edge.x, 6.5, 0.1) << "in the middle of the strip that is on the terrain";
+  EXPECT_TRUE(std::ranges::any_of(ground->warnings, [](const Warning& w) {
+    return w.sentence == "1 of 8 labels has no place on the terrain and is not drawn";
+  }));
+}
+
+TEST(GroundFeatures, SaysThatALayerLiesOnVoids) {
+  const TerrainModel model = withAHole();
+  FeatureLayer layer;
+  layer.name = "v";
+  layer.points = {{model.toSource({3.5, 3.5})}};
+  const auto ground = layOnGround(layer, Profiles(model));
+  ASSERT_FALSE(ground);
+  EXPECT_NE(ground.error().message.find("voids"), std::string::npos) << ground.error().message;
+  EXPECT_EQ(ground.error().message.find("e+"), std::string::npos) << ground.error().message;
 }
 
 TEST(GroundFeatures, RefusesALayerThatIsElsewhereAndSaysWhere) {
@@ -142,7 +219,7 @@ TEST(GroundFeatures, RefusesALayerThatIsElsewhereAndSaysWhere) {
   const auto ground = layOnGround(layer, profiles);
   ASSERT_FALSE(ground);
   EXPECT_EQ(ground.error().code, ErrorCode::invalidData);
-  EXPECT_NE(ground.error().message.find("5.23457e+06 512346"), std::string::npos) << ground.error().message;
+  EXPECT_NE(ground.error().message.find("5234568 512346"), std::string::npos) << ground.error().message;
 }
 
 TEST(GroundFeatures, PlacesStandAtTheirOwnHeightsIfAsked) {
