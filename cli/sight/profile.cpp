@@ -294,8 +294,14 @@ RequiredError wantedFor(const std::vector<Way>& ways, const SightEarth& earth, c
   return wanted.within(0);
 }
 
-Status drawPng(const ProfileArguments& a, const Answer& answer, const TerrainModel& model,
+/// Draws the ground at full resolution below a line of sight, whose answer is of that terrain; else the
+/// profile as it is asked for.
+Status drawPng(const ProfileArguments& a, const Answer& answer, double maxError, const Profiles& profiles,
                double wavelength) {
+  const TerrainModel& model = profiles.heights().model();
+  if (!(answer.profile.length > 0))
+    return failure(ErrorCode::degenerate, "has no length: a picture of its profile would show nothing",
+                   "--along " + a.along);
   ProfileChartOptions options;
   options.unit = model.georeference.verticalUnit;
   if (!model.georeference.crsWkt.empty()) options.unitMetres = model.georeference.verticalUnitMetres;
@@ -310,10 +316,16 @@ Status drawPng(const ProfileArguments& a, const Answer& answer, const TerrainMod
     if (answer.path.fresnel)
       options.subtitle += fmt::format(", {:.2f} of the first Fresnel zone at {:g} MHz",
                                       answer.path.fresnel->fraction, a.frequency);
+    if (a.sight.nodata != NodataSight::unknown)
+      options.subtitle += fmt::format("; places without data: {}", toString(a.sight.nodata));
     if (a.sight.earthName(model) == "ellipsoid")
       options.subtitle += fmt::format("; effective Earth's radius R / (1 - {:.4g})", a.sight.refraction);
+  } else if (maxError > 0) {
+    options.subtitle = "terrain within " + withUnit(maxError, options.unit);
   }
-  ARETE_TRY(const auto canvas, drawProfile(answer.profile, sight, options));
+  const bool isCoarse = answer.line && maxError > 0;
+  ARETE_TRY(const auto canvas,
+            drawProfile(isCoarse ? profiles.along(answer.line->track()) : answer.profile, sight, options));
   return canvas.savePng(a.png);
 }
 
@@ -371,6 +383,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
                {"earth", a.sight.earthName(model)},
                {"refraction", a.sight.refractionJson(model)}};
   maxError.addTo(json);
+  if (ways.front().ends) json["nodata"] = std::string(toString(a.sight.nodata));
   Json lines = Json::array();
   if (session.wantsAnswer())
     for (const Answer& answer : answers) lines.push_back(table.json(answer));
@@ -384,7 +397,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
     json["file"] = a.output;
   }
   if (!a.png.empty()) {
-    ARETE_CHECK(drawPng(a, answers.front(), model, wavelength));
+    ARETE_CHECK(drawPng(a, answers.front(), maxError.value, profiles, wavelength));
     json["picture"] = a.png;
     session.say(fmt::format("{}: a profile of {:.6g} km\n", a.png, answers.front().profile.length / 1000));
   }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "viewer/picture/chart_labels.h"
@@ -19,7 +20,8 @@ namespace arete {
 namespace {
 
 constexpr Rgb kGridLine = {229, 232, 236}, kGround = {196, 186, 168}, kGroundEdge = {96, 82, 60};
-constexpr Rgb kClear = {0, 140, 90}, kBlocked = {205, 50, 30}, kZone = {60, 130, 210}, kGap = {238, 238, 240};
+constexpr Rgb kClear = {0, 140, 90}, kBlocked = {205, 50, 30}, kZone = {60, 130, 210}, kGap = {238, 238, 240},
+              kAssumed = {118, 122, 132};
 constexpr int kLineSteps = 600;
 constexpr double kLeastPlot = 80;  // pixels of height
 
@@ -41,6 +43,28 @@ void include(double& low, double& high, double z) {
   if (!std::isfinite(z)) return;
   low = std::min(low, z);
   high = std::max(high, z);
+}
+
+constexpr double kLeastGap = 1e-3;  // metres; less is the rounding of the ends
+
+/// From where to where terrain is missing.
+std::vector<std::pair<double, double>> gapsOf(const Profile& profile) {
+  std::vector<std::pair<double, double>> gaps;
+  double end = 0;
+  const auto add = [&](double begin) {
+    if (begin - end > kLeastGap) gaps.emplace_back(end, begin);
+  };
+  for (const ProfileVertex& v : profile.vertices) {
+    if (!v.isJoined) add(v.distance);
+    end = v.distance;
+  }
+  add(profile.length);
+  return gaps;
+}
+
+/// How far the line is free.
+double freeLength(const ProfileSight& sight) {
+  return sight.answer.obstruction ? sight.answer.obstruction->distance : sight.line.length();
 }
 
 /// The terrain between vertices that are joined, as one area per run.
@@ -86,21 +110,45 @@ void drawZone(Canvas& canvas, const Frame& frame, const ProfileSight& sight) {
   }
 }
 
-void drawLine(Canvas& canvas, const Frame& frame, const ProfileSight& sight, ChartLabels& labels,
-              const std::string& unit) {
+/// The line of sight from one distance to another.
+std::vector<Vec2> lineBetween(const Frame& frame, const ProfileSight& sight, double from, double to) {
+  std::vector<Vec2> points = {frame.at(from, sight.line.height(from))};
+  for (int i = 0; i <= kLineSteps; ++i)
+    if (const double s = sight.line.length() * i / kLineSteps; s > from && s < to)
+      points.push_back(frame.at(s, sight.line.height(s)));
+  points.push_back(frame.at(to, sight.line.height(to)));
+  return points;
+}
+
+/// Over terrain the free part is known to be free; over a gap it is what the question assumed.
+void drawFreeLine(Canvas& canvas, const Frame& frame, const ProfileSight& sight, const Profile& profile,
+                  ChartLabels& labels) {
+  const double seen = freeLength(sight);
+  double from = 0;
+  const auto drawTo = [&](double to, bool isGap) {
+    if (!(to > from)) return;
+    const std::vector<Vec2> points = lineBetween(frame, sight, from, to);
+    if (isGap)
+      canvas.polyline(points, {.color = kAssumed, .width = 2.25, .dash = 4});
+    else
+      canvas.polyline(points, {.color = kClear, .width = 2.25});
+    labels.avoid(points);
+    from = to;
+  };
+  for (const auto& [begin, end] : gapsOf(profile)) {
+    drawTo(std::min(begin, seen), false);
+    drawTo(std::min(end, seen), true);
+  }
+  drawTo(seen, false);
+}
+
+void drawLine(Canvas& canvas, const Frame& frame, const ProfileSight& sight, const Profile& profile,
+              ChartLabels& labels, const std::string& unit) {
   const double length = sight.line.length();
   const bool isBlocked = sight.answer.obstruction.has_value();
-  const double seen = isBlocked ? sight.answer.obstruction->distance : length;
-  std::vector<Vec2> clear, hidden;
-  for (int i = 0; i <= kLineSteps; ++i) {
-    const double s = length * i / kLineSteps;
-    (s <= seen ? clear : hidden).push_back(frame.at(s, sight.line.height(s)));
-  }
-  // The clear and the hidden part meet at the obstruction, which is between two steps.
+  const double seen = freeLength(sight);
   if (isBlocked) {
-    const Vec2 p = frame.at(seen, sight.line.height(seen));
-    clear.push_back(p);
-    hidden.insert(hidden.begin(), p);
+    const std::vector<Vec2> hidden = lineBetween(frame, sight, seen, length);
     canvas.polyline(hidden, {.color = kBlocked, .width = 2.25, .dash = 7});
     labels.avoid(hidden);
   }
@@ -111,8 +159,7 @@ void drawLine(Canvas& canvas, const Frame& frame, const ProfileSight& sight, Cha
     canvas.fillCircle(foot, 4, kZone);
     labels.avoid(std::vector{foot, frame.at(place.distance, place.sightHeight)});
   }
-  canvas.polyline(clear, {.color = kClear, .width = 2.25});
-  labels.avoid(clear);
+  drawFreeLine(canvas, frame, sight, profile, labels);
   for (const double s : {0.0, length}) canvas.fillCircle(frame.at(s, sight.line.height(s)), 4.5, kInk);
   if (isBlocked) {
     const Vec2 p = frame.at(seen, sight.line.height(seen));
@@ -130,10 +177,12 @@ void drawLine(Canvas& canvas, const Frame& frame, const ProfileSight& sight, Cha
 /// What is in the chart, by name.
 std::vector<ChartKey> keysOf(const Profile& profile, const std::optional<ProfileSight>& sight) {
   std::vector<ChartKey> keys = {{"terrain", kGround, ChartKey::Shape::area}};
-  if (profile.gapMetres > 1e-3) keys.push_back({"no data", kGap, ChartKey::Shape::area});
+  if (profile.gapMetres > kLeastGap) keys.push_back({"no data", kGap, ChartKey::Shape::area});
   if (!sight) return keys;
   const bool isBlocked = sight->answer.obstruction.has_value();
   keys.push_back({isBlocked ? "line of sight, free" : "line of sight", kClear, ChartKey::Shape::line});
+  if (const auto gaps = gapsOf(profile); !gaps.empty() && gaps.front().first < freeLength(*sight))
+    keys.push_back({"line of sight, over no data", kAssumed, ChartKey::Shape::dashes});
   if (isBlocked) keys.push_back({"line of sight, behind the obstruction", kBlocked, ChartKey::Shape::dashes});
   if (sight->wavelength > 0)
     keys.push_back({fmt::format("first Fresnel zone, and {:g} of it", sight->part),
@@ -240,7 +289,7 @@ Result<Canvas> drawProfile(const Profile& profile, const std::optional<ProfileSi
   drawTerrain(canvas, frame, profile, labels);
   if (sight && sight->wavelength > 0) drawZone(canvas, frame, *sight);
   canvas.unclip();
-  if (sight) drawLine(canvas, frame, *sight, labels, options.unit);
+  if (sight) drawLine(canvas, frame, *sight, profile, labels, options.unit);
   canvas.line({frame.plot.left, frame.plot.bottom() + 0.5}, {frame.plot.right(), frame.plot.bottom() + 0.5},
               {.color = kInk, .width = 1});
   canvas.line({frame.plot.left + 0.5, frame.plot.top}, {frame.plot.left + 0.5, frame.plot.bottom()},

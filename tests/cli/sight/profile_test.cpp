@@ -70,6 +70,43 @@ TEST_F(Profiles, DrawsTheLineOfSight) {
           "requires a line of sight");
 }
 
+TEST_F(Profiles, StatesWhatIsAssumedWhereThereIsNoData) {
+  makeModel();
+  // Through the hole at the southern end of the wall.
+  const auto of = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"profile", "dem.amt", "--along", "1105,1615,40:1505,1615,40",
+                                      "--png",   "p.png",   "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.json();
+  };
+  const Json unknown = of({});
+  EXPECT_EQ(unknown["nodata"], "unknown");
+  EXPECT_EQ(unknown["lines"][0]["verdict"], "unknown");
+  const std::string drawn = read("p.png");
+  const Json clear = of({"--nodata", "clear"});
+  EXPECT_EQ(clear["nodata"], "clear");
+  EXPECT_EQ(clear["lines"][0]["verdict"], "visible");
+  EXPECT_NE(read("p.png"), drawn);
+}
+
+TEST_F(Profiles, DrawsTheGroundBelowALineOfSightAtFullResolution) {
+  makeModel();
+  const auto draw = [&](const std::string& line, const std::string& error) {
+    const Outcome outcome =
+        run({"profile", "dem.amt", "--along", line, "--max-error", error, "--png", "p.png", "-q"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return read("p.png");
+  };
+  const std::string sight = "1105,1895,20:1505,1895,20", plain = "1105,1895:1505,1895";
+  EXPECT_EQ(draw(sight, "50"), draw(sight, "0"));
+  EXPECT_NE(draw(plain, "50"), draw(plain, "0"));
+  refused({"profile", "dem.amt", "--along", "1105,1895,10:1105,1895,20", "--png", "q.png"}, 4,
+          "--along 1105,1895,10:1105,1895,20: has no length");
+  EXPECT_FALSE(exists("q.png"));
+}
+
 TEST_F(Profiles, SaysWhatItWroteAndWhatHasNoTerrain) {
   makeModel();
   const Outcome whole = run({"profile", "dem.amt", "--along", "1105,1895:1205,1895", "--png", "p.png"});

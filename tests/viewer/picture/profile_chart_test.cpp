@@ -35,7 +35,7 @@ int pixelsLike(const Canvas& canvas, Rgb color) {
 }
 
 constexpr Rgb kGround = {196, 186, 168}, kGap = {238, 238, 240}, kClear = {0, 140, 90},
-              kBlocked = {205, 50, 30};
+              kBlocked = {205, 50, 30}, kAssumed = {118, 122, 132};
 
 TEST(ProfileChart, ShowsTheGroundAndItsGaps) {
   const auto canvas = drawProfile(wall(), std::nullopt, {.width = 800, .height = 400, .unit = "m"});
@@ -65,6 +65,19 @@ TEST(ProfileChart, ShowsWhereTheLineIsCutOff) {
   const auto zone = drawProfile(wall(), radio, {.title = "T", .subtitle = "S"});
   ASSERT_TRUE(zone);
   EXPECT_LT(pixelsLike(*zone, {255, 255, 255}), pixelsLike(*other, {255, 255, 255}));
+}
+
+TEST(ProfileChart, DrawsTheLineOverAGapUnlikeTheFreeLine) {
+  const SightLine high = lineAt(200);
+  Profile whole = wall();
+  whole.vertices[5].isJoined = true;
+  whole.gapMetres = 0;
+  const auto over = drawProfile(wall(), ProfileSight{high, {}}, {.title = "T"});
+  const auto none = drawProfile(whole, ProfileSight{high, {}}, {.title = "T"});
+  ASSERT_TRUE(over && none);
+  EXPECT_LT(pixelsLike(*over, kClear), 0.85 * pixelsLike(*none, kClear));
+  EXPECT_GT(pixelsLike(*over, kAssumed), 100);
+  EXPECT_EQ(pixelsLike(*none, kAssumed), 0);
 }
 
 TEST(ProfileChart, DrawsExtremeShapesWithTheirLegends) {
@@ -99,7 +112,8 @@ TEST(ProfileChart, DrawsExtremeShapesWithTheirLegends) {
       const auto sight = drawProfile(shapes[i], ProfileSight{line, blocked},
                                      {.width = width, .height = height, .title = "T", .subtitle = "S"});
       ASSERT_TRUE(sight) << sight.error().describe();
-      EXPECT_GT(pixelsLike(*sight, kClear), 50);
+      // Over a void the line is grey.
+      EXPECT_GT(pixelsLike(*sight, kClear) + 2 * pixelsLike(*sight, kAssumed), 50);
       EXPECT_GT(pixelsLike(*sight, kBlocked), 20);
     }
 }
