@@ -118,9 +118,12 @@ Result<std::vector<PlacedObserver>> placeObservers(const ViewshedArguments& a, c
   return observers;
 }
 
-/// The part of the model within range of an observer; all of it where one has no limit. Errors: interrupted.
-Result<RequiredError> wantedFor(std::span<const PlacedObserver> observers, const SightEarth& earth,
-                                const TerrainModel& outline, const RunContext& context) {
+/// The part of the model within range of an observer, and of a map all of its ground; all of the model where
+/// an observer has no limit, or the map is on another grid. Errors: interrupted.
+Result<RequiredError> wantedFor(const ViewshedArguments& a, std::span<const PlacedObserver> observers,
+                                const SightEarth& earth, const TerrainModel& outline,
+                                const RunContext& context) {
+  if (!a.png.empty() && !a.like.empty()) return RequiredError();
   QueryFootprint places(outline);
   for (std::size_t i = 0; i < observers.size(); ++i) {
     const PlacedObserver& observer = observers[i];
@@ -131,6 +134,8 @@ Result<RequiredError> wantedFor(std::span<const PlacedObserver> observers, const
     places.add(plan);
     places.addDisc(earth, plan, observer.field.greatestMetres);
   }
+  constexpr double kMapMargin = 0.08;  // more than that of the map
+  if (!a.png.empty()) places.addRectangle(kMapMargin);
   return places.within(0);
 }
 
@@ -191,6 +196,11 @@ Result<ViewshedAnswer> answerOne(const Question& q, const ViewshedMaker& maker, 
   const ViewshedObserver& observer = q.observers.front().observer;
   ARETE_TRY(auto viewshed, q.arguments.like.empty() ? maker.from(observer, options, context)
                                                     : maker.of(grid.places, observer, options, context));
+  // The answers of this mode are its heights: none is known where there is no number.
+  if (q.arguments.mode == Mode::height)
+    for (std::size_t i = 0; i < viewshed.cells.size(); ++i)
+      if (viewshed.cells[i] != ViewshedCell::outside && std::isnan(viewshed.values[i]))
+        viewshed.cells[i] = ViewshedCell::unknown;
   json["method"] = std::string(toString(viewshed.method));
   json["rays"] = viewshed.rays;
   return ViewshedAnswer{viewshedPictureOfOne(q.arguments.mode, viewshed), std::move(viewshed.cells),
@@ -244,7 +254,9 @@ void reportCounts(const Question& q, const std::vector<ViewshedCell>& cells, con
   const std::uint64_t seen = count(ViewshedCell::seen), hidden = count(ViewshedCell::hidden),
                       unknown = count(ViewshedCell::unknown), undecided = count(ViewshedCell::undecided);
   if (seen + hidden + unknown + undecided == 0)
-    session.warn({{WarningCode::omitted, whyNoSample(q)}}, a.output);
+    session.warn({{WarningCode::omitted, whyNoSample(q)}}, !a.output.empty() ? a.output
+                                                           : !a.png.empty()  ? a.png
+                                                                             : a.polygons);
   json["seen"] = seen;
   json["hidden"] = hidden;
   json["unknown"] = unknown;
@@ -344,7 +356,7 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
     return failure(ErrorCode::usage, fmt::format("requires one observer, not {}", placed.size()),
                    a.mode == Mode::height ? "--mode height" : "--mode horizon");
   ARETE_TRY(const auto earth, a.sight.makeEarth(outline, session));
-  ARETE_TRY(const auto wanted, wantedFor(placed, *earth, outline, session.context()));
+  ARETE_TRY(const auto wanted, wantedFor(a, placed, *earth, outline, session.context()));
   ARETE_TRY(const TerrainModel model, readWanted(file, outline, wanted, session));
   ARETE_TRY(const auto observers, sitesOf(placed, model));
   return answer({a, model, *earth, options, observers, maxError}, session);

@@ -114,6 +114,9 @@ class Look {
   }
 
   ViewshedCell answerAt(std::size_t i) const {
+    // No number: no height is known, whatever the answer for one target. A horizon has none at the observer.
+    if (kind_ == Kind::heights && cells_[i] != ViewshedCell::outside && std::isnan(values_[i]))
+      return ViewshedCell::unknown;
     if (kind_ != Kind::counts && kind_ != Kind::servers) return cells_[i];
     if (cells_[i] == ViewshedCell::outside) return cells_[i];
     const double v = values_[i];

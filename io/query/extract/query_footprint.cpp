@@ -105,6 +105,23 @@ void QueryFootprint::addDisc(const SightEarth& earth, Vec2 centre, double metres
   if (std::isfinite(centre.x + centre.y)) addPart({earth, centre, metres}, 0, 0, kCells);
 }
 
+void QueryFootprint::addRectangle(double margin) {
+  int left = kCells, right = -1, bottom = kCells, top = -1;
+  for (int row = 0; row < kCells; ++row)
+    for (int column = 0; column < kCells; ++column) {
+      if (!isMarked_[static_cast<std::size_t>(row) * kCells + static_cast<std::size_t>(column)]) continue;
+      left = std::min(left, column), right = std::max(right, column);
+      bottom = std::min(bottom, row), top = std::max(top, row);
+    }
+  if (right < left) return;
+  const double cellWidth = (domain_.xMax - domain_.xMin) / kCells,
+               cellHeight = (domain_.yMax - domain_.yMin) / kCells;
+  const double more = margin * std::max((right - left + 1) * cellWidth, (top - bottom + 1) * cellHeight);
+  mark(cellsAround(
+      {domain_.xMin + left * cellWidth - more, domain_.yMin + bottom * cellHeight - more},
+      {domain_.xMin + (right + 1) * cellWidth + more, domain_.yMin + (top + 1) * cellHeight + more}));
+}
+
 // The distance from the middle to a corner, widened for how maps bend, bounds how far any place of the square
 // is from its middle. A square whose distances cannot be computed is divided until it can be, or is marked.
 void QueryFootprint::addPart(const Disc& disc, int column, int row, int size) {

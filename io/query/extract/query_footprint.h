@@ -39,6 +39,10 @@ class QueryFootprint {
   /// O(unmarked cells on its rim) distances.
   void addDisc(const SightEarth& earth, Vec2 centre, double metres);
 
+  /// Adds the rectangle about everything added so far, wider on each side by `margin` of its longer side.
+  /// O(cells).
+  void addRectangle(double margin);
+
   /// Requires this error of boxes that meet a marked cell, nothing of others. O(cells); O(1) for a call of
   /// the result, by a summed-area table [Crow1984].
   RequiredError within(double error) const;

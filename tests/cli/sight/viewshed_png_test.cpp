@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // arete viewshed --png.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "cli/sight_fixture.h"
+#include "io/geo/dem/raster_reader.h"
 
 namespace arete::cli_test {
 namespace {
@@ -72,6 +74,31 @@ TEST_F(ViewshedPng, IsOfEveryModeAndOfManyObservers) {
     ASSERT_EQ(outcome.code, 0) << mode << ": " << outcome.err;
     EXPECT_TRUE(pictures.insert(read("v.png")).second) << mode;
   }
+}
+
+TEST_F(ViewshedPng, CountsHeightsThatNobodyKnowsAsUnknown) {
+  makeModel("EPSG:32632");
+  observer_ = "500105,5199615,5";  // the hole and the wall are in the way
+  const Outcome seen = run(with({"--png", "v.png", "--json"}));
+  const Outcome height = run(with({"--mode", "height", "--png", "v.png", "-o", "v.tif", "--json"}));
+  ASSERT_EQ(seen.code + height.code, 0) << seen.err << height.err;
+  const auto read = readRaster(path("v.tif"));
+  ASSERT_TRUE(read);
+  std::uint64_t none = 0;
+  for (const double value : read->heightfield.heights) none += std::isnan(value) ? 1 : 0;
+  const Json json = height.json();
+  EXPECT_GT(json["unknown"].get<std::uint64_t>(), 0u);
+  EXPECT_EQ(json["unknown"].get<std::uint64_t>() + json["outside"].get<std::uint64_t>(), none);
+  EXPECT_EQ(json["outside"], seen.json()["outside"]);
+}
+
+TEST_F(ViewshedPng, NamesItselfWhereNothingIsInRange) {
+  makeModel("EPSG:32632");
+  observer_ = "500108,5199898,20";  // between the samples
+  const Outcome outcome = run(with({"--radius", "2", "--png", "near.png"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning: near.png: no sample is within the radius"), std::string::npos)
+      << outcome.err;
 }
 
 TEST_F(ViewshedPng, HasTheGridOfAnotherRaster) {

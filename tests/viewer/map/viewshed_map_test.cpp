@@ -108,6 +108,8 @@ TEST(ViewshedMap, ColoursNumbersHeightsAndTheHorizon) {
   for (std::size_t i = 300; i < 600; ++i) values[i] = kInfinite, cells[i] = hidden;
   EXPECT_TRUE(hasUnknown(colors(ViewshedMapKind::heights)));
   EXPECT_TRUE(hasUnknown(colors(ViewshedMapKind::horizon)));
+  for (std::size_t i = 0; i < 300; ++i) cells[i] = hidden;  // hidden at one height, and none is known
+  EXPECT_TRUE(hasUnknown(colors(ViewshedMapKind::heights)));
 }
 
 TEST(ViewshedMap, ShowsThePartWithAnswers) {

@@ -334,6 +334,24 @@ class CountingEarth final : public SightEarth {
   std::unique_ptr<SightEarth> plane_;
 };
 
+TEST(QueryFootprint, WantTheRectangleOfAMapAboutTheirDiscs) {
+  const TemporaryFolder folder;
+  const FiledTerrain filed(built(build(fieldNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
+  const auto earth = makePlaneEarth(filed.outline);
+  QueryFootprint wanted(filed.outline);
+  wanted.addRectangle(0.5);
+  EXPECT_EQ(wanted.within(0)({0, 0, 59, 39}), kNothing) << "about nothing is nothing";
+  const double metres = *earth->distance({0, 0}, {5, 0});
+  wanted.addDisc(*earth, {20, 20}, metres);
+  wanted.addDisc(*earth, {30, 20}, metres);
+  wanted.addRectangle(0.1);
+  const RequiredError within = wanted.within(0);
+  for (double x = 13.5; x < 36.5; ++x)
+    for (double y = 13.5; y < 26.5; ++y) EXPECT_EQ(within({x, y, x, y}), 0) << x << " " << y;
+  for (const Vec2 far : {Vec2{2, 15}, {50, 15}, {20, 1}, {20, 37}})
+    EXPECT_EQ(within({far.x, far.y, far.x, far.y}), kNothing) << far.x << " " << far.y;
+}
+
 TEST(QueryFootprint, AskForNoDistanceWhereADiscIsWantedAlready) {
   const TemporaryFolder folder;
   const FiledTerrain filed(built(build(fieldNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
