@@ -25,6 +25,7 @@
 #include "cli/sight/viewshed_picture.h"
 #include "cli/sight/viewshed_png.h"
 #include "io/files/output_file.h"
+#include "io/files/text_scan.h"
 #include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/position_argument.h"
@@ -54,12 +55,36 @@ Status aim(ViewshedField& field, const SightBeam& beam) {
                      fmt::format("has a range below --min-distance {}", field.leastMetres));
     field.greatestMetres = beam.range;
   }
-  if (!std::isfinite(beam.azimuth) || !std::isfinite(beam.beamwidth)) return {};
+  if (!std::isfinite(beam.beamwidth)) return {};
+  if (beam.beamwidth > 360)
+    return failure(ErrorCode::invalidData, fmt::format("has a beamwidth of {:g}, above 360", beam.beamwidth));
   if (!(beam.beamwidth > 0)) return failure(ErrorCode::invalidData, "has a beamwidth that is not above 0");
+  if (!std::isfinite(beam.azimuth)) return {};
   const double from = beam.azimuth - beam.beamwidth / 2;
   field.fromAzimuth = from - 360 * std::floor(from / 360);
-  field.azimuthSpan = std::min(beam.beamwidth, 360.0);
+  field.azimuthSpan = beam.beamwidth;
   return {};
+}
+
+/// Warns of columns that say nothing: a radius, which is called range, and half a beam.
+void warnOfIdleColumns(const SightPairs& sites, const std::string& file, const Session& session) {
+  std::size_t azimuths = 0, widths = 0, ranges = 0;
+  for (const SightBeam& beam : sites.beams) {
+    const bool hasAzimuth = std::isfinite(beam.azimuth), hasWidth = std::isfinite(beam.beamwidth);
+    azimuths += hasAzimuth && !hasWidth ? 1 : 0;
+    widths += hasWidth && !hasAzimuth && beam.beamwidth < 360 ? 1 : 0;
+    ranges += std::isfinite(beam.range) ? 1 : 0;
+  }
+  const auto warn = [&](const std::string& sentence) {
+    session.warn({{WarningCode::omitted, sentence}}, file);
+  };
+  if (azimuths > 0)
+    warn(fmt::format("azimuth is not used in {} without a beamwidth", grouped(azimuths, "row", "rows")));
+  if (widths > 0)
+    warn(fmt::format("beamwidth is not used in {} without an azimuth", grouped(widths, "row", "rows")));
+  const auto isRadius = [](const auto& column) { return text::lowered(column.name) == "radius"; };
+  if (ranges == 0 && std::ranges::any_of(sites.attributes.columns, isRadius))
+    warn("the column radius is not used; the largest distance of a row is named range");
 }
 
 /// An observer whose height above the terrain is not yet resolved.
@@ -99,6 +124,7 @@ Result<std::vector<PlacedObserver>> placeObservers(const ViewshedArguments& a, c
             readSightSites(inputPath(a.observers.file), outline.georeference,
                            {.layer = a.observers.layer, .lonLat = a.sight.lonLat}, session.context()));
   session.warn(sites.warnings, a.observers.file);
+  warnOfIdleColumns(sites, a.observers.file, session);
   const LongitudeTurns turns(outline);
   for (std::size_t i = 0; i < sites.rows.size(); ++i) {
     SightSite site = sites.rows[i][0];
@@ -196,7 +222,7 @@ Result<ViewshedAnswer> answerOne(const Question& q, const ViewshedMaker& maker, 
   const ViewshedObserver& observer = q.observers.front().observer;
   ARETE_TRY(auto viewshed, q.arguments.like.empty() ? maker.from(observer, options, context)
                                                     : maker.of(grid.places, observer, options, context));
-  // The answers of this mode are its heights: none is known where there is no number.
+  // The answers of this mode are its heights: none is known where a number is missing.
   if (q.arguments.mode == Mode::height)
     for (std::size_t i = 0; i < viewshed.cells.size(); ++i)
       if (viewshed.cells[i] != ViewshedCell::outside && std::isnan(viewshed.values[i]))
@@ -306,6 +332,23 @@ Status writeAnswer(const Question& q, const ViewshedMaker& maker, ViewshedAnswer
   return group.commit();
 }
 
+/// The observers and their fields of view, in the order of their numbers.
+Json sitesJson(const Question& q) {
+  Json sites = Json::array();
+  for (const auto& [observer, field] : q.observers) {
+    const Vec2 place = q.model.toSource(observer.plan);
+    sites.push_back({{"x", place.x},
+                     {"y", place.y},
+                     {"height", observer.height},
+                     {"radius", std::isfinite(field.greatestMetres) ? Json(field.greatestMetres) : Json()},
+                     {"minDistance", field.leastMetres},
+                     {"fromAzimuth", field.fromAzimuth},
+                     {"azimuthSpan", field.azimuthSpan},
+                     {"elevation", {field.lowest, field.highest}}});
+  }
+  return sites;
+}
+
 Status answer(const Question& q, Session& session) {
   const ViewshedArguments& a = q.arguments;
   if (!q.model.isRaster)
@@ -313,7 +356,9 @@ Status answer(const Question& q, Session& session) {
   ARETE_TRY(const auto maker, ViewshedMaker::make(q.model, q.earth, {}, session.context()));
   ARETE_TRY(auto grid, gridOf(q, session));
   Json json = {{"model", a.model},
+               {"mode", std::string(toString(a.mode))},
                {"observers", q.observers.size()},
+               {"sites", session.wantsAnswer() ? sitesJson(q) : Json()},
                {"targetHeight", q.options.targetHeight},
                {"earth", a.sight.earthName(q.model)},
                {"refraction", a.sight.refractionJson(q.model)},

@@ -190,6 +190,21 @@ Result<ViewshedOptions> ViewshedArguments::options() const {
   return options;
 }
 
+std::string_view toString(ViewshedMode mode) {
+  switch (mode) {
+    case ViewshedMode::height:
+      return "height";
+    case ViewshedMode::horizon:
+      return "horizon";
+    case ViewshedMode::count:
+      return "count";
+    case ViewshedMode::server:
+      return "server";
+    default:
+      return "seen";
+  }
+}
+
 bool ViewshedArguments::isOfOne(std::size_t observerCount) const {
   return observerCount == 1 && mode != ViewshedMode::count && mode != ViewshedMode::server;
 }

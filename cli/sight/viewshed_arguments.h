@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/sight/arguments.h"
@@ -23,6 +24,9 @@ enum class ViewshedMode {
   count,    ///< how many observers see it
   server,   ///< the nearest observer that sees it
 };
+
+/// As it is typed.
+std::string_view toString(ViewshedMode mode);
 
 /// Where the observers are.
 struct ObserverArguments {

@@ -4,7 +4,9 @@
 #include "cli/sight/viewshed_png.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -51,7 +53,7 @@ RasterHeightfield groundOf(const ViewshedMapQuestion& q) {
   return ground;
 }
 
-/// The observers in the columns and rows of the grid.
+/// The observers in the columns and rows of the grid; NaN where its CRS has no place for one.
 Result<std::vector<Vec2>> dotsOf(const ViewshedMapQuestion& q) {
   CrsTransform toGrid;
   const std::string &from = q.model.georeference.crsWkt, &to = q.grid.georeference.crsWkt;
@@ -59,10 +61,60 @@ Result<std::vector<Vec2>> dotsOf(const ViewshedMapQuestion& q) {
     ARETE_TRY(toGrid, CrsTransform::between(from, to));
   }
   std::vector<Vec2> dots;
-  for (const ViewshedSite& site : q.observers)
-    if (const auto at = toGrid(q.model.toSource(site.observer.plan)))
-      dots.push_back(q.grid.georeference.toGrid(at->x, at->y));
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  for (const ViewshedSite& site : q.observers) {
+    const auto at = toGrid(q.model.toSource(site.observer.plan));
+    dots.push_back(at ? q.grid.georeference.toGrid(at->x, at->y) : Vec2{kNowhere, kNowhere});
+  }
   return dots;
+}
+
+/// The smallest and the largest of a number that each observer has; NaN is left out.
+struct Span {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+
+  void add(double value) {
+    if (std::isnan(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+/// How high the observers are above the ground, to a thousandth.
+Span heightsAboveGround(const ViewshedMapQuestion& q) {
+  Span span;
+  for (const ViewshedSite& site : q.observers)
+    span.add(std::round((site.observer.height - q.maker.grid().at(site.observer.plan)) * 1000) / 1000);
+  return span;
+}
+
+/// The field of view; empty if all is in it. Observers of a file may have their own ranges and azimuths.
+std::string fieldWords(const ViewshedMapQuestion& q) {
+  const Georeference& dem = q.model.georeference;
+  const auto length = [&](double metres) { return lengthText(metres, !dem.crsWkt.empty(), "units"); };
+  const ViewshedField& first = q.observers.front().field;
+  Span ranges;
+  bool isOneAzimuth = true;
+  for (const ViewshedSite& site : q.observers) {
+    ranges.add(site.field.greatestMetres);
+    isOneAzimuth = isOneAzimuth && site.field.fromAzimuth == first.fromAzimuth &&
+                   site.field.azimuthSpan == first.azimuthSpan;
+  }
+  std::vector<std::string> words;
+  if (std::isfinite(ranges.low) && ranges.low == ranges.high)
+    words.push_back("within " + length(ranges.high));
+  else if (std::isfinite(ranges.low))
+    words.push_back("own ranges, from " + length(ranges.low) +
+                    (std::isfinite(ranges.high) ? " to " + length(ranges.high) : " to no limit"));
+  if (first.leastMetres > 0) words.push_back("beyond " + length(first.leastMetres));
+  if (!isOneAzimuth)
+    words.emplace_back("own azimuths");
+  else if (first.azimuthSpan < 360)
+    words.push_back(fmt::format("azimuths {:g}\u00b0 to {:g}\u00b0", first.fromAzimuth,
+                                std::fmod(first.fromAzimuth + first.azimuthSpan, 360)));
+  if (first.lowest > -90 || first.highest < 90)
+    words.push_back(fmt::format("elevations {:g}\u00b0 to {:g}\u00b0", first.lowest, first.highest));
+  return fmt::format("{}", fmt::join(words, "   \u00b7   "));
 }
 
 /// What was computed, in words.
@@ -78,18 +130,24 @@ std::vector<std::string> captionOf(const ViewshedMapQuestion& q) {
                                : "observer " + above(std::round((observer.height - ground) * 1000) / 1000);
   } else {
     first = grouped(q.observers.size(), "observer", "observers");
+    const Span heights = heightsAboveGround(q);
+    if (heights.low == heights.high)
+      first += " " + above(heights.low);
+    else if (heights.low < heights.high)
+      first += fmt::format(" {:g} to {}", heights.low, above(heights.high));
   }
   // The heights and the horizon do not depend on a target.
   if (a.mode != ViewshedMode::height && a.mode != ViewshedMode::horizon)
     first += "   \u00b7   target " + above(q.options.targetHeight);
-  if (std::isfinite(a.fieldOfView.greatestMetres))
-    first += "   \u00b7   within " + lengthText(a.fieldOfView.greatestMetres, !dem.crsWkt.empty(), "units");
   std::string second = earthWords(dem, a.sight.earthName(q.model) == "ellipsoid", a.sight.refraction);
   if (a.sight.nodata != NodataSight::unknown)
     second += fmt::format("   \u00b7   places without data: {}", toString(a.sight.nodata));
   if (q.options.maxError > 0)
     second += fmt::format("   \u00b7   terrain within {}", withUnit(q.options.maxError, dem.verticalUnit));
-  return {first, second};
+  std::vector<std::string> caption = {first};
+  if (const std::string field = fieldWords(q); !field.empty()) caption.push_back(field);
+  caption.push_back(second);
+  return caption;
 }
 
 std::string titleOf(const ViewshedMapQuestion& q) {

@@ -266,10 +266,20 @@ Result<Canvas> drawViewshedMap(const RasterHeightfield& ground, std::span<const 
   page.canvas.image(image, int(page.map.left), int(page.map.top));
   page.finish();
   page.canvas.clip(page.map);
-  for (const Vec2 observer : observers) {
-    const Vec2 dot = page.toPage(observer.x - window.column, observer.y - window.row);
+  for (std::size_t i = 0; i < observers.size(); ++i) {
+    const Vec2 dot = page.toPage(observers[i].x - window.column, observers[i].y - window.row);
+    if (!std::isfinite(dot.x + dot.y)) continue;
     page.canvas.fillCircle(dot, 9, {255, 255, 255});
     page.canvas.fillCircle(dot, 6, {200, 30, 40});
+    if (observers.size() == 1) continue;
+    // The number stands on the side where the map has room.
+    const bool isRight = dot.x < page.map.left + page.map.width / 2;
+    page.canvas.text(fmt::format("{}", i + 1), {dot.x + (isRight ? 12 : -12), dot.y},
+                     {.size = 18,
+                      .bold = true,
+                      .horizontal = isRight ? Align::start : Align::end,
+                      .vertical = Align::center,
+                      .halo = 3});
   }
   page.canvas.unclip();
   return std::move(page.canvas);

@@ -32,12 +32,13 @@ struct ViewshedMapOptions {
 
 /// Draws a viewshed over the hillshade, cropped to where it has answers. Each answer has a colour of its own
 /// in sixteen shades, all of which the legend shows; "unknown" and "undecided" are unlike any answer, also
-/// for people without one kind of cones (CIEDE2000 >= 10 between any two shades). Observers are dots.
+/// for people without one kind of cones (CIEDE2000 >= 10 between any two shades). Observers are dots;
+/// several have their numbers beside them, from 1.
 ///
 /// @param ground    the terrain at the samples of the viewshed's grid; NaN = none
 /// @param cells     one for each sample
 /// @param values    one for each sample; empty for answers
-/// @param observers in grid coordinates of `ground`
+/// @param observers in grid coordinates of `ground`; NaN is not drawn
 ///
 /// Errors: as makeMapPage(). O(samples + pixels).
 Result<Canvas> drawViewshedMap(const RasterHeightfield& ground, std::span<const ViewshedCell> cells,

@@ -47,7 +47,7 @@ void include(double& low, double& high, double z) {
 
 constexpr double kLeastGap = 1e-3;  // metres; less is the rounding of the ends
 
-/// From where to where there is no terrain.
+/// From where to where terrain is missing.
 std::vector<std::pair<double, double>> gapsOf(const Profile& profile) {
   std::vector<std::pair<double, double>> gaps;
   double end = 0;

@@ -101,6 +101,32 @@ TEST_F(ViewshedPng, NamesItselfWhereNothingIsInRange) {
       << outcome.err;
 }
 
+TEST_F(ViewshedPng, StatesItsFieldOfViewAndItsObservers) {
+  makeModel("EPSG:32632");
+  std::set<std::string> pictures;
+  // All of the terrain is in these fields, so that the answers are those without them.
+  for (const std::vector<std::string>& field : {std::vector<std::string>{},
+                                                {"--radius", "90000"},
+                                                {"--elevation", "-89,90"},
+                                                {"--radius", "80000"}}) {
+    std::vector<std::string> words = with({"--png", "v.png", "-q"});
+    words.insert(words.end(), field.begin(), field.end());
+    ASSERT_EQ(run(words).code, 0);
+    EXPECT_TRUE(pictures.insert(read("v.png")).second) << field.size();
+  }
+  const Json json =
+      run(with({"--radius", "300", "--azimuth", "350,20", "--png", "v.png", "--mode", "count", "--json"}))
+          .json();
+  EXPECT_EQ(json["mode"], "count");
+  const Json site = json["sites"][0];
+  EXPECT_EQ(site["x"], 500105);
+  EXPECT_EQ(site["y"], 5199895);
+  EXPECT_EQ(site["height"], 120);
+  EXPECT_EQ(site["radius"], 300);
+  EXPECT_EQ(site["fromAzimuth"], 350);
+  EXPECT_EQ(site["azimuthSpan"], 30);
+}
+
 TEST_F(ViewshedPng, HasTheGridOfAnotherRaster) {
   makeModel("EPSG:32632");
   ASSERT_EQ(run(with({"-o", "seen.tif", "-q"})).code, 0);

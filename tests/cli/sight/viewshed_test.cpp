@@ -102,6 +102,28 @@ TEST_F(Viewsheds, TakesTheGridOfAPicture) {
   EXPECT_EQ(seen->heightfield.heights, (std::vector<double>{255, 255, 0, 255, 255, 0}));  // behind the wall
 }
 
+TEST_F(Viewsheds, NamesTheColumnsThatItDoesNotUse) {
+  makeModel();
+  const auto errorsOf = [&](const std::string& table) {
+    write("masts.csv", table);
+    return run({"viewshed", "dem.amt", "--observers", "masts.csv", "--observer-height", "20", "-o", "v.tif"})
+        .err;
+  };
+  const auto expect = [&](const std::string& table, const std::string& sentence) {
+    const std::string errors = errorsOf(table);
+    EXPECT_NE(errors.find(sentence), std::string::npos) << errors;
+  };
+  expect("x,y,radius\n1105,1895,50\n", "masts.csv: the column radius is not used");
+  expect("x,y,azimuth\n1105,1895,50\n", "masts.csv: azimuth is not used in 1 row without a beamwidth");
+  expect("x,y,beamwidth\n1105,1895,50\n1105,1895,60\n",
+         "masts.csv: beamwidth is not used in 2 rows without an azimuth");
+  expect("x,y,azimuth,beamwidth\n1105,1895,50,400\n", "masts.csv, row 1: has a beamwidth of 400, above 360");
+  expect("x,y,beamwidth\n1105,1895,-3\n", "masts.csv, row 1: has a beamwidth that is not above 0");
+  EXPECT_EQ(
+      errorsOf("x,y,azimuth,beamwidth,range\n1105,1895,50,360,90\n1105,1895,,360,\n").find("is not used"),
+      std::string::npos);
+}
+
 TEST_F(Viewsheds, OfManyCountsAndNamesTheNearest) {
   makeModel();
   write("masts.csv", "x,y\n1105,1895\n1505,1895\n1515,1895\n");

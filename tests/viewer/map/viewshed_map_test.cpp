@@ -133,6 +133,22 @@ TEST(ViewshedMap, ShowsThePartWithAnswers) {
   EXPECT_LT(plain->height(), canvas->height() + 200);
 }
 
+TEST(ViewshedMap, NumbersSeveralObservers) {
+  const std::vector<ViewshedCell> cells(1600, seen);
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Vec2> one = {{10, 20}}, two = {{10, 20}, {kNowhere, kNowhere}};
+  const auto ink = [&](const std::vector<Vec2>& observers) {
+    const auto canvas = drawViewshedMap(slopes(), cells, {}, observers, {.width = 900, .title = "T"});
+    EXPECT_TRUE(canvas);
+    int dark = 0;
+    for (int y = 84; y < 484; ++y)
+      for (int x = 44; x < 444; ++x) dark += canvas->pixel(x, y) == Rgb{40, 44, 52} ? 1 : 0;
+    return dark;
+  };
+  EXPECT_EQ(ink(one), ink({})) << "the only one needs no number";
+  EXPECT_GT(ink(two), ink(one) + 10);
+}
+
 TEST(ViewshedMap, SaysOnWhatEarthItWasComputed) {
   EXPECT_EQ(earthWords({}, false, 0), "over a plane Earth, without refraction");
   EXPECT_EQ(earthWords({}, true, 0), "over the ellipsoid of radius 6378 km, without refraction");
