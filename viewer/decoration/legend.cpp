@@ -110,9 +110,12 @@ class LegendPen {
     const Rect area = {std::round(left_), std::round(y_ + 0.2 * size()), std::round(kBoxWidth * size()),
                        std::round(1.1 * size())};
     if (canvas_ && !entry.colors.empty()) {
-      if (entry.isLine) {
-        canvas_->line({area.left, area.top + area.height / 2}, {area.right(), area.top + area.height / 2},
+      const Vec2 middle{area.left + area.width / 2, area.top + area.height / 2};
+      if (entry.mark == Legend::Mark::line) {
+        canvas_->line({area.left, middle.y}, {area.right(), middle.y},
                       {.color = entry.colors.front(), .width = 2});
+      } else if (entry.mark == Legend::Mark::point) {
+        canvas_->fillCircle(middle, 0.35 * size(), entry.colors.front());
       } else {
         Image colors(int(area.width), int(area.height));
         for (int x = 0; x < colors.width; ++x) {

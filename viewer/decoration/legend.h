@@ -11,6 +11,7 @@
 #include "engine/base/vec.h"
 #include "viewer/color/color_map.h"
 #include "viewer/picture/picture.h"
+#include "viewer/scene/layer.h"
 
 namespace arete {
 
@@ -19,7 +20,7 @@ namespace arete {
 struct LegendClass {
   std::vector<Rgb> colors;
   std::string label;
-  bool isLine = false;  ///< drawn as a line, not as a box
+  Legend::Mark mark = Legend::Mark::area;  ///< what is drawn in place of a box
 };
 
 /// The colours of a range of values, with numbers.

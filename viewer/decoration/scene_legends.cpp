@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <ranges>
@@ -57,16 +59,23 @@ std::vector<ColorLegend> SceneLegends::of(const ViewSettings& settings, std::spa
   for (const Layer& layer : layers | std::views::reverse) {
     if (!layer.isVisible) continue;
     if (const auto* lines = std::get_if<Contours>(&layer.content); lines && layer.legend.entries.empty()) {
-      const std::string words =
-          fmt::format("contours, every {0}{2}; close ones every {1}{2}", numberText(lines->interval),
-                      numberText(5 * lines->interval), unit.empty() ? "" : " " + unit);
-      legends.push_back({.title = "", .classes = {{{kContourInk}, words, true}}});
+      const auto every = [&](const char* which, double interval) {
+        return fmt::format("{}, every {}{}", which, numberText(interval), unit.empty() ? "" : " " + unit);
+      };
+      legends.push_back(
+          {.title = "",
+           .classes = {{{kContourInk}, every("contours", lines->interval), Legend::Mark::line},
+                       {{kContourInk}, every("where close", 5 * lines->interval), Legend::Mark::line}}});
     }
     if (layer.legend.entries.empty()) continue;
-    ColorLegend legend{.title = layer.legend.title.empty() ? layer.name : layer.legend.title};
-    for (const Legend::Entry& entry : layer.legend.entries)
-      legend.classes.push_back({{laidOver(entry.color, {255, 255, 255})}, entry.label});
-    legends.push_back(std::move(legend));
+    const std::string& title = layer.legend.title.empty() ? layer.name : layer.legend.title;
+    // The areas of a layer follow its lines under one heading.
+    if (legends.empty() || legends.back().title != title) legends.push_back({.title = title});
+    for (const Legend::Entry& entry : layer.legend.entries) {
+      Rgba color = entry.color;
+      color.a = std::uint8_t(std::lround(color.a * std::clamp(layer.opacity, 0.0, 1.0)));
+      legends.back().classes.push_back({{laidOver(color, {255, 255, 255})}, entry.label, entry.mark});
+    }
   }
   const ViewLook& look = settings.look;
   if (!look.colors && !usual_) usual_ = model ? usualColors(*model) : TerrainColors();

@@ -54,9 +54,11 @@ Status VectorLayer::drawLabels(const SpaceFrame& frame) {
 }
 
 Legend VectorLayer::legend(const std::string& name) const {
-  const bool hasPoints = !features_->points.empty(), hasLines = features_->lines() > 0;
-  const char* what = hasPoints && hasLines ? "points and lines" : hasPoints ? "points" : "lines";
-  return {.title = name, .entries = {{{style_.color.r, style_.color.g, style_.color.b, 255}, what}}};
+  const Rgba color{style_.color.r, style_.color.g, style_.color.b, 255};
+  Legend legend{.title = name, .entries = {}};
+  if (!features_->points.empty()) legend.entries.push_back({color, "points", Legend::Mark::point});
+  if (features_->lines() > 0) legend.entries.push_back({color, "lines", Legend::Mark::line});
+  return legend;
 }
 
 }  // namespace arete

@@ -37,7 +37,7 @@ class VectorLayer final : public SpaceContent {
   Status drawLabels(const SpaceFrame& frame) override;
 
   const GroundFeatures& features() const { return *features_; }
-  /// `name` and one entry: the colour of its points and lines.
+  /// `name`, and the colour of its points and of its lines.
   Legend legend(const std::string& name) const;
 
  private:

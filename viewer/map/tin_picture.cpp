@@ -169,7 +169,8 @@ ColorLegend legendFor(const RasterHeightfield& ground, const TriangleMesh& tin,
                       const HillshadeOptions& relief) {
   ColorLegend legend = legendOf(hillshadeTints(ground), "height", ground.georeference.verticalUnit);
   if (legend.scale) legend.scale->shade = [relief](Rgb tint, double) { return onLevelGround(tint, relief); };
-  if (!tin.triangles.empty()) legend.classes.push_back({{kEdgeColor}, "edges of triangles", true});
+  if (!tin.triangles.empty())
+    legend.classes.push_back({{kEdgeColor}, "edges of triangles", Legend::Mark::line});
   return legend;
 }
 

@@ -27,7 +27,7 @@ std::string DecorationOverlay::stateOf(const FrameTarget& target, const Camera& 
   for (const Layer& layer : scene_->layers.list())
     if (layer.isVisible) {
       const auto* contours = std::get_if<Contours>(&layer.content);
-      state += fmt::format(" {}:{}:{}", layer.name, layer.legend.entries.size(),
+      state += fmt::format(" {}:{}:{}:{}", layer.name, layer.legend.entries.size(), layer.opacity,
                            contours ? contours->interval : 0);
     }
   return state;

@@ -18,9 +18,11 @@ class SpaceContent;
 
 /// What the colours of a layer mean; may be empty.
 struct Legend {
+  enum class Mark { area, line, point };
   struct Entry {
     Rgba color{};
     std::string label;
+    Mark mark = Mark::area;
   };
   std::string title;
   std::vector<Entry> entries;

@@ -66,10 +66,31 @@ TEST(SceneLegends, OfLayersComeFirstAndTheHighestIsTheFirst) {
   EXPECT_EQ(all[0].title, "Roads");
   EXPECT_EQ(all[0].classes.at(0).label, "paved");
   EXPECT_EQ(all[0].classes.at(0).colors.at(0), (Rgb{1, 2, 3}));
-  EXPECT_EQ(all[1].classes.at(0).label, "contours, every 25 m; close ones every 125 m");
+  EXPECT_EQ(all[1].classes.at(0).label, "contours, every 25 m");
+  EXPECT_EQ(all[1].classes.at(1).label, "where close, every 125 m");
   EXPECT_EQ(all[2].title, "height");
   layers.find("roads")->isVisible = false;
   EXPECT_EQ(legends.of({}, layers.list()).size(), 2u);
+}
+
+TEST(SceneLegends, AreasShineThroughUnderTheHeadingOfTheirLines) {
+  const TerrainModel model = rampOfHeights();
+  const TerrainSubject subject(model);
+  const SceneLegends legends(subject);
+  Layers layers;
+  Layer& areas = layers.put("park (areas)", std::make_shared<const PlanPicture>());
+  areas.legend = {"Park", {{Rgba{255, 0, 0, 255}, "areas"}}};
+  areas.opacity = 0.2;
+  layers.put("park", SpaceVertices{}).legend = {"Park",
+                                                {{Rgba{255, 0, 0, 255}, "points", Legend::Mark::point},
+                                                 {Rgba{255, 0, 0, 255}, "lines", Legend::Mark::line}}};
+  const auto all = legends.of({}, layers.list());
+  ASSERT_EQ(all.size(), 2u) << "and that of the ground";
+  ASSERT_EQ(all[0].classes.size(), 3u);
+  EXPECT_EQ(all[0].classes[0].mark, Legend::Mark::point);
+  EXPECT_EQ(all[0].classes[1].colors.at(0), (Rgb{255, 0, 0}));
+  EXPECT_EQ(all[0].classes[2].mark, Legend::Mark::area);
+  EXPECT_EQ(all[0].classes[2].colors.at(0), (Rgb{255, 204, 204}));
 }
 
 }  // namespace
