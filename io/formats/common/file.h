@@ -26,6 +26,9 @@ struct MeshFrame {
   /// Per axis, in source units: the most by which rounding to the file's numbers may have moved a position;
   /// 0 if they are doubles.
   Vec3 rounding = {};
+  /// The file's own coordinates are metres to the east, to the north and up from the origin, of which the
+  /// mesh has degrees: a glTF of terrain in a geographic CRS.
+  bool isLocalMetres = false;
 };
 
 /// Which axis of a mesh points up.

@@ -39,7 +39,8 @@ Result<AnyModel> built(DemRead dem, const std::string& path, const SourceOptions
 Result<AnyModel> built(MeshInput mesh, const std::string& path, const RunContext& context) {
   Warnings warnings = std::move(mesh.file.warnings);
   if (const auto georeference = georeferenceOf(mesh.file.crsWkt, mesh.file.verticalUnit, 0);
-      georeference && georeference->isGeographic && !mesh.file.crsWkt.empty())
+      georeference && georeference->isGeographic && !mesh.file.crsWkt.empty() &&
+      !mesh.file.frame.isLocalMetres)
     warnings.push_back(
         {WarningCode::position,
          "x and y are degrees and z is a height: a surface of them is a wall; a mesh in metres "

@@ -9,6 +9,7 @@
 
 #include "engine/base/stopwatch.h"
 #include "io/formats/common/pictures.h"
+#include "io/query/surface/local_metres.h"
 #include "surface/builder/build.h"
 #include "surface/displacement/find_displacement.h"
 #include "surface/edit/drop_attributes.h"
@@ -50,6 +51,8 @@ Result<BuiltSurface> buildSurfaceModel(MeshInput input, const std::string& sourc
   MeshFile& file = input.file;
   ARETE_CHECK(dropAttributes(file.mesh, options.dropAttributes));
   built.warnings = embedPictures(file);
+  ARETE_TRY(const auto place, returnToLocalMetres(file));
+  if (place) built.warnings.push_back(*place);
 
   Stopwatch building;
   Result<SurfaceModel> model = buildSurface(std::move(file.mesh), options.build, context);

@@ -115,6 +115,7 @@ class GlbReader {
                                     ? "float32, metres east, north and up of the origin"
                                     : "float32, metres along the axes of the map from the origin";
     result_.frame.origin = stated.local.origin;
+    result_.frame.isLocalMetres = stated.local.isGeographic;
     return {};
   }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <filesystem>
@@ -138,6 +139,37 @@ TEST(AnyModel, ATinInDegreesIsSaidToBeAWall) {
   ASSERT_TRUE(opened) << opened.error().describe();
   ASSERT_EQ(opened->warnings.size(), 1u);
   EXPECT_NE(opened->warnings[0].sentence.find("a wall"), std::string::npos) << opened->warnings[0].sentence;
+}
+
+TEST(AnyModel, AGltfInMetresOfADemInDegreesIsASurfaceInThoseMetres) {
+  const TemporaryFolder folder;
+  RasterHeightfield field = rasterFamilies()[2].make(12, 10, 3);
+  field.georeference.geoTransform = {10, 0.001, 0, 60, 0, -0.001};
+  field.georeference.hasGeoTransform = field.georeference.isGeographic = true;
+  field.georeference.crsWkt = "EPSG:4326";
+  auto model = build(field);
+  ASSERT_TRUE(model);
+  const auto tin = cut(*model, {.maxError = 0});
+  ASSERT_TRUE(tin);
+  for (const char* name : {"tin.glb", "tin.gltf"}) {
+    ASSERT_TRUE(write(*tin, folder.file(name)));
+    const auto opened = openAnyModel(folder.file(name));
+    ASSERT_TRUE(opened) << opened.error().describe();
+    const auto* const surface = std::get_if<SurfaceModel>(&opened->model);
+    ASSERT_TRUE(surface);
+    EXPECT_TRUE(surface->crsWkt.empty());
+    ASSERT_EQ(opened->warnings.size(), 1u);
+    EXPECT_NE(opened->warnings[0].sentence.find("metres to the east"), std::string::npos);
+    Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+    for (const Vec3& p : finestSurfaceOf(*surface).mesh.positions) {
+      EXPECT_EQ(p.x, double(float(p.x)));
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    // Eleven and nine cells: 55.8 m to the east and 111.4 m to the north each, at 60 degrees.
+    EXPECT_NEAR(high.x - low.x, 11 * 55.8, 2) << name;
+    EXPECT_NEAR(high.y - low.y, 9 * 111.4, 2) << name;
+  }
 }
 
 TEST(AnyModel, IsWhatTheReaderAndTheBuilderMakeOfTheFile) {
