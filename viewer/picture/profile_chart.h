@@ -30,7 +30,7 @@ struct ProfileChartOptions {
 
 /// The terrain along a line: distance to the right, height upwards, with separate scales, whose ratio is
 /// stated as the exaggeration of heights. Gaps are grey. The sight line is curved as the Earth is at these
-/// scales, green where it is visible, grey and dotted over gaps, red and dashed behind the obstruction, which
+/// scales, green where it is visible, grey and dashed over gaps, red and dashed behind the obstruction, which
 /// is marked. A legend names what is drawn. The labels of the line's ends and of the obstruction cross
 /// neither the line nor the terrain where the chart has room. Errors: usage, for a size without room;
 /// degenerate, for a profile without terrain or length. O(vertices).
