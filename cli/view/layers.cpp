@@ -44,7 +44,8 @@ Result<StatedLayers> StatedLayers::read(const AppearanceArguments& arguments,
                                         const std::shared_ptr<const TerrainModel>& model, Session& session) {
   StatedLayers all;
   // Those that the window lays itself.
-  std::vector<std::string> names = {"contours", "heights of contours", "viewshed", "line of sight", "flight", "frozen camera"};
+  std::vector<std::string> names = {"contours", "heights of contours", "viewshed", "line of sight",
+                                    "flight",   "frozen camera"};
   const auto named = [&](const std::string& name) { return names.emplace_back(unlike(name, names)); };
   ARETE_TRY(all.drapeOptions_, arguments.drapeOptions());
   for (const std::string& text : arguments.drapes) {
@@ -112,6 +113,22 @@ Status StatedLayers::addTo(Scene& scene, const TerrainModel& model, Session& ses
     layer.legend = content->legend(stated.name);
   }
   return {};
+}
+
+void StatedLayers::warnOfLabels(const Scene& scene, Session& session) const {
+  for (const Vector& stated : vectors_) {
+    const Layer* const layer = scene.layers.find(stated.name);
+    const auto* const drawn = layer ? std::get_if<Layer::Drawn>(&layer->content) : nullptr;
+    const auto* const content = drawn ? dynamic_cast<const VectorLayer*>(drawn->get()) : nullptr;
+    const std::size_t all = stated.features->labels.size();
+    if (!content || all == 0) continue;
+    if (const std::uint64_t without = content->labelsWithoutRoom(); without > 0)
+      session.warn(fmt::format("{}: {} of {} {} no room in the picture", stated.stated.file, grouped(without),
+                               grouped(all, "label", "labels"), without == 1 ? "has" : "have"));
+    if (stated.features->points.size() > FeatureBuffers::kMostKeptFree)
+      session.warn(fmt::format("{}: with more than {} points, labels may cover some of them",
+                               stated.stated.file, grouped(FeatureBuffers::kMostKeptFree)));
+  }
 }
 
 void StatedLayers::describe(const Scene& scene, Json& json) const {
