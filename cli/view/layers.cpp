@@ -116,6 +116,22 @@ Status StatedLayers::addTo(Scene& scene, const TerrainModel& model, Session& ses
   return {};
 }
 
+void StatedLayers::warnOfLabels(const Scene& scene, Session& session) const {
+  for (const Vector& stated : vectors_) {
+    const Layer* const layer = scene.layers.find(stated.name);
+    const auto* const drawn = layer ? std::get_if<Layer::Drawn>(&layer->content) : nullptr;
+    const auto* const content = drawn ? dynamic_cast<const VectorLayer*>(drawn->get()) : nullptr;
+    const std::size_t all = stated.features->labels.size();
+    if (!content || all == 0) continue;
+    if (const std::uint64_t without = content->labelsWithoutRoom(); without > 0)
+      session.warn(fmt::format("{}: {} of {} {} no room in the picture", stated.stated.file, grouped(without),
+                               grouped(all, "label", "labels"), without == 1 ? "has" : "have"));
+    if (stated.features->points.size() > FeatureBuffers::kMostKeptFree)
+      session.warn(fmt::format("{}: with more than {} points, labels may cover some of them",
+                               stated.stated.file, grouped(FeatureBuffers::kMostKeptFree)));
+  }
+}
+
 void StatedLayers::describe(const Scene& scene, Json& json) const {
   Json layers = Json::array();
   for (const Drape& stated : drapes_) {

@@ -27,6 +27,8 @@ class StatedLayers {
   Status addTo(Scene& scene, const TerrainModel& model, Session& session) const;
 
   /// Describes each as an element of the JSON answer's "layers"; "drape" is the first one's.
+  /// About a picture that was drawn: labels that had no room in it.
+  void warnOfLabels(const Scene& scene, Session& session) const;
   void describe(const Scene& scene, Json& json) const;
 
  private:

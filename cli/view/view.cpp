@@ -287,7 +287,10 @@ Status runView(ViewArguments a, Session& session) {
   a.detail.addBudgetTo(json, viewed.finestTriangles);
   if (!viewed.ground->is_null()) json["heights"] = *viewed.ground;
   if (viewed.layers) viewed.layers->describe(view.scene(), json);
-  if (!a.pictures.screenshot.empty()) ARETE_CHECK(takeScreenshot(a, start, view, session, json));
+  if (!a.pictures.screenshot.empty()) {
+    ARETE_CHECK(takeScreenshot(a, start, view, session, json));
+    if (viewed.layers) viewed.layers->warnOfLabels(view.scene(), session);
+  }
   if (!a.pictures.frames.empty()) ARETE_CHECK(makeFilm(a, *flight, view, session, json));
   session.answer(json);
   return {};

@@ -22,7 +22,10 @@ void forCells(const Rect& area, const Visit& visit) {
 
 std::optional<Rect> LabelPlacement::place(Vec2 at, double width, double height, double away) {
   const auto area = find(at, width, height, away);
-  if (area) take(*area);
+  if (area)
+    take(*area);
+  else
+    ++refused_;
   return area;
 }
 

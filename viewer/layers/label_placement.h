@@ -26,10 +26,14 @@ class LabelPlacement {
   /// near by).
   std::optional<Rect> place(Vec2 at, double width, double height, double away);
 
-  /// Whether place() would find room now.
-  bool hasRoom(Vec2 at, double width, double height, double away) const {
-    return find(at, width, height, away).has_value();
+  /// Whether place() would find room now; a label that has none is counted as refused.
+  bool hasRoom(Vec2 at, double width, double height, double away) {
+    const bool has = find(at, width, height, away).has_value();
+    refused_ += has ? 0 : 1;
+    return has;
   }
+  /// How many labels had no room.
+  std::uint64_t refused() const { return refused_; }
 
   /// Keeps a rectangle free: of a legend, say.
   void take(const Rect& area);
@@ -41,6 +45,7 @@ class LabelPlacement {
   int width_, height_;
   double gap_;
   Where where_;
+  std::uint64_t refused_ = 0;
   std::vector<Rect> taken_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>
       cells_;  // into taken_, by squares of the picture

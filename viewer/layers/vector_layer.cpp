@@ -50,7 +50,10 @@ Status VectorLayer::draw(const SpaceFrame& frame) {
 Status VectorLayer::drawLabels(const SpaceFrame& frame) {
   if (!buffers_) return {};
   begin(frame);
-  return tools_->painter.drawLabels(*buffers_, *features_, styleOf(frame), *tools_->placement);
+  const std::uint64_t before = tools_->placement->refused();
+  ARETE_CHECK(tools_->painter.drawLabels(*buffers_, *features_, styleOf(frame), *tools_->placement));
+  labelsWithoutRoom_ = tools_->placement->refused() - before;
+  return {};
 }
 
 Legend VectorLayer::legend(const std::string& name) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -37,6 +38,9 @@ class VectorLayer final : public SpaceContent {
   Status drawLabels(const SpaceFrame& frame) override;
 
   const GroundFeatures& features() const { return *features_; }
+  /// Of the picture that was drawn last: labels whose places are seen and that other labels, or points, leave
+  /// no room.
+  std::uint64_t labelsWithoutRoom() const { return labelsWithoutRoom_; }
   /// `name`, and the colour of its points and of its lines.
   Legend legend(const std::string& name) const;
 
@@ -50,6 +54,7 @@ class VectorLayer final : public SpaceContent {
   std::optional<FeatureBuffers> buffers_;
   bool isCurved_ = false;  // the space of the buffers
   double stretch_ = 1;     // where they are curved
+  std::uint64_t labelsWithoutRoom_ = 0;
 };
 
 }  // namespace arete

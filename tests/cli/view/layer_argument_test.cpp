@@ -104,6 +104,16 @@ TEST_F(ViewLayers, ThatAreNotOnTheTerrainAreRefusedBeforeAnythingIsDrawn) {
   EXPECT_NE(unknown.err.find("--layer far.csv,colour=red"), std::string::npos) << unknown.err;
 }
 
+TEST_F(ViewLayers, LabelsWithoutRoomAreCounted) {
+  std::string crowd = "x,y,what\n";
+  for (int i = 0; i < 40; ++i) crowd += "500900,5199300,crowd\n";
+  write("crowd.csv", crowd);
+  const Outcome made = shoot("crowd.png", {"--layer", "crowd.csv,label=what"});
+  if (made.err.find("no OpenGL 4.5 context") != std::string::npos) GTEST_SKIP() << made.err;
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.err.find("of 40 labels have no room in the picture"), std::string::npos) << made.err;
+}
+
 TEST_F(ViewLayers, DrapesLieOverEachOther) {
   makeRaster("other.tif", "fractal", 60, 50);
   const Outcome one = shoot("one.png", {"--drape", "other.tif"});

@@ -19,6 +19,10 @@ TEST(LabelPlacement, PutsTheFirstLabelAboveItsPlace) {
   const auto second = placement.place({100, 50}, 40, 10, 5);
   ASSERT_TRUE(second);
   EXPECT_EQ(second->top, 55) << "below it: beside it would be too near the first";
+  EXPECT_EQ(placement.refused(), 0u);
+  EXPECT_FALSE(placement.place({100, 50}, 190, 95, 5));
+  EXPECT_FALSE(placement.hasRoom({100, 50}, 190, 95, 5));
+  EXPECT_EQ(placement.refused(), 2u);
 }
 
 TEST(LabelPlacement, NeverLetsTwoOverlapOrLeaveThePicture) {
