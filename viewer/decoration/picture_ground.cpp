@@ -115,20 +115,25 @@ std::optional<double> PictureGround::lengthPerPixel(Vec2 pixel) const {
 
 std::optional<PictureGround::North> PictureGround::northAt(Vec2 pixel) const {
   if (!hasCrs()) return {};
-  const auto here = sourceAt(pixel);
-  const auto scale = lengthPerPixel(pixel);
+  const bool hasWay = static_cast<bool>(parts_.wayOfStep);
+  auto here = sourceAt(pixel);
+  auto scale = lengthPerPixel(pixel);
+  if (hasWay && !here) here = parts_.eye;
+  if (hasWay && !scale) scale = 1;
   if (!here) return {};
-  const auto from = parts_.toLevelPixel(*here);
+  const auto from = hasWay ? Vec2{} : parts_.toLevelPixel(*here);
   if (!from || !isFinite(*from)) return {};
   const auto towards = [&](Vec2 source) -> std::optional<Vec2> {
-    const auto to = parts_.toLevelPixel(source);
+    const auto to = hasWay ? parts_.wayOfStep(*here, source) : parts_.toLevelPixel(source);
     if (!to || !isFinite(*to)) return {};
     const Vec2 way = *to - *from;
     return std::hypot(way.x, way.y) > 0 ? std::optional(unit(way)) : std::nullopt;
   };
   // The map's north: a few pixels along its y axis.
   std::optional<Vec2> gridNorth;
-  if (const auto beside = sourceAt({pixel.x + 1, pixel.y})) {
+  if (hasWay) {
+    gridNorth = towards({here->x, here->y + 1});
+  } else if (const auto beside = sourceAt({pixel.x + 1, pixel.y})) {
     const double step = 2 * std::hypot(beside->x - here->x, beside->y - here->y);
     gridNorth = towards({here->x, here->y + step});
   }

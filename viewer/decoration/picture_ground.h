@@ -36,6 +36,10 @@ class PictureGround {
     std::function<std::optional<double>(Vec2)> lengthPerPixel = {};
     /// Instead of it: two source positions, the width of a pixel apart across the picture.
     std::function<std::optional<std::pair<Vec2, Vec2>>(Vec2)> acrossPixel = {};
+    /// How a level step between two source positions points in a picture that may show no ground; empty: as
+    /// toLevelPixel. With it, the source position of the eye.
+    std::function<Vec2(Vec2, Vec2)> wayOfStep = {};
+    Vec2 eye = {};
   };
 
   explicit PictureGround(Parts parts);
@@ -73,7 +77,8 @@ class PictureGround {
     /// latitude.
     double convergenceDegrees = 0;
   };
-  /// Nothing without a CRS, and where no direction is north.
+  /// Nothing without a CRS, and where no direction is north. In a view that shows no ground there: at the
+  /// eye.
   std::optional<North> northAt(Vec2 pixel) const;
 
  private:

@@ -97,6 +97,16 @@ class TerrainPicture {
     return pixelOfPlace(subject_.space().position(source, *level_), false);
   }
 
+  /// As the middle of the picture shows it where the camera looks down by 30 degrees or more. Level ground is
+  /// a line to a level look, and all that is north would be left or right: from there to the horizon the
+  /// picture's up becomes the way ahead.
+  Vec2 wayOfStep(Vec2 from, Vec2 to) const {
+    const Vec3 step = subject_.space().position(to, 0) - subject_.space().position(from, 0);
+    const double down = std::max(0.0, -std::sin(camera_.pitchDegrees * std::numbers::pi / 180));
+    return {dot(step, subject_.space().right(camera_.azimuthDegrees)),
+            -dot(step, subject_.space().forward({camera_.azimuthDegrees, 0})) * std::max(down, 1 - down)};
+  }
+
   /// In space as it is drawn, which on a curved Earth is the ground.
   std::optional<double> lengthPerPixel(Vec2 pixel) const {
     const auto depth = depthAt(pixel);
@@ -150,6 +160,8 @@ PictureGround groundInView(const Subject& subject, const Camera& camera, const V
   parts.toSource = [picture](Vec2 pixel) { return picture->sourceAt(pixel); };
   parts.toPixel = [picture](Vec2 source) { return picture->pixelOf(source); };
   parts.toLevelPixel = [picture](Vec2 source) { return picture->levelPixelOf(source); };
+  parts.wayOfStep = [picture](Vec2 from, Vec2 to) { return picture->wayOfStep(from, to); };
+  parts.eye = camera.xy;
   if (settings.isCurved) {
     parts.lengthPerPixel = [picture](Vec2 pixel) { return picture->lengthPerPixel(pixel); };
   } else {

@@ -1,11 +1,42 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viewer/surface/surface_subject.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "viewer/camera/round_flight.h"
 
 namespace arete {
+namespace {
+
+constexpr double kFreeOnATurn = 0.02;  // of half the picture, at its edges
+
+/// How far a camera has to step back for a place to be within so much of its picture; negative: it need not.
+class StepBack {
+ public:
+  StepBack(const CameraSpace& space, const Camera& camera)
+      : axes_(axesOf(space, lookOf(camera))),
+        eye_(space.position(camera)),
+        slope_(std::tan(camera.verticalFieldOfViewDegrees * std::numbers::pi / 360)),
+        slopeAcross_(slope_ * camera.widthPixels / camera.heightPixels) {}
+
+  double operator()(const Vec3& place, double part) const {
+    const Vec3 way = place - eye_;
+    return std::max(std::abs(dot(way, axes_.right)) / slopeAcross_, std::abs(dot(way, axes_.up)) / slope_) /
+               part -
+           dot(way, axes_.ahead);
+  }
+  Vec3 eyeAt(double step) const { return eye_ - axes_.ahead * step; }
+
+ private:
+  PictureAxes axes_;
+  Vec3 eye_;
+  double slope_, slopeAcross_;
+};
+
+}  // namespace
 
 SurfaceSubject::SurfaceSubject(const SurfaceModel& model, const ZUpFrame& upright)
     : SurfaceSubject(model, upright, uprightShape(model, upright)) {}
@@ -45,7 +76,22 @@ std::optional<Pick> SurfaceSubject::pick(const Camera& camera, Vec2 pixel,
 }
 
 Result<FlightPlan> SurfaceSubject::round(const Camera& from) const {
-  return turnAround(space_, box_.centre(), from);
+  const StepBack stepBack(space_, from);
+  const Vec3 middle = box_.centre();
+  const double slack = 1e-6 * box_.diagonal();
+  double step = 0;
+  for (const Vec3& p : shape_.points) {
+    // A camera that leaves something out at its start is one that was chosen.
+    if (stepBack(p, 1) > slack) return turnAround(space_, middle, from);
+    const double radius = std::hypot(p.x - middle.x, p.y - middle.y);
+    constexpr int kPlaces = 72;
+    for (int i = 0; i < kPlaces; ++i) {
+      const double turn = 2 * std::numbers::pi * i / kPlaces;
+      const Vec3 there{middle.x + radius * std::cos(turn), middle.y + radius * std::sin(turn), p.z};
+      step = std::max(step, stepBack(there, 1 - kFreeOnATurn));
+    }
+  }
+  return turnAround(space_, middle, space_.at(from, stepBack.eyeAt(step)));
 }
 
 std::span<const Coloring> SurfaceSubject::colorings() const {

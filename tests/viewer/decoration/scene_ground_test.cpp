@@ -88,6 +88,25 @@ TEST(SceneGround, PointsToTheNorthOfTheGround) {
   }
 }
 
+TEST(SceneGround, NorthFollowsTheAzimuthWhateverThePitch) {
+  const TerrainModel model = plain();
+  const TerrainSubject subject(model);
+  for (const double azimuth : {0.0, 45.0, 90.0, 180.0, 225.0, 270.0}) {
+    std::optional<Vec2> before;
+    for (double pitch = -90; pitch <= 60; pitch += 1) {
+      const Camera camera = cameraAt(azimuth, pitch);
+      const auto arrow = northArrowOf(groundInView(subject, camera, {}, depthsOf(subject, camera)));
+      ASSERT_TRUE(arrow) << azimuth << ", " << pitch;
+      const double turn = azimuth * 3.14159265358979 / 180, x = -std::sin(turn), y = -std::cos(turn);
+      EXPECT_GT(dot(arrow->toNorth, {x, y}), pitch < 0 ? 0.9 : 0.9999) << azimuth << ", " << pitch;
+      if (before) {
+        EXPECT_GT(dot(*before, arrow->toNorth), 0.999) << "jumps at " << azimuth << ", " << pitch;
+      }
+      before = arrow->toNorth;
+    }
+  }
+}
+
 TEST(SceneGround, HasMeridiansWhereTheGroundIsAndNothingHidesThem) {
   const TerrainModel model = plain();
   const TerrainSubject subject(model);
@@ -125,7 +144,7 @@ TEST(SceneGround, OfASkyOrWithoutACrsClaimsNothing) {
   const Camera up = cameraAt(0, 60);
   const PictureGround sky = groundInView(subject, up, {}, depthsOf(subject, up));
   EXPECT_FALSE(scaleBarOf(sky, 200));
-  EXPECT_FALSE(northArrowOf(sky));
+  EXPECT_TRUE(northArrowOf(sky)) << "which says where the camera looks";
   EXPECT_TRUE(graticuleOf(sky, 120).empty());
   const TerrainModel plane = plain("");
   const TerrainSubject without(plane);

@@ -155,6 +155,33 @@ TEST_F(SurfaceSession, OneTurnKeepsTheMiddleInTheMiddleAndComesBack) {
   EXPECT_TRUE(subject_.round(above)) << "which turns on the spot, or nearly";
 }
 
+TEST(SurfaceTurn, KeepsALongShapeInThePictureAllTheWay) {
+  SurfaceMesh mesh(shapes::globe(30, 20));
+  for (Vec3& p : mesh.positions) p.x *= 4, p.z *= 2;
+  const SurfaceModel model = std::move(*buildSurface(SurfaceMesh(mesh)));
+  const SurfaceSubject subject(model, ZUpFrame(model));
+  const Camera picture{.widthPixels = 320, .heightPixels = 240};
+  for (const HomeView home : {HomeView::fromWest, HomeView::fromSouth, HomeView::overview}) {
+    const Camera from = subject.home(home, picture);
+    const auto plan = subject.round(from);
+    ASSERT_TRUE(plan) << plan.error().describe();
+    const auto flight = Flight::create(*plan, subject.space());
+    ASSERT_TRUE(flight);
+    for (double t = 0; t <= 8; t += 0.37)
+      for (const Vec3& p : mesh.positions) {
+        const auto seen = pixelOf(subject, flight->at(t), p);
+        ASSERT_TRUE(seen) << t;
+        EXPECT_TRUE(seen->x >= 0 && seen->x <= 320 && seen->y >= 0 && seen->y <= 240) << toString(home) << t;
+      }
+  }
+  // Who stands near chose to.
+  Camera near = subject.home(HomeView::fromSouth, picture);
+  near.xy.y /= 2;
+  const auto plan = subject.round(near);
+  ASSERT_TRUE(plan);
+  EXPECT_NEAR(plan->keys.front().xy.y, near.xy.y, 1e-9);
+}
+
 TEST_F(SurfaceSession, AFilmOfASurfaceTakesThePathOfATerrains) {
   ARETE_NEEDS_OPENGL(probe);
   HeadlessOptions options{.widthPixels = 80, .heightPixels = 60, .samples = 1, .settings = s_.settings};

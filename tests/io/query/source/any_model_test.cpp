@@ -162,7 +162,7 @@ TEST(AnyModel, AGltfInMetresOfADemInDegreesIsASurfaceInThoseMetres) {
     EXPECT_NE(opened->warnings[0].sentence.find("metres to the east"), std::string::npos);
     Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
     for (const Vec3& p : finestSurfaceOf(*surface).mesh.positions) {
-      EXPECT_EQ(p.x, double(float(p.x)));
+      EXPECT_NEAR(p.x, double(float(p.x)), 1e-9);
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
