@@ -172,7 +172,7 @@ Status TerrainPainter::setLayers(std::span<const Layer> layers) {
     if (ground.size() == Layers::kMostOnGround)
       return failure(
           ErrorCode::usage,
-          fmt::format("more than {} layers lie on the ground (drapes, filled areas, contours); hide some",
+          fmt::format("at most {} drapes, filled areas and contours together can be on the ground; hide some",
                       Layers::kMostOnGround),
           layer.name);
     Ground& g = ground.emplace_back(Ground{.layer = layer});
