@@ -101,10 +101,11 @@ double endColumn() {
   return size.y > io.DisplaySize.y / 2 ? double((size.x + 0.5f * em()) / io.DisplaySize.x) : 0;
 }
 
-// A message lies at the lower edge and takes no input, so that it is never in the way of the mouse.
+// A message lies at the lower left, where no scale bar is, and takes no input, so that it is never in the way
+// of the mouse.
 void showMessage(const std::string& text) {
   const ImGuiIO& io = ImGui::GetIO();
-  ImGui::SetNextWindowPos({io.DisplaySize.x / 2, io.DisplaySize.y - 3 * em()}, ImGuiCond_Always, {0.5f, 1});
+  ImGui::SetNextWindowPos({0.5f * em(), io.DisplaySize.y - 3 * em()}, ImGuiCond_Always, {0, 1});
   ImGui::Begin("message", nullptr, kColumn | ImGuiWindowFlags_NoInputs);
   ImGui::PushTextWrapPos(std::max(io.DisplaySize.x - 42 * em(), 24 * em()));
   line(text);
@@ -114,8 +115,7 @@ void showMessage(const std::string& text) {
 
 void showStatus(const std::string& text) {
   const ImGuiIO& io = ImGui::GetIO();
-  ImGui::SetNextWindowPos({io.DisplaySize.x / 2, io.DisplaySize.y - 0.4f * em()}, ImGuiCond_Always,
-                          {0.5f, 1});
+  ImGui::SetNextWindowPos({0.5f * em(), io.DisplaySize.y - 0.4f * em()}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowSizeConstraints({0, 0}, {io.DisplaySize.x, io.DisplaySize.y});
   ImGui::Begin("status", nullptr, kColumn | ImGuiWindowFlags_NoInputs);
   line(text);
