@@ -58,7 +58,7 @@ SurfacePtr buildFile(const std::string& path, const SurfaceFileOptions& options,
   MeshInput input = call(progress, [&](const RunContext& context) -> Result<MeshInput> {
     Result<MeshInput> read = readMeshInput(path, context);
     if (read && read->file.mesh.triangles.empty())
-      return failure(ErrorCode::invalidData, "has no faces: it is no surface", path);
+      return failure(ErrorCode::invalidData, "has no faces, which a surface needs", path);
     if (read) ARETE_CHECK(warnOfGaps(*read, context));
     return read;
   });

@@ -16,8 +16,6 @@
 namespace arete {
 namespace {
 
-constexpr Rgb kContourInk = {82, 51, 26};  // of viewer/gl/shaders/terrain.frag.glsl
-
 /// As the painter takes it where nothing is stated.
 TerrainColors usualColors(const TerrainModel& model) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -64,8 +62,8 @@ std::vector<ColorLegend> SceneLegends::of(const ViewSettings& settings, std::spa
       };
       legends.push_back(
           {.title = "",
-           .classes = {{{kContourInk}, every("contours", lines->interval), Legend::Mark::line},
-                       {{kContourInk}, every("where close", 5 * lines->interval), Legend::Mark::line}}});
+           .classes = {{{Contours::kInk}, every("contours", lines->interval), Legend::Mark::line},
+                       {{Contours::kInk}, every("where close", 5 * lines->interval), Legend::Mark::line}}});
     }
     if (layer.legend.entries.empty()) continue;
     const std::string& title = layer.legend.title.empty() ? layer.name : layer.legend.title;

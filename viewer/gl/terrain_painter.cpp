@@ -120,9 +120,10 @@ Result<GLuint> TerrainPainter::programFor(const ViewLook* look) {
     }
   std::string definitions = fmt::format(
       "#define FLAT {}\n#define MODE {}\n#define SHADED {}\n#define HAZE {}\n#define CONTOURS {}\n"
-      "#define GROUND_LAYERS{}\n",
+      "#define GROUND_LAYERS{}\n#define CONTOUR_INK (vec3({}, {}, {}) / 255.0)\n",
       look == nullptr, look != nullptr ? int(look->coloring) : 0, look != nullptr && look->isShaded,
-      look != nullptr && look->hazeKilometres > 0, hasContours, layers);
+      look != nullptr && look->hazeKilometres > 0, hasContours, layers, Contours::kInk.r, Contours::kInk.g,
+      Contours::kInk.b);
   const auto known = programs_.find(definitions);
   if (known != programs_.end()) return GLuint(known->second);
   ARETE_TRY(GlProgram made, makeProgram({{GL_VERTEX_SHADER, {"frame.glsl", "terrain.vert.glsl"}},

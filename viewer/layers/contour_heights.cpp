@@ -29,7 +29,7 @@ Result<std::shared_ptr<ContourHeights>> ContourHeights::create(std::span<const C
 }
 
 FeatureStyle ContourHeights::style(const SpaceFrame& frame) const {
-  return {.color = {82, 51, 26}, .width = 1, .opacity = frame.opacity};
+  return {.color = Contours::kInk, .width = 1, .opacity = frame.opacity};
 }
 
 void ContourHeights::begin(const SpaceFrame& frame) {

@@ -39,6 +39,7 @@ struct PlanPicture {
 
 /// Lines where the heights of a terrain are multiples of an interval, in the unit of heights, > 0.
 struct Contours {
+  static constexpr Rgb kInk = {82, 51, 26};  ///< of the lines, their heights and their legend
   double interval = 1;
 };
 

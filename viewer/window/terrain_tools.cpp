@@ -61,7 +61,7 @@ std::string TerrainTools::step() {
   if (!done) return {};
   if (!*done) return done->error().describe();
   overlay = std::move(**done);
-  layers_.put(kViewshed, overlay->picture);
+  layers_.put(kViewshed, overlay->picture).legend = overlayLegend();
   return fmt::format("{:.1f} % of the samples are seen",
                      100 * double(overlay->seen) / std::max(1.0, double(overlay->cells)));
 }

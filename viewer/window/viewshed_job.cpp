@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// A thread computes the viewshed; progress and cancellation are atomics, the result is read after isDone is
-// set.
 #include "viewer/window/viewshed_job.h"
 
 #include <algorithm>
@@ -46,44 +43,23 @@ ViewshedOverlay overlayOf(const Viewshed& viewshed, int mostPixels) {
           viewshed.seen + viewshed.hidden + viewshed.unknown + viewshed.undecided};
 }
 
+Legend overlayLegend() {
+  return {.title = "viewshed",
+          .entries = {{colorOf(ViewshedCell::seen), "seen"},
+                      {colorOf(ViewshedCell::hidden), "hidden"},
+                      {colorOf(ViewshedCell::unknown), "unknown"}}};
+}
+
 void ViewshedJob::start(const TerrainModel& model, const SightEarth& earth, const ViewshedObserver& observer,
                         double targetHeight, int mostPixels) {
-  cancel();
-  state_ = std::make_unique<State>();
-  thread_ = std::thread([state = state_.get(), &model, &earth, observer, targetHeight, mostPixels] {
-    RunContext context;
-    context.cancel = &state->cancel;
-    context.progress = [state](std::string_view, double fraction) { state->progress = fraction; };
-    // One processor is left for the window.
-    context.threads = std::max(1, int(std::thread::hardware_concurrency()) - 1);
-    state->result = [&]() -> Result<ViewshedOverlay> {
-      ARETE_TRY(const auto maker, ViewshedMaker::make(model, earth, {}, context));
-      ViewshedOptions options;
-      options.targetHeight = targetHeight;
-      ARETE_TRY(const auto viewshed, maker.from(observer, options, context));
-      return overlayOf(viewshed, mostPixels);
-    }();
-    state->isDone = true;
+  work_.start([&model, &earth, observer, targetHeight,
+               mostPixels](const RunContext& context) -> Result<ViewshedOverlay> {
+    ARETE_TRY(const auto maker, ViewshedMaker::make(model, earth, {}, context));
+    ViewshedOptions options;
+    options.targetHeight = targetHeight;
+    ARETE_TRY(const auto viewshed, maker.from(observer, options, context));
+    return overlayOf(viewshed, mostPixels);
   });
-}
-
-void ViewshedJob::cancel() {
-  if (!state_) return;
-  state_->cancel = true;
-  thread_.join();
-  state_.reset();
-}
-
-double ViewshedJob::progress() const {
-  return state_ ? state_->progress.load() : 0;
-}
-
-std::optional<Result<ViewshedOverlay>> ViewshedJob::take() {
-  if (!state_ || !state_->isDone) return std::nullopt;
-  thread_.join();
-  auto result = std::move(state_->result);
-  state_.reset();
-  return result;
 }
 
 }  // namespace arete

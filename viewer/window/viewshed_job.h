@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <thread>
 
+#include "engine/parallel/background_work.h"
 #include "terrain/viewshed/viewshed.h"
 #include "viewer/scene/layer.h"
 
@@ -23,35 +22,26 @@ struct ViewshedOverlay {
 /// @param mostPixels longest side of the overlay.
 /// O(pixels).
 ViewshedOverlay overlayOf(const Viewshed& viewshed, int mostPixels);
+/// What its colours mean.
+Legend overlayLegend();
 
 /// Computes a viewshed in the background, one at a time.
 class ViewshedJob {
  public:
-  ViewshedJob() = default;
-  ViewshedJob(const ViewshedJob&) = delete;
-  ViewshedJob& operator=(const ViewshedJob&) = delete;
-  ~ViewshedJob() { cancel(); }
-
   /// Cancels a running job and starts another. `targetHeight` is above the terrain. Preconditions: model and
   /// earth outlive the job, or the next cancel().
   void start(const TerrainModel& model, const SightEarth& earth, const ViewshedObserver& observer,
              double targetHeight, int mostPixels);
   /// Cancels the job and waits for its end.
-  void cancel();
-  bool isRunning() const { return state_ != nullptr; }
+  void cancel() { work_.cancel(); }
+  bool isRunning() const { return work_.isRunning(); }
   /// 0..1.
-  double progress() const;
+  double progress() const { return work_.progress().fraction; }
   /// The result, once, when it is done; nothing before and after. Errors: those of ViewshedMaker.
-  std::optional<Result<ViewshedOverlay>> take();
+  std::optional<Result<ViewshedOverlay>> take() { return work_.take(); }
 
  private:
-  struct State {
-    std::atomic<double> progress = 0;
-    std::atomic<bool> cancel = false, isDone = false;
-    Result<ViewshedOverlay> result;
-  };
-  std::unique_ptr<State> state_;
-  std::thread thread_;
+  BackgroundWork<ViewshedOverlay> work_;
 };
 
 }  // namespace arete

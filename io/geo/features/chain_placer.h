@@ -17,7 +17,7 @@ namespace arete {
 /// Leads places and lines from the coordinates of a file onto a DEM, and counts what cannot be led there.
 class ChainPlacer {
  public:
-  /// @param sourceTurn of the file's longitudes; 0: they are none.
+  /// @param sourceTurn of the file's longitudes; 0 where x is not a longitude.
   /// @param swapsAxes the file states y before x.
   ChainPlacer(ChainTransform transform, LongitudeTurns turns, double sourceTurn, bool swapsAxes)
       : transform_(std::move(transform)), turns_(std::move(turns)), turn_(sourceTurn), swaps_(swapsAxes) {}

@@ -56,7 +56,7 @@ Result<DemRead> readPointsOfMesh(const std::string& path, const SourceOptions& o
     return tl::unexpected(mesh.error());
   }
   if (options.kind == "surface" && mesh->mesh.triangles.empty())
-    return failure(ErrorCode::usage, fmt::format("{} has no faces: it is no surface", path), "kind surface");
+    return failure(ErrorCode::usage, fmt::format("{} has no faces, which a surface needs", path), "kind surface");
   return readVertices(path, options.reading, std::move(*mesh));
 }
 
@@ -73,7 +73,7 @@ Result<Source> readSource(const std::string& path, const SourceOptions& options,
                           const RunContext& context) try {
   if (!isMeshSource(path, options.reading)) {
     if (options.kind == "surface")
-      return failure(ErrorCode::usage, fmt::format("{} is no mesh", path), "kind surface");
+      return failure(ErrorCode::usage, fmt::format("{} is not a mesh", path), "kind surface");
     Result<DemRead> heights = readHeights(path, options, context);
     // A GeoPackage of triangles alone is a mesh.
     if (!heights && options.kind.empty() && options.reading.layer.empty() && isMeshFile(path)) {

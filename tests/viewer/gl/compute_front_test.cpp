@@ -16,52 +16,15 @@
 #include "terrain/builder/build.h"
 #include "viewer/drawn_mesh.h"
 #include "viewer/gl/terrain_drawable.h"
+#include "viewer/gl_mountains.h"
 
 namespace arete {
 namespace {
 
+using test::anyCamera;
 using test::DrawnMesh;
-
-/// On a map in metres, north up, far from the origin of its coordinates.
-TerrainModel builtModel(RasterHeightfield field, double pixelMetres = 30) {
-  field.georeference = {};
-  field.georeference.geoTransform = {512345.6, pixelMetres, 0, 5234567.8, 0, -pixelMetres};
-  field.georeference.hasGeoTransform = true;
-  Result<TerrainModel> model = build(field);
-  EXPECT_TRUE(model);
-  return std::move(*model);
-}
-
-const TerrainModel& someMountains() {
-  static const TerrainModel model = [] {
-    TerrainOptions options;
-    options.columns = 257;
-    options.rows = 193;
-    options.lake = false;
-    Result<RasterHeightfield> field = generateTerrain(options);
-    EXPECT_TRUE(field);
-    return builtModel(std::move(*field));
-  }();
-  return model;
-}
-
-double highestOf(const TerrainModel& model) {
-  double high = -1e300;
-  for (std::uint32_t v = 0; v < model.mt.vertexCount(); ++v)
-    high = std::max(high, model.mt.vertices().height(VertexId(v)));
-  return high;
-}
-
-Camera someCamera(Random& random, const TerrainModel& model, int width = 320, int height = 200) {
-  const Vec2 plan{random.between(-0.2, 1.2) * model.columns, random.between(-0.2, 1.2) * model.rows};
-  return {.xy = model.toSource(plan),
-          .height = highestOf(model) + random.between(5, 1500),
-          .azimuthDegrees = random.between(0, 360),
-          .pitchDegrees = random.between(-70, 10),
-          .verticalFieldOfViewDegrees = random.between(25, 80),
-          .widthPixels = double(width),
-          .heightPixels = double(height)};
-}
+using test::modelOf;
+using test::mountains;
 
 std::vector<bool> nodesOf(const std::vector<std::uint32_t>& words, std::uint32_t count) {
   std::vector<bool> in(count);
@@ -74,14 +37,14 @@ TEST(ComputeFront, TheDevicesCutIsTheProcessorsNodeForNode) {
   int compared = 0;
   for (const RasterFamily& family : rasterFamilies()) {
     const std::uint64_t seed = 11;
-    const TerrainModel model = builtModel(family.make(61, 47, seed));
+    const TerrainModel model = modelOf(family.make(61, 47, seed));
     Result<TerrainDrawable> view = TerrainDrawable::create(model, {.mostTriangles = 20000});
     ASSERT_TRUE(view) << view.error().describe();
     ASSERT_EQ(view->deviceRefusal(), "");
     Random random(seed);
     for (int i = 0; i < 8; ++i) {
       SCOPED_TRACE(std::string(family.name) + ", seed 11, camera " + std::to_string(i));
-      const Camera camera = someCamera(random, model);
+      const Camera camera = anyCamera(random, model);
       ViewSettings settings;
       settings.pixels = std::pow(2.0, random.between(-3, 6));
       settings.isGeomorphed = i % 2 == 0;
@@ -106,11 +69,11 @@ TEST(ComputeFront, TheDevicesCutIsTheProcessorsNodeForNode) {
 
 TEST(ComputeFront, ACutThatHasNoRoomLeavesTheLastFrontWhole) {
   ARETE_NEEDS_OPENGL(context);
-  const TerrainModel& model = someMountains();
+  const TerrainModel& model = mountains();
   Result<TerrainDrawable> view = TerrainDrawable::create(model, {.mostTriangles = 3000});
   ASSERT_TRUE(view);
   Random random(5);
-  const Camera camera = someCamera(random, model);
+  const Camera camera = anyCamera(random, model);
   ViewSettings settings;
   settings.pixels = 20;
   auto figures = view->cut(camera, settings);

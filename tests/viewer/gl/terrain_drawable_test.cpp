@@ -20,55 +20,18 @@
 #include "viewer/color/color_tables.h"
 #include "viewer/drawn_mesh.h"
 #include "viewer/gl/frame_target.h"
+#include "viewer/gl_mountains.h"
 #include "viewer/reference_rasteriser.h"
 
 namespace arete {
 namespace {
 
+using test::anyCamera;
 using test::DrawnMesh;
 using test::MapCamera;
+using test::modelOf;
+using test::mountains;
 using test::ReferencePicture;
-
-/// On a map in metres, north up, far from the origin of its coordinates.
-TerrainModel modelOf(RasterHeightfield field, double pixelMetres = 30) {
-  field.georeference = {};
-  field.georeference.geoTransform = {512345.6, pixelMetres, 0, 5234567.8, 0, -pixelMetres};
-  field.georeference.hasGeoTransform = true;
-  Result<TerrainModel> model = build(field);
-  EXPECT_TRUE(model);
-  return std::move(*model);
-}
-
-const TerrainModel& mountains() {
-  static const TerrainModel model = [] {
-    TerrainOptions options;
-    options.columns = 257;
-    options.rows = 193;
-    options.lake = false;
-    Result<RasterHeightfield> field = generateTerrain(options);
-    EXPECT_TRUE(field);
-    return modelOf(std::move(*field));
-  }();
-  return model;
-}
-
-double highest(const TerrainModel& model) {
-  double high = -1e300;
-  for (std::uint32_t v = 0; v < model.mt.vertexCount(); ++v)
-    high = std::max(high, model.mt.vertices().height(VertexId(v)));
-  return high;
-}
-
-Camera anyCamera(Random& random, const TerrainModel& model, int width = 320, int height = 200) {
-  const Vec2 plan{random.between(-0.2, 1.2) * model.columns, random.between(-0.2, 1.2) * model.rows};
-  return {.xy = model.toSource(plan),
-          .height = highest(model) + random.between(5, 1500),
-          .azimuthDegrees = random.between(0, 360),
-          .pitchDegrees = random.between(-70, 10),
-          .verticalFieldOfViewDegrees = random.between(25, 80),
-          .widthPixels = double(width),
-          .heightPixels = double(height)};
-}
 
 /// The drawn surface at every sample, by laying the triangles over the grid.
 std::vector<double> heightsAtSamples(const DrawnMesh& mesh, const TerrainModel& model) {

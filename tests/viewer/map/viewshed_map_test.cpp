@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "terrain/viewshed/many.h"
-#include "viewer/color_difference.h"
+#include "viewer/color/difference.h"
+#include "viewer/color_oracle.h"
 #include "viewer/picture_fixture.h"
 
 namespace arete {
@@ -71,10 +72,12 @@ TEST(ViewshedMap, HasAnswersThatAreUnlikeEachOtherForAllEyes) {
   for (const ViewshedCell a : cells)
     for (const ViewshedCell b : cells) {
       if (a >= b) continue;
-      for (const Vision eyes : {Vision::normal, Vision::protan, Vision::deutan, Vision::tritan})
+      for (const test::Eyes eyes : test::kAllEyes)
         for (const int i : {0, 5, 10, 15})
           for (const int j : {0, 5, 10, 15})
-            ASSERT_GE(ciede2000(labOf(viewshedColor(a, i), eyes), labOf(viewshedColor(b, j), eyes)), 10)
+            ASSERT_GE(colorDifference(test::seenBy(eyes, viewshedColor(a, i)),
+                                      test::seenBy(eyes, viewshedColor(b, j))),
+                      10)
                 << int(a) << " and " << int(b) << " for eyes " << int(eyes);
     }
 }

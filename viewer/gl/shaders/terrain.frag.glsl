@@ -84,7 +84,7 @@ vec3 overlaid(vec3 base, int i, sampler2D overlay, vec2 plan) {
   return mix(base, seen.rgb, seen.a * ground[i].x);
 }
 vec3 inked(vec3 base, int i, Relief relief) {
-  return mix(base, vec3(0.32, 0.2, 0.1), 0.85 * ground[i].x * contourInk(contours[i].xyz, relief));
+  return mix(base, CONTOUR_INK, 0.85 * ground[i].x * contourInk(contours[i].xyz, relief));
 }
 
 void main() {
