@@ -18,8 +18,8 @@ struct Turn {
   bool operator==(const Turn&) const = default;
 };
 
-/// A turn, then a multiplication by one number, then a shift: it keeps angles and ratios of lengths, and
-/// never mirrors. Right angles are turned without rounding.
+/// A turn, then a multiplication by one number, then a shift: it keeps angles and ratios of lengths. Made of
+/// angles it never mirrors, and turns by right angles without rounding.
 class Similarity {
  public:
   Similarity() = default;
@@ -34,7 +34,7 @@ class Similarity {
     y_ = headed(lifted({0, 1, 0}));
     z_ = headed(lifted({sr, 0, cr}));
   }
-  /// The axes' images, of length 1 and at right angles, right-handed.
+  /// The axes' images, of length 1 and at right angles; left-handed ones mirror.
   explicit Similarity(const std::array<Vec3, 3>& axes, double scale, const Vec3& shift)
       : x_(axes[0]), y_(axes[1]), z_(axes[2]), scale_(scale), shift_(shift) {}
 

@@ -17,26 +17,60 @@ Result<Scene> Scene::create() {
   return Scene(std::move(painter));
 }
 
-Status Scene::add(std::unique_ptr<Drawable> drawable) {
-  if (!drawables_.empty() && !(subject().isTerrain() && drawable->subject().isTerrain()))
-    return failure(ErrorCode::usage, "only terrain is shown beside another model, and that must be terrain",
-                   "scene");
+Status Scene::add(std::unique_ptr<Drawable> drawable, SceneObject object) {
+  const auto standsNowhere = [](const Subject& s) { return !s.isTerrain() && !s.isPlaced(); };
+  if (!drawables_.empty() &&
+      (standsNowhere(drawable->subject()) || standsNowhere(drawables_.front()->subject())))
+    return failure(ErrorCode::usage, "a surface beside another model needs a place in the scene",
+                   object.name.empty() ? "scene" : object.name);
   drawables_.push_back(std::move(drawable));
+  objects_->push_back(std::move(object));
+  if (drawables_.size() == 1) return {};
+  std::vector<const Subject*> subjects;
+  for (const auto& each : drawables_) subjects.push_back(&each->subject());
+  all_ = std::make_unique<SceneSubject>(std::move(subjects));
+  all_->isShown = [objects = objects_.get()](std::size_t i) { return (*objects)[i].isShown; };
   return {};
+}
+
+const Subject& Scene::subject() const {
+  if (all_) return *all_;
+  return drawables_.front()->subject();
+}
+
+// What a model cannot be coloured by, it shows as it usually is.
+ViewSettings Scene::settingsOf(std::size_t model, const ViewSettings& settings) const {
+  ViewSettings own = settings;
+  const SceneObject& object = objects()[model];
+  own.pixels *= object.toleranceFactor;
+  own.level = object.level;
+  if (drawables_.size() == 1) return own;
+  own.maxTriangles = 0;
+  own.nearPlane = this->subject().nearPlane();
+  const Subject& subject = drawables_[model]->subject();
+  if (std::ranges::find(subject.colorings(), own.look.coloring) == subject.colorings().end())
+    own.look.coloring = subject.colorings().front();
+  // Objects on a terrain have its light.
+  if (!own.look.sun && this->subject().isTerrain()) own.look.sun = Sun{};
+  return own;
 }
 
 Result<FrameFigures> Scene::cut(const Camera& camera, const ViewSettings& settings,
                                 const RunContext& context) {
-  ViewSettings each = settings;
-  if (settings.maxTriangles > 0)
-    each.maxTriangles = std::max(1u, settings.maxTriangles / std::uint32_t(drawables_.size()));
   FrameFigures sum;
-  for (const auto& drawable : drawables_) {
-    ARETE_TRY(const FrameFigures figures, drawable->cut(camera, each, context));
+  for (std::size_t i = 0; i < drawables_.size(); ++i) {
+    SceneObject& object = objects()[i];
+    if (!object.isShown) continue;
+    auto cut = drawables_[i]->cut(camera, settingsOf(i, settings), context);
+    if (!cut && !object.name.empty() && cut.error().code != ErrorCode::interrupted)
+      cut.error().culprit =
+          cut.error().culprit.empty() ? object.name : object.name + ": " + cut.error().culprit;
+    ARETE_TRY(object.figures, std::move(cut));
+    const FrameFigures& figures = object.figures;
     sum.triangles += figures.triangles;
     sum.asked += figures.asked;
     sum.moving += figures.moving;
-    sum.pixels = std::max(sum.pixels, figures.pixels);
+    if (!object.level) sum.pixels = std::max(sum.pixels, figures.pixels / object.toleranceFactor);
     sum.isComplete = sum.isComplete && figures.isComplete;
     sum.jumpPixels = std::fmax(sum.jumpPixels, figures.jumpPixels);
     sum.cutMilliseconds += figures.cutMilliseconds;
@@ -45,16 +79,20 @@ Result<FrameFigures> Scene::cut(const Camera& camera, const ViewSettings& settin
 }
 
 Status Scene::draw(const Camera& camera, const ViewSettings& settings) {
-  for (const auto& drawable : drawables_) {
-    for (const Layer& layer : layers.list())
-      if (layer.isVisible) ARETE_CHECK(drawable->subject().check(layer));
-    ARETE_CHECK(drawable->draw(camera, settings, layers.list()));
+  for (const Layer& layer : layers.list())
+    if (layer.isVisible) ARETE_CHECK(subject().check(layer));
+  for (std::size_t i = 0; i < drawables_.size(); ++i) {
+    if (!objects()[i].isShown) continue;
+    const bool isGround = drawables_[i]->subject().isTerrain();
+    ARETE_CHECK(
+        drawables_[i]->draw(camera, settingsOf(i, settings),
+                            isGround ? std::span<const Layer>(layers.list()) : std::span<const Layer>()));
   }
-  drawables_.back()->drawBackground(settings);
+  drawBackground(settings);
   for (const Layer& layer : layers.list()) {
     const auto* space = std::get_if<SpaceVertices>(&layer.content);
     if (!space || !layer.isVisible) continue;
-    ARETE_TRY(const FrameView frame, drawables_.front()->frameOf(camera, settings));
+    ARETE_TRY(const FrameView frame, frameOf(camera, settings));
     SpaceVertices drawn = *space;
     for (auto& vertex : drawn.vertices) vertex.place = subject().drawn(vertex.place, settings);
     painter_.draw(drawn, frame, layer.opacity);
@@ -62,12 +100,37 @@ Status Scene::draw(const Camera& camera, const ViewSettings& settings) {
   return drawContents(camera, settings);
 }
 
+Result<FrameView> Scene::frameOf(const Camera& camera, const ViewSettings& settings) const {
+  for (std::size_t i = 0; i < drawables_.size(); ++i)
+    if (drawables_[i]->subject().isTerrain()) return drawables_[i]->frameOf(camera, settingsOf(i, settings));
+  FrameView frame;
+  ARETE_TRY(frame.view, subject().viewOf(camera, settings));
+  frame.drawnNear = subject().nearPlane();
+  frame.pixels = settings.pixels;
+  return frame;
+}
+
+// A terrain that is hidden has set no frame, so its sky is not drawn.
+void Scene::drawBackground(const ViewSettings& settings) {
+  const auto shown = [&](bool isTerrain) -> Drawable* {
+    for (std::size_t i = 0; i < drawables_.size(); ++i)
+      if (objects()[i].isShown && drawables_[i]->subject().isTerrain() == isTerrain)
+        return drawables_[i].get();
+    return nullptr;
+  };
+  for (Drawable* const drawable : {shown(true), shown(false)})
+    if (drawable) {
+      drawable->drawBackground(settings);
+      return;
+    }
+}
+
 Status Scene::drawContents(const Camera& camera, const ViewSettings& settings) {
   const auto drawsItself = [](const Layer& layer) {
     return std::holds_alternative<Layer::Drawn>(layer.content);
   };
   if (std::ranges::none_of(layers.list(), drawsItself)) return {};
-  ARETE_TRY(const FrameView view, drawables_.front()->frameOf(camera, settings));
+  ARETE_TRY(const FrameView view, frameOf(camera, settings));
   std::vector<std::pair<SpaceContent*, SpaceFrame>> contents;
   ++pictures_;
   for (const Layer& layer : layers.list())
@@ -83,7 +146,8 @@ bool Scene::isShown() const {
 }
 
 bool Scene::keepsBudget(const ViewSettings& settings) const {
-  return std::ranges::all_of(drawables_, [&](const auto& d) { return d->keepsBudget(settings); });
+  return drawables_.size() == 1 &&
+         std::ranges::all_of(drawables_, [&](const auto& d) { return d->keepsBudget(settings); });
 }
 
 std::uint32_t Scene::capacity() const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,28 +13,45 @@
 #include "viewer/gl/space_painter.h"
 #include "viewer/scene/drawable.h"
 #include "viewer/scene/layer.h"
+#include "viewer/scene/scene_subject.h"
 
 namespace arete {
 
-/// Models under one camera and the layers over them, in one OpenGL context.
+/// What a scene knows of one of its models beside the model.
+struct SceneObject {
+  std::string name = {};
+  double toleranceFactor = 1;           ///< its tolerance in pixels is the scene's times this, > 0
+  std::optional<HandLevel> level = {};  ///< nothing: by the view
+  bool isShown = true;
+  FrameFigures figures = {};  ///< of its last cut
+};
+
+/// Models under one camera and the layers over them, in one OpenGL context. All keep one tolerance, times
+/// their factors: with a budget, what is worst is refined first.
 class Scene {
  public:
   /// Errors: unsupported, by the driver.
   static Result<Scene> create();
 
-  /// Errors: usage: a surface beside another model: each is drawn about its own middle.
-  Status add(std::unique_ptr<Drawable> drawable);
+  /// The first terrain has the layers on the ground. A surface beside another model is of a SurfaceSubject in
+  /// a scene. Errors: usage: a surface that stands nowhere beside another model.
+  Status add(std::unique_ptr<Drawable> drawable, SceneObject object = {});
   const std::vector<std::unique_ptr<Drawable>>& drawables() const { return drawables_; }
-  /// Of the first model, whose space the layers have. Precondition: there is one.
-  const Subject& subject() const { return drawables_.front()->subject(); }
+  /// By model.
+  std::vector<SceneObject>& objects() { return *objects_; }
+  const std::vector<SceneObject>& objects() const { return *objects_; }
+  /// Of the model, where it is one; else of all. Precondition: there is one. Valid until the next add().
+  const Subject& subject() const;
 
-  /// The cuts of all models; figures are added up, the worst tolerance and jump count. A budget is shared
-  /// evenly. Errors: as Drawable::cut().
+  /// The cuts of all models that are shown; figures are added up, the worst tolerance and jump count. Errors:
+  /// as Drawable::cut().
   Result<FrameFigures> cut(const Camera& camera, const ViewSettings& settings,
                            const RunContext& context = {});
   /// Draws the last cuts and the layers into the framebuffer that is bound. Errors: as Drawable::draw()
   /// and Subject::check(), of a layer.
   Status draw(const Camera& camera, const ViewSettings& settings);
+  /// The frame of the scene's space, in which the layers are. Errors: as Subject::viewOf().
+  Result<FrameView> frameOf(const Camera& camera, const ViewSettings& settings) const;
   /// Whether the last picture shows any of the models. Waits for the drawing.
   bool isShown() const;
   /// What Drawable says, of all models.
@@ -46,9 +64,14 @@ class Scene {
 
  private:
   explicit Scene(SpacePainter painter) : painter_(std::move(painter)) {}
+  /// What one model is drawn with.
+  ViewSettings settingsOf(std::size_t model, const ViewSettings& settings) const;
+  void drawBackground(const ViewSettings& settings);
   /// The layers that draw themselves.
   Status drawContents(const Camera& camera, const ViewSettings& settings);
   std::vector<std::unique_ptr<Drawable>> drawables_;
+  std::unique_ptr<std::vector<SceneObject>> objects_ = std::make_unique<std::vector<SceneObject>>();
+  std::unique_ptr<SceneSubject> all_;  // of several
   SpacePainter painter_;
   std::uint64_t pictures_ = 0;  // that were drawn
 };

@@ -60,6 +60,7 @@ Result<FrameView> TerrainDrawable::frameOf(const Camera& camera, const ViewSetti
   const Vec3 ground = metricPosition(camera.xy, camera.height, model());
   frame.eyeGround = {ground.x, ground.y};
   frame.isMirrored = model().isFlipped();
+  if (settings.nearPlane > 0) frame.drawnNear = settings.nearPlane;
   frame.stretch = settings.stretch;
   // The tolerance holds for the exaggerated terrain, so heights have the exaggerated scale.
   MetricFrame exaggerated = model().mt.metric();

@@ -8,7 +8,7 @@ namespace arete {
 
 Result<PictureGround> groundOfPicture(const Scene& scene, const FrameTarget& target, const Camera& camera,
                                       const ViewSettings& settings) {
-  ARETE_TRY(const FrameView frame, scene.drawables().front()->frameOf(camera, settings));
+  ARETE_TRY(const FrameView frame, scene.frameOf(camera, settings));
   PictureDepths depths{target.width(), target.height(), target.depths(frame.drawnNear)};
   return groundInView(scene.subject(), camera, settings,
                       std::make_shared<const PictureDepths>(std::move(depths)));

@@ -17,6 +17,8 @@
 
 namespace arete {
 
+class TerrainSubject;
+
 /// A place of a model that was picked with the mouse.
 struct Pick {
   Vec2 plan;                  ///< plan coordinates of the model
@@ -25,6 +27,8 @@ struct Pick {
   Vec3 metric;                ///< heights as they are, not exaggerated
   double metres = 0;          ///< from the eye, in a straight line
   std::string material = {};  ///< of a surface; empty: none
+  Vec3 inObject = {};         ///< coordinates of its own file; of a terrain: xy and height
+  std::size_t object = 0;     ///< of a scene: which
 };
 
 /// What a camera looks at and moves around: a model without its graphics, at full resolution. Its metric
@@ -37,6 +41,8 @@ class Subject {
   /// "terrain" or "surface".
   virtual std::string_view kind() const = 0;
   bool isTerrain() const { return kind() == "terrain"; }
+  /// Whether it has a place among other models.
+  virtual bool isPlaced() const { return isTerrain(); }
   const CameraSpace& space() const { return space_; }
   /// Holds all of the model, in metric space.
   const MetricBox& box() const { return box_; }
@@ -67,6 +73,10 @@ class Subject {
   virtual Vec3 inFile(const Vec3& metric) const = 0;
   /// A length below which cameras do not come nearer to what they orbit.
   virtual double leastRadius() const = 0;
+  /// Depth of the plane that clips what is near, in metric units, > 0.
+  virtual double nearPlane() const = 0;
+  /// The terrain, or that of the scene; null where there is none.
+  virtual const TerrainSubject* terrain() const { return nullptr; }
   /// The ground that cameras follow; null where there is none.
   virtual const GroundHeights* heights() const { return nullptr; }
 

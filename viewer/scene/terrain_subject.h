@@ -37,6 +37,8 @@ class TerrainSubject final : public Subject {
   Result<FlightPlan> round(const Camera& from) const override;
   Vec3 inFile(const Vec3& metric) const override;
   double leastRadius() const override { return 0.5; }
+  double nearPlane() const override { return 0.1; }
+  const TerrainSubject* terrain() const override { return this; }
   const GroundHeights* heights() const override { return &profiles_.heights(); }
   std::span<const Coloring> colorings() const override;
   using Subject::check;

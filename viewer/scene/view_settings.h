@@ -36,6 +36,14 @@ struct ViewLook {
   SharedColors colors = {};
 };
 
+/// A level of detail that is chosen by hand, whatever the camera sees: one of the two.
+struct HandLevel {
+  double error = 0;             ///< in the unit of the model's errors
+  std::uint32_t triangles = 0;  ///< at most; 0: the error counts
+
+  bool operator==(const HandLevel&) const = default;
+};
+
 /// How the models of a scene are drawn. What a model does not know is refused by Subject::check().
 struct ViewSettings {
   double pixels = 1;               ///< tolerance of what is drawn, moving or not
@@ -48,6 +56,9 @@ struct ViewSettings {
   double stretch = 1;     ///< vertical exaggeration
   bool isCurved = false;  ///< the Earth curves away (viewer/scene/curved_ground.h): for DEMs with a CRS
   ViewLook look = {};
+  /// Depth of the plane that clips what is near, in metric units; 0: the model's own.
+  double nearPlane = 0;
+  std::optional<HandLevel> level = {};  ///< instead of the tolerance and the budget; of surfaces
 };
 
 /// What a frame took, and what it shows.

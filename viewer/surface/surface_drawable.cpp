@@ -13,15 +13,10 @@
 #include "surface/displacement/displaced_places.h"
 
 namespace arete {
-namespace {
-
-/// Part of the diagonal: what is nearer to the eye is not drawn.
-constexpr double kNearestPlane = 1e-4;
-
-}  // namespace
+namespace {}  // namespace
 
 std::uint32_t SurfaceDrawable::materialOf(std::uint32_t triangle) const {
-  const auto none = static_cast<std::uint32_t>(materials_.materials().size()) - 1;
+  const auto none = static_cast<std::uint32_t>(assets_->materials.materials().size()) - 1;
   const std::vector<std::uint32_t>& of = model_->attributes.materialOf;
   if (of.empty()) return none;
   const std::uint32_t m = of[model_->faceOf[triangle]];
@@ -31,7 +26,7 @@ std::uint32_t SurfaceDrawable::materialOf(std::uint32_t triangle) const {
 void SurfaceDrawable::upload() {
   const auto front = cut_.triangles();
   const MultiTriangulation& mt = model_->mt;
-  std::vector<std::uint32_t> begin(materials_.materials().size() + 1, 0);
+  std::vector<std::uint32_t> begin(assets_->materials.materials().size() + 1, 0);
   for (const std::uint32_t t : front) ++begin[materialOf(t) + 1];
   for (std::size_t m = 1; m < begin.size(); ++m) begin[m] += begin[m - 1];
   ranges_.clear();
@@ -67,42 +62,50 @@ void SurfaceDrawable::displace(const BoundedCriterion& criterion) {
       positions_[3 * drawn + 1] = float(p.y);
       positions_[3 * drawn + 2] = float(p.z);
     }
-  surface_.positions = makeBuffer(std::span<const float>(positions_));
+  displaced_ = makeBuffer(std::span<const float>(positions_));
 }
 
 Result<SurfaceDrawable> SurfaceDrawable::create(const SurfaceModel& model,
                                                 std::shared_ptr<const SurfaceSubject> subject) {
-  ARETE_TRY(SurfacePainter painter, SurfacePainter::create());
-  return SurfaceDrawable(model, std::move(subject), std::move(painter));
+  ARETE_TRY(std::shared_ptr<SurfaceAssets> assets, SurfaceAssets::create(model, subject->upright()));
+  return SurfaceDrawable(std::move(assets), std::move(subject));
 }
 
-SurfaceDrawable::SurfaceDrawable(const SurfaceModel& model, std::shared_ptr<const SurfaceSubject> subject,
-                                 SurfacePainter painter)
-    : model_(&model),
-      subject_(std::move(subject)),
-      cut_(model.mt),
-      surface_(uploadSurface(model, subject_->upright())),
-      materials_(MaterialsOnGpu::load(model)),
-      painter_(std::move(painter)) {}
+Result<std::shared_ptr<SurfaceAssets>> SurfaceAssets::create(const SurfaceModel& model,
+                                                             const ZUpFrame& upright) {
+  ARETE_TRY(SurfacePainter painter, SurfacePainter::create());
+  return std::make_shared<SurfaceAssets>(
+      SurfaceAssets{uploadSurface(model, upright), MaterialsOnGpu::load(model), std::move(painter)});
+}
+
+SurfaceDrawable::SurfaceDrawable(std::shared_ptr<SurfaceAssets> assets,
+                                 std::shared_ptr<const SurfaceSubject> subject)
+    : model_(&subject->model()), subject_(std::move(subject)), cut_(model_->mt), assets_(std::move(assets)) {}
 
 Result<FrameFigures> SurfaceDrawable::cut(const Camera& camera, const ViewSettings& settings,
                                           const RunContext& context) {
   ARETE_CHECK(subject_->check(settings));
-  ARETE_TRY(const View view, subject_->viewOf(camera));
+  ARETE_TRY(const View view, subject_->viewOf(camera, settings));
+  const View own = viewedBy(subject_->pose(settings), view);
   const Stopwatch watch;
   const MultiTriangulation& mt = model_->mt;
-  const ViewError criterion({.view = subject_->upright().turnedBack(view), .pixels = settings.pixels},
-                            mt.metric());
+  const ViewError seen({.view = subject_->upright().turnedBack(own), .pixels = settings.pixels}, mt.metric());
+  const UniformError chosen(settings.level ? settings.level->error : 0);
+  const bool isChosen = settings.level.has_value();
+  const BoundedCriterion& criterion = isChosen ? static_cast<const BoundedCriterion&>(chosen) : seen;
   IncrementalOptions options;
-  if (settings.maxTriangles > 0) options.maxTriangles = settings.maxTriangles;
+  if (const auto most = isChosen ? settings.level->triangles : settings.maxTriangles; most > 0)
+    options.maxTriangles = most;
   ARETE_TRY(const IncrementalCut::Update update, cut_.update(criterion, options, context));
   FrameFigures figures;
   figures.triangles = figures.asked = static_cast<std::uint32_t>(cut_.triangles().size());
-  figures.isComplete = update.isComplete;
+  figures.isComplete = isChosen || update.isComplete;
   figures.pixels = settings.pixels;
-  // A budget may end the cut early: the figure is then the worst error that is drawn.
-  if (!update.isComplete)
-    figures.pixels = std::max(settings.pixels, worstSeverity(mt, criterion, cut_.front()));
+  // A budget may end the cut early, and a level is chosen: the figure is then the worst error that is drawn.
+  if (isChosen)
+    figures.pixels = worstSeverity(mt, seen, cut_.front());
+  else if (!update.isComplete)
+    figures.pixels = std::max(settings.pixels, worstSeverity(mt, seen, cut_.front()));
   pixels_ = figures.pixels;
   if (!isUploaded_ || !cut_.lastSteps().empty()) upload();
   if (!model_->displacement.isEmpty()) displace(criterion);
@@ -110,19 +113,24 @@ Result<FrameFigures> SurfaceDrawable::cut(const Camera& camera, const ViewSettin
   return figures;
 }
 
-Result<FrameView> SurfaceDrawable::frameOf(const Camera& camera, const ViewSettings&) const {
+// The near planes of all objects are one plane of the scene, so that their depths compare: what is written is
+// the near depth over the depth, in whatever unit.
+Result<FrameView> SurfaceDrawable::frameOf(const Camera& camera, const ViewSettings& settings) const {
   FrameView frame;
-  ARETE_TRY(frame.view, subject_->viewOf(camera));
+  ARETE_TRY(const View view, subject_->viewOf(camera, settings));
+  const Similarity pose = subject_->pose(settings);
+  frame.view = viewedBy(pose, view);
   frame.pixels = pixels_;
-  // A surface has no usual unit, so the near plane follows its size.
-  frame.drawnNear = kNearestPlane * subject_->box().diagonal();
+  frame.drawnNear = (settings.nearPlane > 0 ? settings.nearPlane : subject_->nearPlane()) / pose.scale();
   return frame;
 }
 
 Status SurfaceDrawable::draw(const Camera& camera, const ViewSettings& settings, std::span<const Layer>) {
   ARETE_TRY(const FrameView frame, frameOf(camera, settings));
   glBeginQuery(GL_ANY_SAMPLES_PASSED, anySample_);
-  painter_.draw(surface_, materials_, {indices_, errors_, ranges_}, frame, settings.look);
+  const DrawnSurface front{indices_, errors_, displaced_, ranges_};
+  assets_->painter.draw(assets_->vertices, assets_->materials, front, frame, settings.look,
+                        Similarity(subject_->placement().turn, 1, {}));
   glEndQuery(GL_ANY_SAMPLES_PASSED);
   return {};
 }

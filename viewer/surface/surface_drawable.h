@@ -15,44 +15,54 @@
 
 namespace arete {
 
-/// Draws one surface in an OpenGL context, for one camera of upright space at a time. Each cut starts from
-/// the last one (engine/follow/incremental_cut.h).
+/// What all objects of one surface share in an OpenGL context.
+struct SurfaceAssets {
+  /// The model outlives it. Errors: unsupported. O(size of the model).
+  static Result<std::shared_ptr<SurfaceAssets>> create(const SurfaceModel& model, const ZUpFrame& upright);
+
+  SurfaceOnGpu vertices;
+  MaterialsOnGpu materials;
+  SurfacePainter painter;
+};
+
+/// Draws one surface in an OpenGL context, for one camera at a time, where its subject is placed. Each cut
+/// starts from the last one (engine/follow/incremental_cut.h).
 class SurfaceDrawable final : public Drawable {
  public:
   /// The model stays alive as long as this. Errors: unsupported. O(size of the model).
   static Result<SurfaceDrawable> create(const SurfaceModel& model,
                                         std::shared_ptr<const SurfaceSubject> subject);
+  /// One more object of a surface, as create() of the same model made them.
+  SurfaceDrawable(std::shared_ptr<SurfaceAssets> assets, std::shared_ptr<const SurfaceSubject> subject);
   const SurfaceSubject& subject() const override { return *subject_; }
   Result<FrameView> frameOf(const Camera& camera, const ViewSettings& settings) const override;
   Result<FrameFigures> cut(const Camera& camera, const ViewSettings& settings,
                            const RunContext& context = {}) override;
   Status draw(const Camera& camera, const ViewSettings& settings,
               std::span<const Layer> layers = {}) override;
-  void drawBackground(const ViewSettings&) override { painter_.drawBackground(); }
+  void drawBackground(const ViewSettings&) override { assets_->painter.drawBackground(); }
   bool isShown() const override;
   bool keepsBudget(const ViewSettings&) const override { return true; }
+  const std::shared_ptr<SurfaceAssets>& assets() const { return assets_; }
   /// Pictures that are not shown.
-  Warnings warnings() const override { return materials_.warnings(); }
+  Warnings warnings() const override { return assets_->materials.warnings(); }
 
  private:
-  SurfaceDrawable(const SurfaceModel& model, std::shared_ptr<const SurfaceSubject> subject,
-                  SurfacePainter painter);
   std::uint32_t materialOf(std::uint32_t triangle) const;
   void upload();
   void displace(const BoundedCriterion& criterion);
 
-  const SurfaceModel* model_;
+  const SurfaceModel* model_;  // the subject's
   std::shared_ptr<const SurfaceSubject> subject_;
   IncrementalCut cut_;
-  SurfaceOnGpu surface_;
-  MaterialsOnGpu materials_;
-  SurfacePainter painter_;
+  std::shared_ptr<SurfaceAssets> assets_;
   GlQuery anySample_ = makeQuery(GL_ANY_SAMPLES_PASSED);
   double pixels_ = 1;  // of the last cut
   bool isUploaded_ = false;
   GlBuffer indices_, errors_;
   std::vector<DrawnSurface::Range> ranges_;
-  std::vector<float> positions_;  // of a displaced model: those in graphics memory
+  std::vector<float> positions_;  // of a displaced model: its own
+  GlBuffer displaced_;            // the same in graphics memory
 };
 
 }  // namespace arete

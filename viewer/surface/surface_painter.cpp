@@ -16,17 +16,18 @@ namespace arete {
 
 /// shaders/surface.frag.glsl, std140.
 struct SurfacePainter::Look {
-  glm::vec4 baseColor{1, 1, 1, 1}, sun{}, modes{}, more{};
+  glm::vec4 baseColor{1, 1, 1, 1}, sun{}, modes{}, more{}, zenith{};
 };
 
 namespace {
 
-Vec3 towardsSun(const FrameView& frame, const ViewLook& look) {
+/// In the space of the surface.
+Vec3 towardsSun(const FrameView& frame, const ViewLook& look, const Similarity& turned) {
   if (look.sun) {
     const double azimuth = look.sun->azimuthDegrees * std::numbers::pi / 180,
                  elevation = look.sun->elevationDegrees * std::numbers::pi / 180;
-    return {std::cos(elevation) * std::sin(azimuth), std::cos(elevation) * std::cos(azimuth),
-            std::sin(elevation)};
+    return turned.inverse().direction({std::cos(elevation) * std::sin(azimuth),
+                                       std::cos(elevation) * std::cos(azimuth), std::sin(elevation)});
   }
   const Frustum::Planes axes = Frustum(frame.view).planes();
   return unit(-0.62 * axes.right + 0.62 * axes.up - 0.48 * axes.forward);
@@ -65,7 +66,8 @@ void SurfacePainter::drawRange(const DrawnSurface::Range& range, const Look& loo
 }
 
 void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials,
-                          const DrawnSurface& front, const FrameView& frame, const ViewLook& look) {
+                          const DrawnSurface& front, const FrameView& frame, const ViewLook& look,
+                          const Similarity& turned) {
   const FrameBlock block = frameBlock(frame, MetricFrame{});
   glNamedBufferSubData(frame_, 0, sizeof block, &block);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
@@ -86,7 +88,7 @@ void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& mat
     glVertexArrayAttribBinding(array, index, index);
     glEnableVertexArrayAttrib(array, index);
   };
-  attribute(0, surface.positions, 3, GL_FLOAT);
+  attribute(0, front.positions != 0 ? front.positions : GLuint(surface.positions), 3, GL_FLOAT);
   attribute(1, surface.normals, 3, GL_FLOAT);
   attribute(2, surface.textureCoords, 4, GL_FLOAT);
   attribute(3, surface.colors, 4, GL_UNSIGNED_BYTE);
@@ -97,7 +99,7 @@ void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& mat
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GEQUAL);
 
-  const Vec3 sun = towardsSun(frame, look);
+  const Vec3 sun = towardsSun(frame, look, turned), up = turned.inverse().direction({0, 0, 1});
   const bool hasMaterials = look.coloring == Coloring::material;
   // Blended materials are drawn after the others, over them, and do not write depth, so that what lies behind
   // them stays visible. Only the colouring by materials has any.
@@ -111,6 +113,7 @@ void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& mat
       const bool hasPicture = m.texture != 0 && surface.textureCoords != 0;
       now.modes = {coloringNumber(look.coloring), hasPicture ? float(1 + m.textureCoords) : 0.0f,
                    float(m.alpha), m.alphaCutoff};
+      now.zenith = {float(up.x), float(up.y), float(up.z), 0};
       now.more = {m.isDoubleSided ? 1.0f : 0.0f, 0, float(range.first), 0};
       glBindTextureUnit(0, m.texture);
       if (isBlended) {

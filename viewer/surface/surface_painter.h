@@ -5,6 +5,7 @@
 #include <span>
 
 #include "engine/base/result.h"
+#include "engine/base/similarity.h"
 #include "viewer/gl/color_maps_on_gpu.h"
 #include "viewer/gl/frame_block.h"
 #include "viewer/gl/gl_objects.h"
@@ -21,6 +22,8 @@ struct DrawnSurface {
   };
   GLuint indices = 0;  ///< three drawn vertices a triangle
   GLuint errors = 0;   ///< a float a triangle; 0: none
+  /// Positions of the drawn vertices instead of the surface's; 0: none.
+  GLuint positions = 0;
   std::span<const Range> ranges = {};
 };
 
@@ -31,8 +34,10 @@ class SurfacePainter {
   static Result<SurfacePainter> create();
 
   /// `frame`: of upright space. What is blended is drawn last, in the order of its triangles.
+  ///
+  /// @param turned how the surface is turned out of east, north and up, which the sun stands in.
   void draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials, const DrawnSurface& front,
-            const FrameView& frame, const ViewLook& look);
+            const FrameView& frame, const ViewLook& look, const Similarity& turned = {});
   void drawBackground();
 
  private:

@@ -2,7 +2,9 @@
 #include "viewer/surface/surface_subject.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -36,21 +38,70 @@ class StepBack {
   double slope_, slopeAcross_;
 };
 
+Placement aboutTheMiddle(const Vec3& middle, const Turn& turn) {
+  return {.pivot = middle, .anchor = middle, .turn = turn};
+}
+
 }  // namespace
 
+View viewedBy(const Similarity& placed, const View& view) {
+  const Similarity back = placed.inverse();
+  View seen = view;
+  seen.eye = back(view.eye);
+  seen.forward = back.direction(view.forward);
+  seen.up = back.direction(view.up);
+  seen.nearDistance *= back.scale();
+  seen.farDistance *= back.scale();
+  return seen;
+}
+
 SurfaceSubject::SurfaceSubject(const SurfaceModel& model, const ZUpFrame& upright)
-    : SurfaceSubject(model, upright, uprightShape(model, upright)) {}
+    : SurfaceSubject(std::make_shared<const SurfaceForm>(model, upright), Turn{}) {}
 
-SurfaceSubject::SurfaceSubject(const SurfaceModel& model, const ZUpFrame& upright, HomeShape shape)
-    : Subject(CameraSpace(), shape.box),
-      upright_(upright),
-      shape_(std::move(shape)),
-      picker_(model, upright),
-      largestError_(model.mt.largestError()),
-      unit_(model.verticalUnit) {}
+SurfaceSubject::SurfaceSubject(std::shared_ptr<const SurfaceForm> form, const Turn& turn)
+    : SurfaceSubject(form, aboutTheMiddle(form->shape.box.centre(), turn), nullptr) {
+  isPlaced_ = false;
+}
 
-Result<View> SurfaceSubject::viewOf(const Camera& camera, const ViewSettings&) const {
-  return arete::viewOf(camera, space_);
+SurfaceSubject::SurfaceSubject(std::shared_ptr<const SurfaceForm> form, const Placement& placement,
+                               const Subject* scene)
+    : Subject(scene ? scene->space() : CameraSpace(), form->shape.box),
+      form_(std::move(form)),
+      scene_(scene),
+      isPlaced_(true),
+      largestError_(form_->model.mt.largestError()),
+      unit_(form_->model.verticalUnit) {
+  place(placement);
+}
+
+void SurfaceSubject::place(const Placement& placement) {
+  placement_ = placement;
+  const Similarity there = placed(placement, scene_);
+  shape_.points.clear();
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  Vec3 low{kInfinite, kInfinite, kInfinite}, high = -low;
+  for (const Vec3& point : form_->shape.points) {
+    const Vec3 p = there(point);
+    shape_.points.push_back(p);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  // The points have the extremes along the axes of upright space only to a hundredth of the box.
+  box_ =
+      placement.turn == Turn{} && !scene_ && placement.scale == 1 ? form_->shape.box : MetricBox{low, high};
+  shape_.box = box_;
+}
+
+Result<View> SurfaceSubject::viewOf(const Camera& camera, const ViewSettings& settings) const {
+  return scene_ ? scene_->viewOf(camera, settings) : arete::viewOf(camera, space_);
+}
+
+double SurfaceSubject::boundAt(const Pick&, double allowed) const {
+  return std::min(allowed, largestError_ * placement_.scale);
+}
+
+Vec3 SurfaceSubject::inFile(const Vec3& metric) const {
+  return upright().toFile(placed(placement_, scene_).inverse()(metric));
 }
 
 Camera SurfaceSubject::home(HomeView view, const Camera& picture, const ViewSettings&,
@@ -66,13 +117,27 @@ std::optional<Pick> SurfaceSubject::pick(const Camera& camera, Vec2 pixel,
                                          const ViewSettings& settings) const {
   const Result<View> view = viewOf(camera, settings);
   if (!view) return std::nullopt;
-  const auto found = picker_.along(view->eye, directionOfPixel(*view, space_.isMirrored(), pixel));
+  const Similarity pose = this->pose(settings), back = pose.inverse();
+  const Vec3 direction = directionOfPixel(*view, space_.isMirrored(), pixel);
+  const auto found = form_->picker.along(back(view->eye), back.direction(direction));
   if (!found) return std::nullopt;
-  const Vec3 place = upright_.toFile(found->place);
-  // Of the three coordinates of the file, the one that counts upwards is the height.
-  const bool isYUp = upright_.turned({0, 1, 0}).z > 0.5;
-  return Pick{{place.x, place.y}, {place.x, place.y}, isYUp ? place.y : place.z,
-              found->place,       found->length,      picker_.materialOf(found->triangle)};
+  const Vec3 inFile = upright().toFile(found->place), metric = placed(placement_, scene_)(found->place);
+  Pick pick;
+  pick.metric = metric;
+  pick.metres = found->length * pose.scale();
+  pick.material = form_->picker.materialOf(found->triangle);
+  pick.inObject = inFile;
+  if (isPlaced_) {
+    pick.xy = space_.xy(metric);
+    pick.height = space_.height(metric);
+  } else {
+    // Of the three coordinates of the file, the one that counts upwards is the height.
+    const bool isYUp = upright().turned({0, 1, 0}).z > 0.5;
+    pick.xy = {inFile.x, inFile.y};
+    pick.height = isYUp ? inFile.y : inFile.z;
+  }
+  pick.plan = pick.xy;
+  return pick;
 }
 
 Result<FlightPlan> SurfaceSubject::round(const Camera& from) const {
@@ -100,6 +165,7 @@ std::span<const Coloring> SurfaceSubject::colorings() const {
 }
 
 Status SurfaceSubject::check(const ViewSettings& settings) const {
+  if (scene_) return checkColoring(settings.look.coloring);
   const auto isForTerrain = [](const char* what) {
     return failure(ErrorCode::usage, "is for terrain", what);
   };

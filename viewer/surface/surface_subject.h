@@ -1,52 +1,86 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
+#include <memory>
 #include <string>
 
+#include "viewer/scene/placement.h"
 #include "viewer/scene/subject.h"
 #include "viewer/surface/surface_picker.h"
 #include "viewer/surface/z_up_frame.h"
 
 namespace arete {
 
-/// A surface that cameras move around, in upright space (ZUpFrame): cameras count x to the east, y to the
-/// north and heights upwards from its middle, in the file's unit. Home views look along the axes, as
-/// homeLook(), but for the overview, which shows three sides: the front, its left and the top, from as far
-/// above as fills the picture. What is in front looks south. Keeps a reference to the model.
+/// What all objects of one surface share: the model in upright space (ZUpFrame), without a place.
+struct SurfaceForm {
+  /// Precondition: the model outlives this. O(vertices).
+  SurfaceForm(const SurfaceModel& shown, const ZUpFrame& frame)
+      : model(shown), upright(frame), shape(uprightShape(shown, frame)), picker(shown, frame) {}
+
+  const SurfaceModel& model;
+  ZUpFrame upright;
+  HomeShape shape;
+  SurfacePicker picker;
+};
+
+/// A surface that cameras move around. By itself: cameras count x to the east, y to the north and heights
+/// upwards from its middle, in the file's unit. In a scene it stands where its placement says. Home views
+/// look along the axes, as homeLook(), but for the overview, which shows three sides: the front, its left and
+/// the top, from as far above as fills the picture. What is in front looks south.
 class SurfaceSubject final : public Subject {
  public:
-  /// Precondition: the model outlives this. O(vertices).
+  /// By itself. Precondition: the model outlives this. O(vertices).
   SurfaceSubject(const SurfaceModel& model, const ZUpFrame& upright);
+  /// By itself, turned about the middle of its box.
+  SurfaceSubject(std::shared_ptr<const SurfaceForm> form, const Turn& turn);
+  /// In a scene. Precondition: the scene outlives this.
+  ///
+  /// @param scene whose space the anchor is in; null: a space of its own, in which nothing is exaggerated.
+  SurfaceSubject(std::shared_ptr<const SurfaceForm> form, const Placement& placement, const Subject* scene);
 
   std::string_view kind() const override { return "surface"; }
   Result<View> viewOf(const Camera& camera, const ViewSettings& settings = {}) const override;
-  Vec3 drawn(const Vec3& metric, const ViewSettings&) const override { return metric; }
+  Vec3 drawn(const Vec3& metric, const ViewSettings& settings) const override {
+    return scene_ ? scene_->drawn(metric, settings) : metric;
+  }
   Camera home(HomeView view, const Camera& picture, const ViewSettings& settings = {},
               const CoveredEdges& covered = {}) const override;
-  /// Its height is the coordinate of the file that counts upwards.
+  /// By itself, its height is the coordinate of the file that counts upwards; in a scene, the place is the
+  /// scene's.
   std::optional<Pick> pick(const Camera& camera, Vec2 pixel,
                            const ViewSettings& settings = {}) const override;
-  double boundAt(const Pick&, double allowed) const override { return std::min(allowed, largestError_); }
+  double boundAt(const Pick&, double allowed) const override;
   std::string heightUnit() const override { return unit_; }
   /// One turn, with the camera's distance from the middle of the surface and its height.
   Result<FlightPlan> round(const Camera& from) const override;
-  Vec3 inFile(const Vec3& metric) const override { return upright_.toFile(metric); }
+  Vec3 inFile(const Vec3& metric) const override;
   double leastRadius() const override { return 1e-4 * box_.diagonal(); }
+  /// A surface has no usual unit, so the near plane follows its size.
+  double nearPlane() const override { return 1e-4 * box_.diagonal(); }
   std::span<const Coloring> colorings() const override;
   using Subject::check;
   Status check(const ViewSettings& settings) const override;
 
-  const ZUpFrame& upright() const { return upright_; }
+  const ZUpFrame& upright() const { return form_->upright; }
+  bool isPlaced() const override { return isPlaced_; }
+  const SurfaceModel& model() const { return form_->model; }
+  const Placement& placement() const { return placement_; }
+  /// Moves it, while it is shown.
+  void place(const Placement& placement);
+  /// From upright space to where it is drawn.
+  Similarity pose(const ViewSettings& settings) const { return placedAsDrawn(placement_, scene_, settings); }
 
  private:
-  SurfaceSubject(const SurfaceModel& model, const ZUpFrame& upright, HomeShape shape);
-
-  ZUpFrame upright_;
-  HomeShape shape_;
-  SurfacePicker picker_;
+  std::shared_ptr<const SurfaceForm> form_;
+  Placement placement_;
+  const Subject* scene_ = nullptr;
+  bool isPlaced_ = false;
+  HomeShape shape_;  // as placed
   double largestError_;
   std::string unit_;
 };
+
+/// A view of placed space in the space of an object.
+View viewedBy(const Similarity& placed, const View& view);
 
 }  // namespace arete

@@ -38,7 +38,7 @@ ViewerSession::ViewerSession(const Subject& shown, Layers& shownLayers, const St
       wanted{.pixels = start.settings.pixels,
              .maxTriangles = start.settings.maxTriangles,
              .frameMilliseconds = start.frameMilliseconds} {
-  if (const auto* terrain = dynamic_cast<const TerrainSubject*>(&shown)) tools.emplace(*terrain, layers);
+  if (const TerrainSubject* const terrain = shown.terrain()) tools.emplace(*terrain, layers);
   files.flight = start.flightPath;
   shows.decorations = start.showsDecorations;
   rig.setStretch(settings.stretch);

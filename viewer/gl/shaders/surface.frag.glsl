@@ -8,6 +8,7 @@ layout(std140, binding = 1) uniform Look {
   vec4 sun;        // direction to it, 1 = shaded
   vec4 modes;      // 0 materials, 1 plain, 2 errors; 1 + set of the picture or 0; alpha 0, 1 masked, 2 blended; cutoff
   vec4 more;       // 1 = both sides alike; 1 = flat colour; first triangle
+  vec4 zenith;     // upwards
 };
 layout(binding = 0) uniform sampler2D picture;
 layout(location = 0) uniform uint errorColors;  // color_map.glsl
@@ -42,7 +43,7 @@ void main() {
   // The inside of what has one side only.
   if (!gl_FrontFacing && more.x == 0.0 && mode != 2) base.rgb = mix(base.rgb, vec3(0.10, 0.14, 0.22), 0.7);
   if (sun.w > 0.0) {
-    float lit = max(dot(normal, sun.xyz), 0.0), sky = 0.5 + 0.5 * normal.z, ahead = max(dot(normal, toEye), 0.0);
+    float lit = max(dot(normal, sun.xyz), 0.0), sky = 0.5 + 0.5 * dot(normal, zenith.xyz), ahead = max(dot(normal, toEye), 0.0);
     base.rgb = litLinear(base.rgb, 0.74 * lit + 0.14 * sky * vec3(0.92, 0.97, 1.0) + 0.09 * ahead + 0.03);
   }
   color = vec4(srgbOf(clamp(base.rgb, 0.0, 1.0)), base.a);
