@@ -60,6 +60,13 @@ void ViewpointArguments::addTo(CLI::App& command, OptionKinds& kinds) {
                        ->check(oneOf({"y", "z"}))
                        ->type_name("AXIS")
                        ->group(group));
+  kinds.ofSurfaces(
+      command
+          .add_option("--turn", turn,
+                      "Turns it about its middle, in degrees: clockwise seen from above, its front "
+                      "upwards, its right side downwards")
+          ->type_name("HEADING,PITCH,ROLL")
+          ->group(group));
 }
 
 HomeView ViewpointArguments::homeView() const {
@@ -67,6 +74,15 @@ HomeView ViewpointArguments::homeView() const {
   for (const HomeView view : kHomeViews)
     if (toString(view) == home) return view;
   return HomeView::overview;
+}
+
+Result<Turn> ViewpointArguments::turnAngles() const {
+  if (turn.empty()) return Turn{};
+  const std::string culprit = "--turn " + turn;
+  ARETE_TRY(const auto angles, parseNumbers(culprit, turn));
+  if (angles.size() != 3)
+    return failure(ErrorCode::usage, "must be HEADING,PITCH,ROLL: three angles in degrees", culprit);
+  return Turn{angles[0], angles[1], angles[2]};
 }
 
 void DetailArguments::addTo(CLI::App& command, OptionKinds& kinds) {

@@ -12,6 +12,7 @@
 #include "cli/session/session.h"
 #include "cli/view/colors.h"
 #include "engine/base/result.h"
+#include "engine/base/similarity.h"
 #include "viewer/camera/home_view.h"
 #include "viewer/gl/drape_on_gpu.h"
 #include "viewer/scene/subject.h"
@@ -26,11 +27,14 @@ struct ViewpointArguments {
   std::string home;    ///< name of a view of the whole terrain; empty = overview
   std::string path;    ///< file of a flight; empty = none
   std::string up;      ///< of a surface: the axis that points up; empty: as the file says
+  std::string turn;    ///< of a surface: "HEADING,PITCH,ROLL"; empty: as it is
   bool isLonLat = false, isRound = false;
 
   void addTo(CLI::App& command, OptionKinds& kinds);
   bool statesCamera() const { return !camera.empty() || !home.empty(); }
   HomeView homeView() const;
+  /// Errors: usage: not three numbers.
+  Result<Turn> turnAngles() const;
   bool hasFlight() const { return !path.empty() || isRound; }
 };
 

@@ -53,6 +53,19 @@ Json jsonOf(const FrameFigures& f, const Subject& subject) {
   return json;
 }
 
+/// Of each object of a scene, after a picture of it.
+Json jsonOf(const std::vector<SceneObject>& objects) {
+  Json list = Json::array();
+  for (const SceneObject& object : objects) {
+    const double pixels = object.figures.pixels;
+    list.push_back({{"name", object.name},
+                    {"isShown", object.isShown},
+                    {"triangles", object.isShown ? object.figures.triangles : 0},
+                    {"pixelError", object.isShown && std::isfinite(pixels) ? Json(pixels) : Json()}});
+  }
+  return list;
+}
+
 /// "within 1 pixel".
 std::string accuracyOf(const FrameFigures& figures) {
   if (!std::isfinite(figures.pixels)) return "of an error around the eye that is not known";
@@ -139,6 +152,7 @@ Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView
   json["screenshot"] = {{"file", a.pictures.screenshot},
                         {"camera", jsonOf(camera, subject)},
                         {"figures", jsonOf(*figures, subject)}};
+  if (view.scene().drawables().size() > 1) json["screenshot"]["objects"] = jsonOf(view.scene().objects());
   return {};
 }
 

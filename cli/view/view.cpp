@@ -15,10 +15,9 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
-#include "cli/surface/camera.h"
 #include "cli/view/arguments.h"
-#include "cli/view/layers.h"
 #include "cli/view/pictures.h"
+#include "cli/view/viewed.h"
 #include "engine/base/stopwatch.h"
 #include "io/files/shell_text.h"
 #include "io/geo/crs/data_unit.h"
@@ -26,114 +25,16 @@
 #include "io/query/extract/camera_argument.h"
 #include "io/query/extract/model.h"
 #include "io/query/extract/model_file.h"
+#include "io/query/scene/open_scene.h"
 #include "io/query/source/any_model.h"
 #include "viewer/camera/flight_json.h"
-#include "viewer/gl/terrain_drawable.h"
 #include "viewer/headless/headless.h"
-#include "viewer/heights/contour_labels.h"
-#include "viewer/layers/contour_heights.h"
 #include "viewer/scene/heights_of_contours.h"
-#include "viewer/surface/surface_drawable.h"
 #include "viewer/window/opening.h"
 #include "viewer/window/window.h"
 
 namespace arete {
 namespace {
-
-/// A model of either kind, as the window and the pictures take it.
-struct Viewed {
-  std::shared_ptr<const Subject> subject;
-  std::uint64_t finestTriangles = 0;
-  Georeference georeference = {};
-  LongitudeTurns turns = {};
-  std::optional<Camera> camera = {};                 ///< that is stated
-  std::string source = {};                           ///< that is not to be overwritten
-  std::shared_ptr<const TerrainColors> colors = {};  ///< that are stated
-  std::shared_ptr<const StatedLayers> layers = {};   ///< over a terrain
-  FillScene addModel;                                ///< keeps the model
-  WriteHeights heightsOfContours = {};               ///< as addModel; empty of a surface
-  /// Of the heights on the device; null until the model is added, and of a surface.
-  std::shared_ptr<Json> ground = std::make_shared<Json>();
-};
-
-Result<Viewed> viewedOf(const ViewArguments& a, TerrainModel opened, Session& session) {
-  const auto model = std::make_shared<const TerrainModel>(std::move(opened));
-  const auto subject = std::make_shared<const TerrainSubject>(*model);
-  ARETE_CHECK(checkGroundUnits(model->georeference, {a.appearance.hazeWithUnit}));
-  Viewed viewed{.subject = subject,
-                .finestTriangles = model->mt.finestTriangleCount(),
-                .georeference = model->georeference,
-                .turns = LongitudeTurns(*model),
-                .source = model->source,
-                .addModel = {}};
-  if (!a.viewpoint.camera.empty()) {
-    ARETE_TRY(const auto toDem, transformOfPlaces(a.viewpoint.isLonLat, *model));
-    ARETE_TRY(CameraArgument stated,
-              readCameraArgument("--camera", a.viewpoint.camera, toDem, *subject->heights()));
-    viewed.camera = stated.camera;
-  }
-  if (const std::string word = a.appearance.colors.wordOfSea(a.appearance.color, *model);
-      !word.empty() && a.appearance.drapes.empty())
-    session.warn(Warnings{{WarningCode::display, word}}, a.model);
-  if (a.appearance.colors.isStated()) {
-    Warnings said;
-    ARETE_TRY(const TerrainColors colors, a.appearance.colors.of(a.appearance.color, *model, said));
-    session.warn(said, a.appearance.colors.ramp);
-    viewed.colors = std::make_shared<const TerrainColors>(colors);
-  }
-  ARETE_TRY(StatedLayers readLayers, StatedLayers::read(a.appearance, model, session));
-  const auto layers = std::make_shared<const StatedLayers>(std::move(readLayers));
-  viewed.layers = layers;
-  double interval = a.appearance.contours;
-  if (const std::string& stated = a.appearance.contoursWithUnit; !stated.empty()) {
-    ARETE_TRY(interval, inDataUnit(StatedLength{.number = interval, .unitMetres = 1},
-                                   heightUnitOf(model->georeference), stated));
-  }
-  viewed.addModel = [&a, &session, model, subject, layers, interval,
-                     ground = viewed.ground](Scene& scene) -> Status {
-    ARETE_TRY(
-        TerrainDrawable made,
-        TerrainDrawable::create(subject,
-                                {.path = a.detail.isCutByProcessor() ? CutPath::processor : CutPath::device,
-                                 .heights = {.mostBytes = std::uint64_t(a.appearance.groundMebibytes) << 20}},
-                                session.context()));
-    const HeightsOnGpu& heights = made.painter().heights();
-    *ground = {{"bytes", heights.bytes()}, {"level", heights.finestLevel()}};
-    ARETE_CHECK(scene.add(std::make_unique<TerrainDrawable>(std::move(made))));
-    ARETE_CHECK(layers->addTo(scene, *model, session));
-    if (interval > 0) scene.layers.put("contours", Contours{interval});
-    return {};
-  };
-  viewed.heightsOfContours = [model](double every) -> Result<Layer::Drawn> {
-    ARETE_TRY(const std::vector<ContourLabel> labels, contourLabels(*model, every));
-    ARETE_TRY(auto written, ContourHeights::create(labels));
-    return Layer::Drawn(std::move(written));
-  };
-  return viewed;
-}
-
-Result<Viewed> viewedOf(const ViewArguments& a, SurfaceModel opened, Session&) {
-  const auto model = std::make_shared<const SurfaceModel>(std::move(opened));
-  const auto subject = std::make_shared<const SurfaceSubject>(*model, ZUpFrame(*model, a.viewpoint.up));
-  Viewed viewed{.subject = subject,
-                .finestTriangles = model->mt.finestTriangleCount(),
-                .addModel = [model, subject](Scene& scene) -> Status {
-                  ARETE_TRY(SurfaceDrawable made, SurfaceDrawable::create(*model, subject));
-                  return scene.add(std::make_unique<SurfaceDrawable>(std::move(made)));
-                }};
-  if (a.viewpoint.camera.empty()) return viewed;
-  ARETE_TRY(const SurfaceCameraArgument stated, readSurfaceCamera(a.viewpoint.camera));
-  const Vec3 eye = subject->upright().fromFile(stated.camera.eye);
-  const Look look = subject->space().lookAlong(subject->upright().fromFile(stated.camera.target) - eye);
-  Camera camera = subject->space().at({}, eye);
-  camera.azimuthDegrees = look.azimuthDegrees;
-  camera.pitchDegrees = look.pitchDegrees;
-  if (stated.statesFieldOfView) camera.verticalFieldOfViewDegrees = stated.camera.verticalFieldOfViewDegrees;
-  if (const Result<View> view = subject->viewOf(camera); !view)
-    return failure(view.error().code, view.error().message, "--camera " + a.viewpoint.camera);
-  viewed.camera = camera;
-  return viewed;
-}
 
 Result<std::optional<Flight>> flightOf(const ViewArguments& a, const Viewed& viewed, const Camera& camera,
                                        Session& session) {
@@ -165,8 +66,10 @@ std::string buildCommandOf(const std::string& path) {
   return fmt::format("arete build {} -o {}", shellQuoted(path), shellQuoted(name));
 }
 
-ModelKind kindOf(const Model& model) {
-  return std::holds_alternative<SurfaceModel>(model) ? ModelKind::surface : ModelKind::terrain;
+ModelKind kindOf(const Opened& opened) {
+  if (const auto* const scene = std::get_if<OpenScene>(&opened))
+    return scene->ground ? ModelKind::terrain : ModelKind::surface;
+  return std::holds_alternative<SurfaceModel>(opened) ? ModelKind::surface : ModelKind::terrain;
 }
 
 /// Options that are not for a kind of model.
@@ -178,37 +81,57 @@ Status refuseOtherKinds(const ViewArguments& a, ModelKind kind) {
   return {};
 }
 
+/// What was opened, and how.
+struct Opening {
+  Opened opened;
+  Warnings warnings = {};
+  bool isBuilt = false;  ///< of a DEM or a mesh, in memory
+};
+
+Result<Opening> open(const std::string& path, std::optional<AmtContainer> file, const RunContext& context) {
+  const auto asOpened = [](Model model) {
+    return std::visit([](auto&& one) { return Opened(std::move(one)); }, std::move(model));
+  };
+  if (file) {
+    ARETE_TRY(Model model, readModel(std::move(*file), context));
+    return Opening{.opened = asOpened(std::move(model))};
+  }
+  if (isSceneFile(path)) {
+    ARETE_TRY(const SceneFile scene, readScene(path));
+    ARETE_TRY(SceneRead read, openScene(scene, context));
+    return Opening{.opened = std::move(read.scene), .warnings = std::move(read.warnings)};
+  }
+  ARETE_TRY(AnyModel any, openAnyModel(path, {}, context));
+  return Opening{asOpened(std::move(any.model)), std::move(any.warnings), any.isBuilt};
+}
+
 /// The model, read or built behind a bar in the window, if there is one. Nothing: the window was closed.
 ///
 /// @param file of a model; nothing: it is to be built.
-Result<std::optional<Model>> openModelOf(const ViewArguments& a, std::optional<AmtContainer> file,
-                                         GlfwWindow* window, Session& session) {
-  const Stopwatch opening;
-  std::optional<AnyModel> opened;
-  const auto open = [&](const RunContext& context) -> Status {
-    if (file) {
-      ARETE_TRY(Model model, readModel(std::move(*file), context));
-      opened = AnyModel{std::move(model)};
-      return {};
-    }
-    ARETE_TRY(opened, openAnyModel(a.model, {}, context));
+Result<std::optional<Opened>> openModelOf(const ViewArguments& a, std::optional<AmtContainer> file,
+                                          GlfwWindow* window, Session& session) {
+  const Stopwatch watch;
+  const bool mayBuild = !file && !isSceneFile(a.model);
+  std::optional<Opening> opening;
+  const auto openIt = [&](const RunContext& context) -> Status {
+    ARETE_TRY(opening, open(a.model, std::move(file), context));
     return {};
   };
   const std::string name = std::filesystem::path(a.model).filename().string();
   if (window) {
     const std::string hint =
-        file ? "" : fmt::format("{} keeps the model for the next time.", buildCommandOf(a.model));
-    ARETE_TRY(const bool isDone, showWhile(*window, {name, hint}, open, session.context()));
-    if (!isDone) return std::optional<Model>();
+        mayBuild ? fmt::format("{} keeps the model for the next time.", buildCommandOf(a.model)) : "";
+    ARETE_TRY(const bool isDone, showWhile(*window, {name, hint}, openIt, session.context()));
+    if (!isDone) return std::optional<Opened>();
   } else {
-    ARETE_CHECK(open(session.context()));
+    ARETE_CHECK(openIt(session.context()));
   }
-  session.warn(opened->warnings, a.model);
-  if (opened->isBuilt && opening.seconds() > kSecondsWorthAFile)
+  session.warn(opening->warnings, a.model);
+  if (opening->isBuilt && watch.seconds() > kSecondsWorthAFile)
     session.note(fmt::format("{} was built in {:.0f} s; '{}' keeps the model for the next time", name,
-                             opening.seconds(), buildCommandOf(a.model)));
-  ARETE_CHECK(refuseOtherKinds(a, kindOf(opened->model)));
-  return std::optional(std::move(opened->model));
+                             watch.seconds(), buildCommandOf(a.model)));
+  ARETE_CHECK(refuseOtherKinds(a, kindOf(opening->opened)));
+  return std::optional(std::move(opening->opened));
 }
 
 Status runView(ViewArguments a, Session& session) {
@@ -226,10 +149,9 @@ Status runView(ViewArguments a, Session& session) {
     const auto [width, height] = a.pictures.sizeText.empty() ? std::pair(1280, 800) : size;
     ARETE_TRY(shown, GlfwWindow::open(fmt::format("arete - {}", a.model), width, height, true));
   }
-  ARETE_TRY(std::optional<Model> model, openModelOf(a, std::move(file), shown ? &*shown : nullptr, session));
+  ARETE_TRY(std::optional<Opened> model, openModelOf(a, std::move(file), shown ? &*shown : nullptr, session));
   if (!model) return {};
-  ARETE_TRY(const Viewed viewed,
-            std::visit([&](auto&& one) { return viewedOf(a, std::move(one), session); }, std::move(*model)));
+  ARETE_TRY(const Viewed viewed, viewedOf(a, std::move(*model), session));
   const Subject& subject = *viewed.subject;
   ARETE_CHECK(a.detail.findBudget(viewed.finestTriangles));
   ARETE_TRY(ViewSettings settings, a.settings(subject.colorings()));

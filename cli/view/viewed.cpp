@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Subjects are made before there is a context of OpenGL, as home views and flights need them; drawables
+// afterwards, by functions that keep the models.
+#include "cli/view/viewed.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments/arguments.h"
+#include "cli/surface/camera.h"
+#include "io/geo/crs/data_unit.h"
+#include "io/query/extract/camera_argument.h"
+#include "viewer/gl/terrain_drawable.h"
+#include "viewer/heights/contour_labels.h"
+#include "viewer/layers/contour_heights.h"
+#include "viewer/scene/scene_subject.h"
+#include "viewer/surface/surface_drawable.h"
+
+namespace arete {
+namespace {
+
+TerrainDrawable::Options terrainOptions(const ViewArguments& a) {
+  return {.path = a.detail.isCutByProcessor() ? CutPath::processor : CutPath::device,
+          .heights = {.mostBytes = std::uint64_t(a.appearance.groundMebibytes) << 20}};
+}
+
+Result<Viewed> viewedTerrain(const ViewArguments& a, std::shared_ptr<const TerrainModel> model,
+                             Session& session) {
+  const auto subject = std::make_shared<const TerrainSubject>(*model);
+  ARETE_CHECK(checkGroundUnits(model->georeference, {a.appearance.hazeWithUnit}));
+  Viewed viewed{.subject = subject,
+                .finestTriangles = model->mt.finestTriangleCount(),
+                .georeference = model->georeference,
+                .turns = LongitudeTurns(*model),
+                .source = model->source,
+                .addModel = {}};
+  if (!a.viewpoint.camera.empty()) {
+    ARETE_TRY(const auto toDem, transformOfPlaces(a.viewpoint.isLonLat, *model));
+    ARETE_TRY(CameraArgument stated,
+              readCameraArgument("--camera", a.viewpoint.camera, toDem, *subject->heights()));
+    viewed.camera = stated.camera;
+  }
+  if (const std::string word = a.appearance.colors.wordOfSea(a.appearance.color, *model);
+      !word.empty() && a.appearance.drapes.empty())
+    session.warn(Warnings{{WarningCode::display, word}}, a.model);
+  if (a.appearance.colors.isStated()) {
+    Warnings said;
+    ARETE_TRY(const TerrainColors colors, a.appearance.colors.of(a.appearance.color, *model, said));
+    session.warn(said, a.appearance.colors.ramp);
+    viewed.colors = std::make_shared<const TerrainColors>(colors);
+  }
+  ARETE_TRY(StatedLayers readLayers, StatedLayers::read(a.appearance, model, session));
+  const auto layers = std::make_shared<const StatedLayers>(std::move(readLayers));
+  viewed.layers = layers;
+  double interval = a.appearance.contours;
+  if (const std::string& stated = a.appearance.contoursWithUnit; !stated.empty()) {
+    ARETE_TRY(interval, inDataUnit(StatedLength{.number = interval, .unitMetres = 1},
+                                   heightUnitOf(model->georeference), stated));
+  }
+  viewed.addModel = [&a, &session, model, subject, layers, interval,
+                     ground = viewed.ground](Scene& scene) -> Status {
+    ARETE_TRY(TerrainDrawable made, TerrainDrawable::create(subject, terrainOptions(a), session.context()));
+    const HeightsOnGpu& heights = made.painter().heights();
+    *ground = {{"bytes", heights.bytes()}, {"level", heights.finestLevel()}};
+    ARETE_CHECK(scene.add(std::make_unique<TerrainDrawable>(std::move(made))));
+    ARETE_CHECK(layers->addTo(scene, *model, session));
+    if (interval > 0) scene.layers.put("contours", Contours{interval});
+    return {};
+  };
+  viewed.heightsOfContours = [model](double every) -> Result<Layer::Drawn> {
+    ARETE_TRY(const std::vector<ContourLabel> labels, contourLabels(*model, every));
+    ARETE_TRY(auto written, ContourHeights::create(labels));
+    return Layer::Drawn(std::move(written));
+  };
+  return viewed;
+}
+
+/// Of a typed camera, in a space of the unit of a file.
+Result<std::optional<Camera>> statedCamera(const ViewArguments& a, const CameraSpace& space,
+                                           const std::function<Vec3(const Vec3&)>& fromFile) {
+  if (a.viewpoint.camera.empty()) return std::optional<Camera>();
+  ARETE_TRY(const SurfaceCameraArgument stated, readSurfaceCamera(a.viewpoint.camera));
+  const Vec3 eye = fromFile(stated.camera.eye);
+  const Look look = space.lookAlong(fromFile(stated.camera.target) - eye);
+  Camera camera = space.at({}, eye);
+  camera.azimuthDegrees = look.azimuthDegrees;
+  camera.pitchDegrees = look.pitchDegrees;
+  if (stated.statesFieldOfView) camera.verticalFieldOfViewDegrees = stated.camera.verticalFieldOfViewDegrees;
+  if (const Result<View> view = arete::viewOf(camera, space); !view)
+    return failure(view.error().code, view.error().message, "--camera " + a.viewpoint.camera);
+  return std::optional(camera);
+}
+
+Result<Viewed> viewedSurface(const ViewArguments& a, SurfaceModel opened) {
+  const auto model = std::make_shared<const SurfaceModel>(std::move(opened));
+  const auto form = std::make_shared<const SurfaceForm>(*model, ZUpFrame(*model, a.viewpoint.up));
+  ARETE_TRY(const Turn turn, a.viewpoint.turnAngles());
+  const auto subject = std::make_shared<const SurfaceSubject>(form, turn);
+  Viewed viewed{.subject = subject,
+                .finestTriangles = model->mt.finestTriangleCount(),
+                .addModel = [model, subject](Scene& scene) -> Status {
+                  ARETE_TRY(SurfaceDrawable made, SurfaceDrawable::create(*model, subject));
+                  return scene.add(std::make_unique<SurfaceDrawable>(std::move(made)));
+                }};
+  const Similarity placedThere = placed(subject->placement(), nullptr);
+  ARETE_TRY(viewed.camera, statedCamera(a, subject->space(), [&](const Vec3& p) {
+              return placedThere(subject->upright().fromFile(p));
+            }));
+  return viewed;
+}
+
+/// Where an object stands in the metric space of the scene.
+Placement placementOf(const PlacedObject& object, const SurfaceForm& form, const Subject* ground) {
+  const StatedObject& stated = object.stated;
+  Placement placement;
+  placement.turn = stated.turn;
+  placement.scale = stated.scale;
+  placement.anchor = ground ? ground->space().position(object.xy, object.height)
+                            : Vec3{object.xy.x, object.xy.y, object.height};
+  placement.pivot = form.upright.fromFile({0, 0, 0});
+  if (stated.anchor == StatedObject::Anchor::base) {
+    // What is below depends on how it is turned.
+    const Similarity turned(stated.turn, 1, {});
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    Vec3 low{kInfinite, kInfinite, kInfinite}, high = -low;
+    for (const Vec3& point : form.shape.points) {
+      const Vec3 p = turned(point);
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    placement.pivot = turned.inverse()({(low.x + high.x) / 2, (low.y + high.y) / 2, low.z});
+  }
+  return placement;
+}
+
+std::optional<HandLevel> levelOf(const StatedObject& stated) {
+  if (!stated.levelError && !stated.levelTriangles) return std::nullopt;
+  return HandLevel{.error = stated.levelError.value_or(0), .triangles = stated.levelTriangles.value_or(0)};
+}
+
+SceneObject sceneObjectOf(const StatedObject& stated) {
+  return {.name = stated.name,
+          .toleranceFactor = stated.toleranceFactor,
+          .level = levelOf(stated),
+          .isShown = stated.isShown};
+}
+
+/// The subjects of a scene, before anything is drawn.
+struct SceneParts {
+  OpenScene scene;
+  std::vector<std::shared_ptr<const SurfaceForm>> forms;  // by model; null of a terrain
+  std::vector<std::shared_ptr<const Subject>> subjects;   // by object
+  std::unique_ptr<SceneSubject> all;
+
+  const SurfaceModel* surface(std::size_t model) const {
+    return std::get_if<SurfaceModel>(scene.models[model].get());
+  }
+};
+
+/// A terrain that the scene keeps.
+std::shared_ptr<const TerrainModel> terrainOf(const OpenScene& scene, std::size_t model) {
+  return {scene.models[model], std::get_if<TerrainModel>(scene.models[model].get())};
+}
+
+Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& session) {
+  const auto parts = std::make_shared<SceneParts>();
+  parts->scene = std::move(opened);
+  const OpenScene& scene = parts->scene;
+  Viewed viewed;
+  std::shared_ptr<const Subject> ground;
+  FillScene addGround;
+  if (scene.ground) {
+    ARETE_TRY(viewed, viewedTerrain(a, terrainOf(scene, scene.objects[*scene.ground].model), session));
+    ground = viewed.subject;
+    addGround = viewed.addModel;
+    viewed.finestTriangles = 0;
+  }
+  parts->forms.resize(scene.models.size());
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const PlacedObject& object = scene.objects[i];
+    if (const SurfaceModel* const surface = parts->surface(object.model)) {
+      auto& form = parts->forms[object.model];
+      if (!form) form = std::make_shared<const SurfaceForm>(*surface, ZUpFrame(*surface, object.stated.up));
+      parts->subjects.push_back(std::make_shared<const SurfaceSubject>(
+          form, placementOf(object, *form, ground.get()), ground.get()));
+      viewed.finestTriangles += surface->mt.finestTriangleCount();
+    } else {
+      const auto terrain = terrainOf(scene, object.model);
+      parts->subjects.push_back(i == *scene.ground ? ground
+                                                   : std::make_shared<const TerrainSubject>(*terrain));
+      viewed.finestTriangles += terrain->mt.finestTriangleCount();
+    }
+  }
+  std::vector<const Subject*> subjects;
+  for (const auto& subject : parts->subjects) subjects.push_back(subject.get());
+  parts->all = std::make_unique<SceneSubject>(std::move(subjects));
+  viewed.subject = {parts, parts->all.get()};
+  if (!ground) {
+    ARETE_TRY(viewed.camera, statedCamera(a, parts->all->space(), [](const Vec3& p) { return p; }));
+  }
+
+  viewed.addModel = [&a, &session, parts, addGround](Scene& shown) -> Status {
+    std::vector<std::shared_ptr<SurfaceAssets>> assets(parts->scene.models.size());
+    for (std::size_t i = 0; i < parts->subjects.size(); ++i) {
+      const PlacedObject& object = parts->scene.objects[i];
+      if (parts->scene.ground == i) {
+        ARETE_CHECK(addGround(shown));
+        shown.objects().back() = sceneObjectOf(object.stated);
+        continue;
+      }
+      if (!parts->surface(object.model)) {
+        ARETE_TRY(TerrainDrawable made,
+                  TerrainDrawable::create(std::static_pointer_cast<const TerrainSubject>(parts->subjects[i]),
+                                          terrainOptions(a), session.context()));
+        ARETE_CHECK(
+            shown.add(std::make_unique<TerrainDrawable>(std::move(made)), sceneObjectOf(object.stated)));
+        continue;
+      }
+      auto subject = std::static_pointer_cast<const SurfaceSubject>(parts->subjects[i]);
+      if (!assets[object.model]) {
+        ARETE_TRY(assets[object.model], SurfaceAssets::create(subject->model(), subject->upright()));
+      }
+      ARETE_CHECK(shown.add(std::make_unique<SurfaceDrawable>(assets[object.model], subject),
+                            sceneObjectOf(object.stated)));
+    }
+    return {};
+  };
+  return viewed;
+}
+
+}  // namespace
+
+Result<Viewed> viewedOf(const ViewArguments& a, Opened opened, Session& session) {
+  if (auto* terrain = std::get_if<TerrainModel>(&opened))
+    return viewedTerrain(a, std::make_shared<const TerrainModel>(std::move(*terrain)), session);
+  if (auto* surface = std::get_if<SurfaceModel>(&opened)) return viewedSurface(a, std::move(*surface));
+  return viewedScene(a, std::get<OpenScene>(std::move(opened)), session);
+}
+
+}  // namespace arete
