@@ -30,12 +30,12 @@ struct IncrementalOptions {
 /// criteria it evaluates all nodes that can change. A cut that exceeds its budget is taken from scratch, and
 /// the difference is applied.
 ///
-/// Memory: 4 bytes per node of the MT and about 30 per triangle of the front; 24 more per node that can
-/// change, in batches of 64 nodes of which up to a few thousand are not full. Not thread-safe; parallel
-/// inside.
+/// Memory: up to 4 bytes per node of the MT, where the cut has been (nodes come coarse ones first), and about
+/// 30 per triangle of the front; 24 more per node that can change, in batches of 64 nodes of which up to a
+/// few thousand are not full. Not thread-safe; parallel inside.
 class IncrementalCut {
  public:
-  /// Starts at the root. O(nodes).
+  /// Starts at the root. O(root).
   explicit IncrementalCut(MultiTriangulation mt);
   ~IncrementalCut();
   IncrementalCut(IncrementalCut&&) noexcept;

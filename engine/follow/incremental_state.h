@@ -9,6 +9,7 @@
 #include "engine/follow/id_index_map.h"
 #include "engine/follow/incremental_cut.h"
 #include "engine/follow/kinetic_queue.h"
+#include "engine/memory/paged_array.h"
 
 namespace arete {
 
@@ -16,24 +17,27 @@ namespace arete {
 ///
 /// A node's count is 0 when it can change. A member's count is the number of its ceiling's triangles that
 /// other members have removed (0: it is a leaf, which can leave). Any other node's is the number of its
-/// floor's triangles that are not in the front (0: it can enter).
+/// floor's triangles that are not in the front (0: it can enter). A mark that is 0 as a whole has not been
+/// touched: none of the node's floor is in the front. So a cut takes memory where it has been, which for a
+/// coarse one are the first nodes.
 class IncrementalCut::State {
  public:
   explicit State(MultiTriangulation multitriangulation)
       : mt(std::move(multitriangulation)), queue(leastTravel(mt)), marks_(mt.nodeCount()) {
-    for (std::uint32_t n = 0; n < mt.nodeCount(); ++n)
-      marks_[n] = static_cast<std::uint32_t>(mt.floor(NodeId(n)).size());
     for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) {
       addTriangle(t);
-      if (const std::uint32_t r = mt.arrays().remover[t]; r != MultiTriangulation::kNone) --marks_[r];
+      if (const std::uint32_t r = mt.arrays().remover[t]; r != MultiTriangulation::kNone) --touched(r);
     }
   }
 
   bool isIn(std::uint32_t n) const { return (marks_[n] & kIn) != 0; }
-  bool isLeaf(std::uint32_t n) const { return (marks_[n] & ~kHasCertificate) == kIn; }
-  bool canEnter(std::uint32_t n) const { return (marks_[n] & ~kHasCertificate) == 0; }
+  bool isLeaf(std::uint32_t n) const { return (marks_[n] & ~kHasCertificate) == (kIn | kTouched); }
+  bool canEnter(std::uint32_t n) const { return (marks_[n] & ~kHasCertificate) == kTouched; }
   std::uint32_t nodeCount() const { return nodes_; }
-  std::uint32_t count(std::uint32_t n) const { return marks_[n] & ~(kIn | kHasCertificate); }
+  std::uint32_t count(std::uint32_t n) const {
+    const std::uint32_t mark = marks_[n];
+    return mark == 0 ? floorSize(n) : mark & ~(kIn | kHasCertificate | kTouched);
+  }
   const std::vector<std::uint32_t>& triangles() const { return triangles_; }
   bool hasTriangle(std::uint32_t t) const { return indexOf_.contains(t); }
 
@@ -44,16 +48,16 @@ class IncrementalCut::State {
     const NodeId node(n);
     for (const std::uint32_t t : mt.floor(node)) {
       removeTriangle(t);
-      if (const NodeId parent = mt.creator(TriangleId(t)); parent.isValid()) ++marks_[parent.index()];
+      if (const NodeId parent = mt.creator(TriangleId(t)); parent.isValid()) ++touched(parent.index());
     }
     forCeiling(node, [&](std::uint32_t t, std::uint32_t remover) {
       addTriangle(t);
       if (remover == MultiTriangulation::kNone) return;
-      --marks_[remover];
+      --touched(remover);
       if (canEnter(remover)) canChange(remover);
     });
     fillGaps();
-    marks_[n] |= kIn;
+    touched(n) |= kIn;
     ++nodes_;
     steps.push_back({node, true});
   }
@@ -64,13 +68,13 @@ class IncrementalCut::State {
     const NodeId node(n);
     forCeiling(node, [&](std::uint32_t t, std::uint32_t remover) {
       removeTriangle(t);
-      if (remover != MultiTriangulation::kNone) ++marks_[remover];
+      if (remover != MultiTriangulation::kNone) ++touched(remover);
     });
     for (const std::uint32_t t : mt.floor(node)) {
       addTriangle(t);
       const NodeId parent = mt.creator(TriangleId(t));
       if (!parent.isValid()) continue;
-      --marks_[parent.index()];
+      --touched(parent.index());
       if (isLeaf(parent.index())) canChange(parent.index());
     }
     fillGaps();
@@ -111,7 +115,7 @@ class IncrementalCut::State {
   /// Makes the node pending, unless it has a certificate.
   void requestCertificate(std::uint32_t n) {
     if (hasCertificate(n)) return;
-    marks_[n] |= kHasCertificate;
+    touched(n) |= kHasCertificate;
     pending.push_back(n);
   }
   void clearCertificates() {
@@ -124,7 +128,16 @@ class IncrementalCut::State {
   }
 
  private:
-  static constexpr std::uint32_t kIn = 1u << 31, kHasCertificate = 1u << 30;
+  static constexpr std::uint32_t kIn = 1u << 31, kHasCertificate = 1u << 30, kTouched = 1u << 29;
+
+  std::uint32_t floorSize(std::uint32_t n) const {
+    return static_cast<std::uint32_t>(mt.floor(NodeId(n)).size());
+  }
+  std::uint32_t& touched(std::uint32_t n) {
+    std::uint32_t& mark = marks_[n];
+    if (mark == 0) mark = kTouched | floorSize(n);
+    return mark;
+  }
 
   /// A millionth of the size of the largest region: shorter travel is counted as if it were this long.
   static double leastTravel(const MultiTriangulation& mt) {
@@ -162,7 +175,7 @@ class IncrementalCut::State {
     }
   }
 
-  std::vector<std::uint32_t> marks_;
+  PagedArray<std::uint32_t> marks_;
   std::uint32_t nodes_ = 0;
   std::vector<std::uint32_t> triangles_;
   IdIndexMap indexOf_;

@@ -12,7 +12,8 @@
 namespace arete {
 
 /// An array of fixed size that can shrink in place: memory that is no longer used goes back to the system in
-/// whole huge pages (engine/memory/pages.h). Elements are uninitialised until written.
+/// whole huge pages (engine/memory/pages.h). Elements are zero bytes until written, and take no memory until
+/// touched.
 template <class T>
 class PagedArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);

@@ -11,8 +11,8 @@ class Subject;
 
 /// Where an object stands in a scene. An object has a space of its own, whose z points up.
 struct Placement {
-  Vec3 pivot;        ///< the place of the object's space that stands at the anchor, and that it turns about
-  Vec3 anchor;       ///< in the metric space of the scene
+  Vec3 pivot = {};   ///< the place of the object's space that stands at the anchor, and that it turns about
+  Vec3 anchor = {};  ///< in the metric space of the scene
   Turn turn = {};    ///< out of east, north and up at the anchor
   double scale = 1;  ///< metric units of the scene for one of the object's, > 0
 };

@@ -61,6 +61,7 @@ SurfaceSubject::SurfaceSubject(const SurfaceModel& model, const ZUpFrame& uprigh
 SurfaceSubject::SurfaceSubject(std::shared_ptr<const SurfaceForm> form, const Turn& turn)
     : SurfaceSubject(form, aboutTheMiddle(form->shape.box.centre(), turn), nullptr) {
   isPlaced_ = false;
+  place(placement_);  // its box as it is, where nothing turns it
 }
 
 SurfaceSubject::SurfaceSubject(std::shared_ptr<const SurfaceForm> form, const Placement& placement,
@@ -76,20 +77,24 @@ SurfaceSubject::SurfaceSubject(std::shared_ptr<const SurfaceForm> form, const Pl
 
 void SurfaceSubject::place(const Placement& placement) {
   placement_ = placement;
-  const Similarity there = placed(placement, scene_);
-  shape_.points.clear();
+  box_ = shape().box;
+}
+
+// Made anew where it is wanted: a thousand objects of one surface do not keep its points a thousand times.
+HomeShape SurfaceSubject::shape() const {
+  const bool isAsItIs = placement_.turn == Turn{} && placement_.scale == 1 && !isPlaced_;
+  if (isAsItIs) return form_->shape;
+  const Similarity there = placed(placement_, scene_);
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  Vec3 low{kInfinite, kInfinite, kInfinite}, high = -low;
+  HomeShape shape{{{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}}, {}};
+  MetricBox& box = shape.box;
   for (const Vec3& point : form_->shape.points) {
     const Vec3 p = there(point);
-    shape_.points.push_back(p);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    shape.points.push_back(p);
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
   }
-  // The points have the extremes along the axes of upright space only to a hundredth of the box.
-  box_ =
-      placement.turn == Turn{} && !scene_ && placement.scale == 1 ? form_->shape.box : MetricBox{low, high};
-  shape_.box = box_;
+  return shape;
 }
 
 Result<View> SurfaceSubject::viewOf(const Camera& camera, const ViewSettings& settings) const {
@@ -106,11 +111,12 @@ Vec3 SurfaceSubject::inFile(const Vec3& metric) const {
 
 Camera SurfaceSubject::home(HomeView view, const Camera& picture, const ViewSettings&,
                             const CoveredEdges& covered) const {
+  const HomeShape shape = this->shape();
   Look look = view == HomeView::overview ? Look{325, -20} : homeLook(view);
   if (view == HomeView::overview)
     look = filling(
-        look, shape_.points, [&](Look at) { return axesOf(space_, at); }, picture, covered);
-  return cameraOnAll(space_, shape_, look, picture, covered);
+        look, shape.points, [&](Look at) { return axesOf(space_, at); }, picture, covered);
+  return cameraOnAll(space_, shape, look, picture, covered);
 }
 
 std::optional<Pick> SurfaceSubject::pick(const Camera& camera, Vec2 pixel,
@@ -145,7 +151,8 @@ Result<FlightPlan> SurfaceSubject::round(const Camera& from) const {
   const Vec3 middle = box_.centre();
   const double slack = 1e-6 * box_.diagonal();
   double step = 0;
-  for (const Vec3& p : shape_.points) {
+  const HomeShape shape = this->shape();
+  for (const Vec3& p : shape.points) {
     // A camera that leaves something out at its start is one that was chosen.
     if (stepBack(p, 1) > slack) return turnAround(space_, middle, from);
     const double radius = std::hypot(p.x - middle.x, p.y - middle.y);

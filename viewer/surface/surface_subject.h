@@ -71,11 +71,13 @@ class SurfaceSubject final : public Subject {
   Similarity pose(const ViewSettings& settings) const { return placedAsDrawn(placement_, scene_, settings); }
 
  private:
+  /// As placed.
+  HomeShape shape() const;
+
   std::shared_ptr<const SurfaceForm> form_;
   Placement placement_;
   const Subject* scene_ = nullptr;
   bool isPlaced_ = false;
-  HomeShape shape_;  // as placed
   double largestError_;
   std::string unit_;
 };
