@@ -28,6 +28,7 @@
 #include "io/geo/dem/clutter_raster.h"
 #include "io/geo/table/line_table.h"
 #include "io/geo/table/sight_pairs.h"
+#include "io/query/scene/object_sight.h"
 #include "terrain/sight/paths.h"
 
 namespace arete {
@@ -294,23 +295,80 @@ Status reportMany(const LosArguments& a, const SightResults& results, Json json,
   return {};
 }
 
+/// The terrain that lines are seen over: of a model, whose parts are read, or of a scene, with its objects.
+class LosModel {
+ public:
+  Status open(const std::string& path, Session& session) {
+    if (!isSceneFile(path)) {
+      ARETE_TRY(file_, openTerrain(path));
+      ARETE_TRY(outline_, outlineOf(*file_, session));
+      return {};
+    }
+    ARETE_TRY(const SceneFile stated, readScene(path));
+    ARETE_TRY(SceneRead read, openScene(stated, session.context()));
+    session.warn(read.warnings, path);
+    if (!read.scene.terrain())
+      return failure(ErrorCode::usage, "has no terrain, over which lines of sight go", path);
+    scene_ = std::move(read.scene);
+    return {};
+  }
+  const TerrainModel& outline() const { return scene_ ? *scene_->terrain() : *outline_; }
+  const TerrainModel& model() const { return scene_ ? *scene_->terrain() : *model_; }
+  /// None of which is to be overwritten.
+  std::vector<std::string> inputs(std::vector<std::string> stated) const {
+    stated.push_back(outline().source);
+    if (scene_) stated.insert(stated.end(), scene_->files.begin(), scene_->files.end());
+    return stated;
+  }
+  Result<TerrainError> errorOf(const std::string& text, const Session& session) const {
+    if (file_) return terrainErrorOf(text, *file_, session);
+    if (isAboveZero(text)) return failure(ErrorCode::usage, "is not for scenes", "--max-error " + text);
+    return TerrainError{};
+  }
+  Status read(const RequiredError& wanted, const Session& session) {
+    if (scene_) return {};
+    ARETE_TRY(model_, readWanted(*file_, *outline_, wanted, session));
+    return {};
+  }
+  /// Blocks the lines that the objects of a scene are in the way of.
+  Result<SightObjects> objectsInTheWay(std::span<const SightPath> paths, const SightEarth& earth,
+                                       std::vector<Result<SightPathAnswer>>& answers,
+                                       Session& session) const {
+    SightObjects objects;
+    if (!scene_) return objects;
+    ARETE_TRY(const auto hits, hitObjects(paths, earth, *scene_, session.context()));
+    for (const PlacedObject& object : scene_->objects) objects.names.push_back(object.stated.name);
+    objects.blockedBy.resize(paths.size());
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      if (hits[i] && answers[i] && joinHit(answers[i]->sight, *hits[i]))
+        objects.blockedBy[i] = hits[i]->object;
+    return objects;
+  }
+
+ private:
+  std::optional<AmtFile> file_;
+  std::optional<TerrainModel> outline_, model_;
+  std::optional<OpenScene> scene_;
+};
+
 Status runLos(const LosArguments& a, Session& session) {
   ARETE_CHECK(checkArguments(a));
-  ARETE_TRY(const AmtFile file, openTerrain(a.model));
-  ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
+  LosModel source;
+  ARETE_CHECK(source.open(a.model, session));
+  const TerrainModel& outline = source.outline();
   ARETE_CHECK(checkGroundUnits(outline.georeference, {a.clutterFreeWithUnit}));
   if (!a.output.empty())
     if (Status output =
-            checkOutput("--output", a.output, {a.model, a.pairs, a.points, a.clutter, outline.source});
+            checkOutput("--output", a.output, source.inputs({a.model, a.pairs, a.points, a.clutter}));
         !output)
       return output;
   ARETE_TRY(auto pairs, readRows(a, outline, session));
   ARETE_CHECK(addUsualHeights(a, heightUnitOf(outline.georeference), pairs));
-  ARETE_TRY(const TerrainError maxError, terrainErrorOf(a.maxError, file, session));
+  ARETE_TRY(const TerrainError maxError, source.errorOf(a.maxError, session));
   ARETE_TRY(const auto options, optionsOf(a, maxError.value, outline, session));
   ARETE_TRY(const auto earth, a.sight.makeEarth(outline, session));
-  ARETE_TRY(const TerrainModel model,
-            readWanted(file, outline, wantedFor(a, maxError.value, pairs, *earth, outline), session));
+  ARETE_CHECK(source.read(wantedFor(a, maxError.value, pairs, *earth, outline), session));
+  const TerrainModel& model = source.model();
   // Profiles at full resolution walk over the cells of a raster.
   const bool hasProfiles = options.frequencyMegahertz > 0 || options.clutter.height;
   const auto grid = hasProfiles && model.isRaster ? std::make_shared<const SightGrid>(model) : nullptr;
@@ -322,13 +380,14 @@ Status runLos(const LosArguments& a, Session& session) {
     return failure(ErrorCode::usage, fmt::format("requires a raster; {} is made of points", a.model),
                    fmt::format("--method {}", toString(method)));
   ARETE_TRY(const auto engine, makeSightEngine(method, model, grid, session.context()));
-  ARETE_TRY(const auto answers,
-            answerPaths(rows.paths, *earth, *engine, profiles, options, session.context()));
+  ARETE_TRY(auto answers, answerPaths(rows.paths, *earth, *engine, profiles, options, session.context()));
+  ARETE_TRY(const SightObjects objects, source.objectsInTheWay(rows.paths, *earth, answers, session));
 
   const SightResults results{.pairs = pairs,
                              .rows = rows,
                              .answers = answers,
                              .model = model,
+                             .objects = objects,
                              .hasFresnel = a.frequency > 0,
                              .hasTolerance = maxError.value > 0,
                              .fresnel = a.fresnel};
@@ -357,11 +416,15 @@ void addLosCommand(CLI::App& app, Session& session) {
       "  arete los dem.amt --from 8.55,46.6,30 --to 8.7,46.55,10 --lonlat --frequency 2400\n"
       "  arete los dem.amt --pairs links.gpkg -o answers.gpkg --observer-height 30 --target-height 10\n"
       "  arete los dem.amt --from 409050,3801450,10 --points huts.gpkg --target-height 2 -o seen.csv\n"
+      "  arete los scene.json --pairs links.csv -o seen.gpkg       the scene's buildings and masts block "
+      "too\n"
       "\n"
       "The answer is that of full resolution. H is in the DEM's unit: above ground (agl), msl or ell.\n"
       "See docs/topics/visibility.md.",
       [arguments](Session& s) { return runLos(*arguments, s); });
-  command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
+  command->add_option("FILE.amt", arguments->model, "Multitriangulation, or a scene (docs/topics/scenes.md)")
+      ->required()
+      ->type_name("");
   command->add_option("--from,--observer", arguments->from, "Position of the observer, in the DEM's CRS")
       ->type_name("X,Y,H");
   command

@@ -137,7 +137,10 @@ std::string SightResults::textOf(std::size_t row) const {
   // An obstruction without a terrain height is NODATA that counts as opaque.
   if (a.sight.obstruction)
     text += fmt::format("obstruction  {} at {}\n",
-                        std::isnan(a.sight.obstruction->terrainHeight)
+                        objects.blocks(rows.rows[row].path)
+                            ? fmt::format("{} at a height of {}", objects.nameFor(rows.rows[row].path),
+                                          withUnit(a.sight.obstruction->terrainHeight, unit))
+                        : std::isnan(a.sight.obstruction->terrainHeight)
                             ? "NODATA"
                             : "terrain of " + withUnit(a.sight.obstruction->terrainHeight, unit),
                         placeText(*a.sight.obstruction));
@@ -186,6 +189,8 @@ Json SightResults::jsonOf(std::size_t row) const {
   json["least"] = a.sight.clearance ? placeJson(a.sight.least) : Json();
   json["obstruction"] = a.sight.obstruction ? placeJson(*a.sight.obstruction) : Json();
   if (a.sight.obstruction) json["obstruction"]["approximate"] = a.sight.isObstructionLatest;
+  if (objects.isThere())
+    json["blockedBy"] = a.sight.obstruction ? Json(objects.nameFor(rows.rows[row].path)) : Json();
   json["gap"] = a.sight.gapMetres;
   json["visited"] = a.sight.visited;
   if (hasFresnel) {
@@ -208,6 +213,7 @@ PointAttributes SightResults::columns() const {
         "obstruction_height", "obstruction_distance", "gap"})
     table.columns.push_back({name, Kind::real});
   if (hasTolerance) table.columns.push_back({"obstruction_approximate", Kind::integer});
+  if (objects.isThere()) table.columns.push_back({"blocked_by", Kind::text});
   table.columns.push_back({"visited", Kind::integer});
   if (hasFresnel) {
     table.columns.push_back({"fresnel", Kind::real});
@@ -231,7 +237,9 @@ PointAttributes SightResults::columns() const {
     table.add(number(to.stated.y));
     table.add(error ? "" : number(path.toHeight));
     if (error) {
-      for (int k = 0; k < 12 + (hasTolerance ? 1 : 0) + (hasFresnel ? 2 : 0); ++k) table.add({});
+      for (int k = 0; k < 12 + (hasTolerance ? 1 : 0) + (objects.isThere() ? 1 : 0) + (hasFresnel ? 2 : 0);
+           ++k)
+        table.add({});
       table.add(withOptionNames(*error).describe());
       continue;
     }
@@ -251,6 +259,7 @@ PointAttributes SightResults::columns() const {
     table.add(obstruction ? number(obstruction->distance) : "");
     table.add(number(a.sight.gapMetres));
     if (hasTolerance) table.add(obstruction ? a.sight.isObstructionLatest ? "1" : "0" : "");
+    if (objects.isThere()) table.add(obstruction ? objects.nameFor(rows.rows[i].path) : "");
     table.add(fmt::format("{}", a.sight.visited));
     if (hasFresnel) {
       table.add(a.fresnel ? number(a.fresnel->fraction) : "");

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "cli/surface/camera.h"
 #include "io/geo/crs/data_unit.h"
 #include "io/query/extract/camera_argument.h"
+#include "io/query/scene/placed_surface.h"
 #include "viewer/gl/terrain_drawable.h"
 #include "viewer/heights/contour_labels.h"
 #include "viewer/layers/contour_heights.h"
@@ -121,19 +121,7 @@ Placement placementOf(const PlacedObject& object, const SurfaceForm& form, const
   placement.scale = stated.scale;
   placement.anchor = ground ? ground->space().position(object.xy, object.height)
                             : Vec3{object.xy.x, object.xy.y, object.height};
-  placement.pivot = form.upright.fromFile({0, 0, 0});
-  if (stated.anchor == StatedObject::Anchor::base) {
-    // What is below depends on how it is turned.
-    const Similarity turned(stated.turn, 1, {});
-    constexpr double kInfinite = std::numeric_limits<double>::infinity();
-    Vec3 low{kInfinite, kInfinite, kInfinite}, high = -low;
-    for (const Vec3& point : form.shape.points) {
-      const Vec3 p = turned(point);
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    placement.pivot = turned.inverse()({(low.x + high.x) / 2, (low.y + high.y) / 2, low.z});
-  }
+  placement.pivot = form.upright.fromFile(pivotOf(stated, form.model));
   return placement;
 }
 

@@ -20,8 +20,8 @@ bool isSceneFile(const std::string& path);
 struct StatedObject {
   enum class Anchor { origin, base };
 
-  std::string name;                   ///< stated, or that of the file; unlike in all objects
-  std::string file;                   ///< path, as seen from where the program runs
+  std::string name = {};              ///< stated, or that of the file; unlike in all objects
+  std::string file = {};              ///< path, as seen from where the program runs
   Vec2 place = {};                    ///< in the scene's CRS, or longitude and latitude
   bool hasPlace = false;              ///< a terrain has none
   bool isLonLat = false;              ///< the place is longitude and latitude
