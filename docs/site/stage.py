@@ -29,7 +29,7 @@ READERS = {
     "Simulation and proof": ["error", "cuts", "fit", "certificate"],
     "Visibility": ["visibility"],
     "Meshes": ["surfaces", "meshes", "decimation", "distance"],
-    "Drawing": ["viewer", "flights", "geomorphing"],
+    "Drawing": ["viewer", "scenes", "flights", "geomorphing"],
     "Programming": ["python", "library", "package", "services", "log", "multitriangulation", "amt-format", "sources"],
 }
 # The contact and the tracker that CMake has for the build; pages leave out what is empty.

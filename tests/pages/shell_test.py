@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every line of the shell that a page shows runs, and every flight in JSON is flown, in a folder of its page, and writes the file that it names.
+"""Every line of the shell that a page shows runs, every flight in JSON is flown and every scene is seen, in a folder of its page, and writes the file that it names.
 
 Each page starts with the inputs of inputs.py. What is not run is counted with its reason (marks.py)."""
 import collections
@@ -19,8 +19,15 @@ import marks
 BUILD = pathlib.Path(os.environ["ARETE_BUILD"])
 OUTPUT = re.compile(r"(?:^|\s)(?:-o|--output|--screenshot|--png|--figures|--film|--certificate|--map|--error-raster|--error-mesh)\s+([\w./-]+\.\w+)")
 
-# What is done with a block of JSON that has frames: it is a flight.
+# What is done with a block of JSON that has frames, a flight, and with one that has objects, a scene.
 FLY = "arete view dem.amt --headless --path flight.json --frames frames --fps 1 --size 96x54"
+SEE = "arete view scene.json --screenshot scene.png --size 192x108"
+JSON_FILES = {'"frames"': ("flight.json", FLY), '"objects"': ("scene.json", SEE)}
+
+
+def json_file(block):
+    """The name of the file that a block of JSON is, and what is done with it; nothing for others."""
+    return next((made for word, made in JSON_FILES.items() if block.kind == "json" and word in block.text), None)
 
 
 def environment(scratch):
@@ -53,9 +60,9 @@ def run_page(page, page_blocks, made, variables, scratch):
     (folder / "build" / "release").symlink_to(BUILD)
     run, left, failures = 0, [], []
     for block in page_blocks:
-        commands = blocks.commands_of(block) if block.kind == "shell" else [(block.line, FLY)]
+        commands = blocks.commands_of(block) if block.kind == "shell" else [(block.line, json_file(block)[1])]
         if block.kind == "json":
-            (folder / "flight.json").write_text(block.text)
+            (folder / json_file(block)[0]).write_text(block.text)
         for line, command in commands:
             reason = marks.reason_not_to_run(command)
             if not reason and (lacking := missing_program(command)):
@@ -82,7 +89,7 @@ def run_page(page, page_blocks, made, variables, scratch):
 def main():
     of_page = collections.defaultdict(list)
     for block in blocks.all_blocks():
-        is_run = block.kind == "shell" or (block.kind == "json" and '"frames"' in block.text)
+        is_run = block.kind == "shell" or json_file(block) is not None
         if is_run and (len(sys.argv) < 2 or block.page in sys.argv[1:]):
             of_page[block.page].append(block)
     total, left_out, failed = 0, collections.Counter(), []
