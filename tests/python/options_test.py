@@ -42,6 +42,7 @@ WITHOUT = {
     "view": "a window; plot() draws", "demo": "files of its own", "manual": "of the terminal", "help": "help() is Python's",
     "version": "arete is imported", "mesh": "its commands are functions",
     "mesh crop": "writes a file of a file; a region of Surface.cut() is the place of an error",
+    "mesh place": "writes a file of a file; arrays are turned by numpy",
 }
 
 # An argument that is an option by another name.
