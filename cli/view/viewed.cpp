@@ -99,7 +99,7 @@ Result<Viewed> viewedSurface(const ViewArguments& a, SurfaceModel opened) {
   const auto model = std::make_shared<const SurfaceModel>(std::move(opened));
   const auto form = std::make_shared<const SurfaceForm>(*model, ZUpFrame(*model, a.viewpoint.up));
   ARETE_TRY(const Turn turn, a.viewpoint.turnAngles());
-  const auto subject = std::make_shared<const SurfaceSubject>(form, turn);
+  const auto subject = std::make_shared<SurfaceSubject>(form, turn);
   Viewed viewed{.subject = subject,
                 .finestTriangles = model->mt.finestTriangleCount(),
                 .addModel = [model, subject](Scene& scene) -> Status {
@@ -142,6 +142,7 @@ struct SceneParts {
   OpenScene scene;
   std::vector<std::shared_ptr<const SurfaceForm>> forms;  // by model; null of a terrain
   std::vector<std::shared_ptr<const Subject>> subjects;   // by object
+  std::vector<std::shared_ptr<SurfaceSubject>> surfaces;  // the same, as they can be moved; null of a terrain
   std::unique_ptr<SceneSubject> all;
 
   const SurfaceModel* surface(std::size_t model) const {
@@ -159,7 +160,7 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
   parts->scene = std::move(opened);
   const OpenScene& scene = parts->scene;
   Viewed viewed;
-  std::shared_ptr<const Subject> ground;
+  std::shared_ptr<const Subject> ground;  // terrain, which nothing turns
   FillScene addGround;
   if (scene.ground) {
     ARETE_TRY(viewed, viewedTerrain(a, terrainOf(scene, scene.objects[*scene.ground].model), session));
@@ -173,11 +174,13 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
     if (const SurfaceModel* const surface = parts->surface(object.model)) {
       auto& form = parts->forms[object.model];
       if (!form) form = std::make_shared<const SurfaceForm>(*surface, ZUpFrame(*surface, object.stated.up));
-      parts->subjects.push_back(std::make_shared<const SurfaceSubject>(
-          form, placementOf(object, *form, ground.get()), ground.get()));
+      parts->surfaces.push_back(
+          std::make_shared<SurfaceSubject>(form, placementOf(object, *form, ground.get()), ground.get()));
+      parts->subjects.push_back(parts->surfaces.back());
       viewed.finestTriangles += surface->mt.finestTriangleCount();
     } else {
       const auto terrain = terrainOf(scene, object.model);
+      parts->surfaces.push_back(nullptr);
       parts->subjects.push_back(i == *scene.ground ? ground
                                                    : std::make_shared<const TerrainSubject>(*terrain));
       viewed.finestTriangles += terrain->mt.finestTriangleCount();
@@ -208,7 +211,7 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
             shown.add(std::make_unique<TerrainDrawable>(std::move(made)), sceneObjectOf(object.stated)));
         continue;
       }
-      auto subject = std::static_pointer_cast<const SurfaceSubject>(parts->subjects[i]);
+      const auto& subject = parts->surfaces[i];
       if (!assets[object.model]) {
         ARETE_TRY(assets[object.model], SurfaceAssets::create(subject->model(), subject->upright()));
       }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
 #include "engine/base/result.h"
+#include "engine/base/similarity.h"
 #include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "viewer/scene/subject.h"
@@ -36,6 +38,11 @@ class Drawable {
   virtual void drawBackground(const ViewSettings& settings) = 0;
   /// Whether a sample of the last picture shows the model. Waits for the drawing.
   virtual bool isShown() const = 0;
+
+  /// How it is turned about its pivot; nothing where it cannot be.
+  virtual std::optional<Turn> turn() const { return std::nullopt; }
+  /// Precondition: turn().
+  virtual void setTurn(const Turn&) {}
 
   /// Whether cut() itself makes the error grow until a budget of triangles is kept.
   virtual bool keepsBudget(const ViewSettings& settings) const = 0;

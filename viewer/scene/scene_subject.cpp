@@ -76,6 +76,18 @@ double SceneSubject::boundAt(const Pick& pick, double allowed) const {
   return objects_[pick.object]->boundAt(pick, allowed);
 }
 
+SubjectFacts SceneSubject::facts() const {
+  SubjectFacts all;
+  for (const Subject* object : objects_) {
+    const SubjectFacts one = object->facts();
+    all.vertices += one.vertices;
+    all.triangles += one.triangles;
+    all.materials += one.materials;
+    all.largestError = std::max(all.largestError, one.largestError);
+  }
+  return all;
+}
+
 std::string SceneSubject::heightUnit() const {
   return (ground_ ? ground_ : objects_.front())->heightUnit();
 }

@@ -27,6 +27,8 @@ class SceneSubject final : public Subject {
   std::optional<Pick> pick(const Camera& camera, Vec2 pixel, const ViewSettings& settings) const override;
   bool isVoid(const Camera& camera, Vec2 pixel, const ViewSettings& settings) const override;
   double boundAt(const Pick& pick, double allowed) const override;
+  /// Of all objects; the largest error.
+  SubjectFacts facts() const override;
   std::string heightUnit() const override;
   Result<FlightPlan> round(const Camera& from) const override;
   Vec3 inFile(const Vec3& metric) const override;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,6 +30,13 @@ struct Pick {
   std::string material = {};  ///< of a surface; empty: none
   Vec3 inObject = {};         ///< coordinates of its own file; of a terrain: xy and height
   std::size_t object = 0;     ///< of a scene: which
+};
+
+/// What a model is made of, at full resolution.
+struct SubjectFacts {
+  std::uint64_t vertices = 0, triangles = 0;
+  std::size_t materials = 0;
+  double largestError = 0;  ///< of the coarsest triangles, in the unit of its errors
 };
 
 /// What a camera looks at and moves around: a model without its graphics, at full resolution. Its metric
@@ -65,6 +73,7 @@ class Subject {
   /// most an error of `allowed`, as the model stores it: of terrain vertically and between samples too, of a
   /// surface in any direction. In the source's vertical unit. O(depth * degree).
   virtual double boundAt(const Pick& pick, double allowed) const = 0;
+  virtual SubjectFacts facts() const = 0;
   /// The unit of heights; empty: not known.
   virtual std::string heightUnit() const = 0;
   /// A closed flight around the model. `from`: a camera that has it in its picture. Errors: usage.

@@ -121,6 +121,10 @@ Camera TerrainSubject::home(HomeView view, const Camera& picture, const ViewSett
   return homeCamera(view, space_, *shape_, picture, settings.stretch, covered);
 }
 
+SubjectFacts TerrainSubject::facts() const {
+  return {model_.mt.vertexCount(), model_.mt.finestTriangleCount(), 0, model_.mt.largestError()};
+}
+
 Result<FlightPlan> TerrainSubject::round(const Camera&) const {
   return roundFlight(profiles_.heights(), space_, box_);
 }

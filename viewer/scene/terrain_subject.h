@@ -33,6 +33,7 @@ class TerrainSubject final : public Subject {
                            const ViewSettings& settings = {}) const override;
   bool isVoid(const Camera& camera, Vec2 pixel, const ViewSettings& settings = {}) const override;
   double boundAt(const Pick& pick, double allowed) const override;
+  SubjectFacts facts() const override;
   std::string heightUnit() const override { return model_.georeference.verticalUnit; }
   Result<FlightPlan> round(const Camera& from) const override;
   Vec3 inFile(const Vec3& metric) const override;

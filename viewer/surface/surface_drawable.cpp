@@ -66,7 +66,7 @@ void SurfaceDrawable::displace(const BoundedCriterion& criterion) {
 }
 
 Result<SurfaceDrawable> SurfaceDrawable::create(const SurfaceModel& model,
-                                                std::shared_ptr<const SurfaceSubject> subject) {
+                                                std::shared_ptr<SurfaceSubject> subject) {
   ARETE_TRY(std::shared_ptr<SurfaceAssets> assets, SurfaceAssets::create(model, subject->upright()));
   return SurfaceDrawable(std::move(assets), std::move(subject));
 }
@@ -79,7 +79,7 @@ Result<std::shared_ptr<SurfaceAssets>> SurfaceAssets::create(const SurfaceModel&
 }
 
 SurfaceDrawable::SurfaceDrawable(std::shared_ptr<SurfaceAssets> assets,
-                                 std::shared_ptr<const SurfaceSubject> subject)
+                                 std::shared_ptr<SurfaceSubject> subject)
     : model_(&subject->model()), subject_(std::move(subject)), cut_(model_->mt), assets_(std::move(assets)) {}
 
 Result<FrameFigures> SurfaceDrawable::cut(const Camera& camera, const ViewSettings& settings,
@@ -133,6 +133,12 @@ Status SurfaceDrawable::draw(const Camera& camera, const ViewSettings& settings,
                         Similarity(subject_->placement().turn, 1, {}));
   glEndQuery(GL_ANY_SAMPLES_PASSED);
   return {};
+}
+
+void SurfaceDrawable::setTurn(const Turn& turn) {
+  Placement placement = subject_->placement();
+  placement.turn = turn;
+  subject_->place(placement);
 }
 
 bool SurfaceDrawable::isShown() const {

@@ -30,10 +30,9 @@ struct SurfaceAssets {
 class SurfaceDrawable final : public Drawable {
  public:
   /// The model stays alive as long as this. Errors: unsupported. O(size of the model).
-  static Result<SurfaceDrawable> create(const SurfaceModel& model,
-                                        std::shared_ptr<const SurfaceSubject> subject);
+  static Result<SurfaceDrawable> create(const SurfaceModel& model, std::shared_ptr<SurfaceSubject> subject);
   /// One more object of a surface, as create() of the same model made them.
-  SurfaceDrawable(std::shared_ptr<SurfaceAssets> assets, std::shared_ptr<const SurfaceSubject> subject);
+  SurfaceDrawable(std::shared_ptr<SurfaceAssets> assets, std::shared_ptr<SurfaceSubject> subject);
   const SurfaceSubject& subject() const override { return *subject_; }
   Result<FrameView> frameOf(const Camera& camera, const ViewSettings& settings) const override;
   Result<FrameFigures> cut(const Camera& camera, const ViewSettings& settings,
@@ -42,6 +41,8 @@ class SurfaceDrawable final : public Drawable {
               std::span<const Layer> layers = {}) override;
   void drawBackground(const ViewSettings&) override { assets_->painter.drawBackground(); }
   bool isShown() const override;
+  std::optional<Turn> turn() const override { return subject_->placement().turn; }
+  void setTurn(const Turn& turn) override;
   bool keepsBudget(const ViewSettings&) const override { return true; }
   const std::shared_ptr<SurfaceAssets>& assets() const { return assets_; }
   /// Pictures that are not shown.
@@ -53,7 +54,7 @@ class SurfaceDrawable final : public Drawable {
   void displace(const BoundedCriterion& criterion);
 
   const SurfaceModel* model_;  // the subject's
-  std::shared_ptr<const SurfaceSubject> subject_;
+  std::shared_ptr<SurfaceSubject> subject_;
   IncrementalCut cut_;
   std::shared_ptr<SurfaceAssets> assets_;
   GlQuery anySample_ = makeQuery(GL_ANY_SAMPLES_PASSED);

@@ -105,6 +105,11 @@ double SurfaceSubject::boundAt(const Pick&, double allowed) const {
   return std::min(allowed, largestError_ * placement_.scale);
 }
 
+SubjectFacts SurfaceSubject::facts() const {
+  const SurfaceModel& m = model();
+  return {m.mt.vertexCount(), m.mt.finestTriangleCount(), m.attributes.materials.size(), largestError_};
+}
+
 Vec3 SurfaceSubject::inFile(const Vec3& metric) const {
   return upright().toFile(placed(placement_, scene_).inverse()(metric));
 }

@@ -50,6 +50,7 @@ class SurfaceSubject final : public Subject {
   std::optional<Pick> pick(const Camera& camera, Vec2 pixel,
                            const ViewSettings& settings = {}) const override;
   double boundAt(const Pick&, double allowed) const override;
+  SubjectFacts facts() const override;
   std::string heightUnit() const override { return unit_; }
   /// One turn, with the camera's distance from the middle of the surface and its height.
   Result<FlightPlan> round(const Camera& from) const override;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/objects/objects_section.h"
 #include "viewer/panel/widgets.h"
 
 namespace arete {
@@ -36,12 +37,16 @@ void Panel::draw(ViewerSession& s, double scale) {
     beginColumn("figures", false);
     frameSection(s);
     detailSection(s);
+    if (s.objects) drawObjectsSection(*s.objects, [&](std::string sentence) { s.say(std::move(sentence)); });
     lookSection(s);
     layerSection(s);
     covered.left = endColumn();
     beginColumn("places", true);
     cameraSection(s);
-    if (s.tools) pickSection(s, *s.tools);
+    if (s.tools)
+      pickSection(s, *s.tools);
+    else if (s.objects)
+      drawDistanceSection(s.distance, *s.objects, s.subject.heightUnit());
     flightSection(s);
     covered.right = endColumn();
   }
@@ -94,7 +99,9 @@ void Panel::detailSection(ViewerSession& s) {
     s.wanted.maxTriangles = s.settings.maxTriangles = std::uint32_t(std::max(triangles, 0)) * 1000;
   slider("frame time", s.wanted.frameMilliseconds, 0, 100,
          s.wanted.frameMilliseconds <= 0 ? "any" : "%.0f ms");
-  tip("The tolerance is made coarser, up to 64 pixels, until frames take no longer.");
+  tip("The tolerance is made coarser, up to 64 pixels, until frames take no longer; longer and longer while "
+      "the "
+      "camera is at rest.");
   ImGui::Checkbox("freeze cut", &s.isFrozen);
   tip("The cut stays as it is while the camera flies on.");
   if (s.tools) {

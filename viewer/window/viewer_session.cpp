@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -13,6 +14,8 @@ namespace arete {
 namespace {
 
 constexpr double kMessageSeconds = 8;
+/// A camera that stays so long is at rest; from then on the time of a frame doubles every second.
+constexpr double kRestSeconds = 0.5;
 bool isSamePlace(const Camera& a, const Camera& b) {
   return a.xy.x == b.xy.x && a.xy.y == b.xy.y && a.height == b.height &&
          a.azimuthDegrees == b.azimuthDegrees && a.pitchDegrees == b.pitchDegrees &&
@@ -34,6 +37,7 @@ ViewerSession::ViewerSession(const Subject& shown, Layers& shownLayers, const St
       layers(shownLayers),
       rig(shown, startOf(shown, start)),
       deck(shown.space(), rig.metresPerSecond()),
+      distance(shownLayers),
       settings(start.settings),
       wanted{.pixels = start.settings.pixels,
              .maxTriangles = start.settings.maxTriangles,
@@ -73,7 +77,26 @@ void ViewerSession::step(const InputState& input) {
   // Nothing to learn from a cut that stays as it is.
   if (!isFrozen)
     settings.pixels = control_.next(
-        wanted, {.milliseconds = history.lastWork(), .triangles = figures.asked, .pixels = figures.pixels});
+        wantedNow(input),
+        {.milliseconds = history.lastWork(), .triangles = figures.asked, .pixels = figures.pixels});
+}
+
+// While the camera is at rest a frame may take longer and longer, and the picture becomes as fine as it can;
+// with the first motion the tolerance is again what it was before.
+ToleranceControl::Wanted ViewerSession::wantedNow(const InputState& input) {
+  const Camera& camera = rig.camera();
+  const bool isAtRest = restCamera_ && isSamePlace(*restCamera_, camera) && isSameSize(*restCamera_, camera);
+  restCamera_ = camera;
+  if (!isAtRest) {
+    if (restSeconds_ > kRestSeconds) control_ = movingControl_;
+    restSeconds_ = 0;
+    return wanted;
+  }
+  if (restSeconds_ <= kRestSeconds) movingControl_ = control_;
+  restSeconds_ += input.seconds;
+  ToleranceControl::Wanted now = wanted;
+  if (restSeconds_ > kRestSeconds) now.frameMilliseconds *= std::exp2(restSeconds_ - kRestSeconds);
+  return now;
 }
 
 ViewerSession::Home ViewerSession::homeNow(HomeView view) const {
@@ -190,7 +213,17 @@ void ViewerSession::apply(Action action) {
     case Action::colorError:
       return color(Coloring::error);
     case Action::clearPicks:
-      return tools->clear();
+      return tools ? tools->clear() : distance.clear();
+    case Action::nextObject:
+      return objects ? say(objects->selectNext()) : void();
+    case Action::refine:
+      return objects ? say(objects->refine()) : void();
+    case Action::coarsen:
+      return objects ? say(objects->coarsen()) : void();
+    case Action::byView:
+      return objects ? say(objects->setLevel(std::nullopt)) : void();
+    case Action::alone:
+      return objects ? say(objects->toggleAlone()) : void();
     case Action::screenshot:
       files.wantsScreenshot = true;
       break;
@@ -237,7 +270,11 @@ Georeference ViewerSession::georeference() const {
 }
 
 void ViewerSession::click(Vec2 pixel) {
-  if (const auto pick = subject.pick(rig.camera(), pixel, settings); pick && tools) say(tools->add(*pick));
+  const auto pick = subject.pick(rig.camera(), pixel, settings);
+  if (!pick) return;
+  if (objects && objects->count() > 1) say(objects->select(pick->object));
+  if (tools) return say(tools->add(*pick));
+  distance.add(*pick);
 }
 
 void ViewerSession::home(HomeView view) {

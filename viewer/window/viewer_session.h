@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "viewer/objects/distance_picks.h"
+#include "viewer/objects/object_list.h"
 #include "viewer/panel/frame_history.h"
 #include "viewer/panel/overwrite_question.h"
 #include "viewer/scene/layer.h"
@@ -59,13 +61,15 @@ class ViewerSession {
   const std::string& message() const { return message_; }
 
   /// The layers that this window lays for its own hand, which no film has.
-  static constexpr std::array kMarks = {"line of sight", "flight", "frozen camera"};
+  static constexpr std::array kMarks = {"line of sight", "flight", "frozen camera", DistancePicks::kLayer};
 
   const Subject& subject;
   Layers& layers;
   CameraRig rig;
   FlightDeck deck;
-  std::optional<TerrainTools> tools;  ///< nothing for a surface
+  std::optional<TerrainTools> tools;  ///< nothing without a terrain
+  DistancePicks distance;             ///< where there is no terrain
+  std::optional<ObjectList> objects;  ///< of the scene; nothing in a session without one
   Cursor cursor{subject, tools};
   OverwriteQuestion question;  ///< waits for answer() before a file is overwritten
   /// What the panel covers of the picture. A home view fills the rest, and again when that changes.
@@ -113,7 +117,11 @@ class ViewerSession {
   };
   Home homeNow(HomeView view) const;
   std::optional<Home> home_;
-  ToleranceControl control_;
+  /// How long the camera has been at rest, and how the tolerance was controlled when it came to rest.
+  double restSeconds_ = 0;
+  std::optional<Camera> restCamera_;
+  ToleranceControl control_, movingControl_;
+  ToleranceControl::Wanted wantedNow(const InputState& input);
 };
 
 }  // namespace arete

@@ -85,6 +85,7 @@ class WindowLoop {
         scene_(std::move(scene)),
         heights_(options.heightsOfContours),
         session_(scene_.subject(), scene_.layers, startOf(options, window_)) {
+    session_.objects.emplace(scene_);
     session_.device.renderer = window_.description();
     session_.device.refusal = scene_.deviceRefusal();
     if (!session_.device.refusal.empty()) session_.settings.path = CutPath::processor;

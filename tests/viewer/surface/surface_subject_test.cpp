@@ -77,14 +77,28 @@ TEST_F(SurfaceSession, HomeViewsFollowEachOtherAndCloseTheRound) {
   EXPECT_NEAR(s_.rig.camera().height, first.height, 1e-9);
 }
 
+TEST_F(SurfaceSession, TwoClicksMeasureADistanceInTheUnitOfTheFile) {
+  s_.home(HomeView::fromSouth);
+  s_.click({200, 150});
+  ASSERT_EQ(s_.distance.picks().size(), 1u);
+  s_.click({220, 150});
+  ASSERT_EQ(s_.distance.picks().size(), 2u);
+  const auto& picks = s_.distance.picks();
+  EXPECT_NEAR(norm(s_.distance.way()), norm(picks[1].inObject - picks[0].inObject), 1e-12);
+  EXPECT_GT(norm(s_.distance.way()), 0);
+  EXPECT_NE(layers_.find(DistancePicks::kLayer), nullptr);
+  s_.apply(Action::clearPicks);
+  EXPECT_TRUE(s_.distance.picks().empty());
+  EXPECT_EQ(layers_.find(DistancePicks::kLayer), nullptr);
+}
+
 TEST_F(SurfaceSession, WhatIsForTerrainIsRefusedByName) {
   const Camera before = s_.rig.camera();
   for (const auto& [action, sentence] : {std::pair{Action::contours, "contours are for terrain"},
                                          {Action::follow, "following the ground is"},
                                          {Action::geomorph, "geomorphing is for terrain"},
                                          {Action::colorSlope, "colours by slope are"},
-                                         {Action::colorAspect, "colours by aspect are"},
-                                         {Action::clearPicks, "picks are for terrain"}}) {
+                                         {Action::colorAspect, "colours by aspect are"}}) {
     s_.apply(action);
     EXPECT_NE(s_.message().find(sentence), std::string::npos) << s_.message();
   }

@@ -39,6 +39,13 @@ std::vector<Vec2> onTerrain(const ViewerSession& s) {
   return pixels;
 }
 
+/// Moves the camera a little, so that it is not at rest.
+void fly(ViewerSession& s, int frame) {
+  Camera camera = s.rig.camera();
+  camera.xy.x += frame % 2 == 0 ? 1 : -1;
+  s.rig.place(camera);
+}
+
 TEST(Session, TheTargetTimeMakesTheToleranceCoarserAndLetsItFinerAgain) {
   test::ViewedTerrain viewed(northUp());
   ViewerSession& s = viewed.session;
@@ -47,13 +54,40 @@ TEST(Session, TheTargetTimeMakesTheToleranceCoarserAndLetsItFinerAgain) {
   for (int i = 0; i < 400; ++i) {
     s.figures.pixels = s.settings.pixels;
     s.history.add(40 / s.settings.pixels, 40);
+    fly(s, i);
     s.step(still());
   }
   EXPECT_LE(40 / s.settings.pixels, 16 * 1.25);
   EXPECT_GE(40 / s.settings.pixels, 16 * 0.7);
   s.wanted.frameMilliseconds = 0;
-  for (int i = 0; i < 400; ++i) s.step(still());
+  for (int i = 0; i < 400; ++i) {
+    fly(s, i);
+    s.step(still());
+  }
   EXPECT_DOUBLE_EQ(s.settings.pixels, 1);
+}
+
+TEST(Session, TheTargetTimeGrowsWhileTheCameraRestsAndTheFirstMotionEndsThat) {
+  test::ViewedTerrain viewed(northUp());
+  ViewerSession& s = viewed.session;
+  s.wanted.frameMilliseconds = 16;
+  const auto frame = [&] {
+    s.figures.pixels = s.settings.pixels;
+    s.history.add(40 / s.settings.pixels, 40);
+    s.step(still());
+  };
+  for (int i = 0; i < 200; ++i) {
+    fly(s, i);
+    frame();
+  }
+  const double flying = s.settings.pixels;
+  EXPECT_GT(flying, 2);
+  // 400 frames of rest: what takes 40 ms is drawn with the tolerance that is wanted.
+  for (int i = 0; i < 400; ++i) frame();
+  EXPECT_DOUBLE_EQ(s.settings.pixels, 1);
+  fly(s, 1);
+  frame();
+  EXPECT_NEAR(s.settings.pixels, flying, 0.3 * flying);
 }
 
 TEST(Session, DecorationsAreShownAndHiddenByTheirKey) {

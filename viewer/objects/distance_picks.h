@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "viewer/scene/layer.h"
+#include "viewer/scene/subject.h"
+
+namespace arete {
+
+/// Places of surfaces that were clicked, and the straight line between two of them, which is a layer.
+class DistancePicks {
+ public:
+  /// The layer's name.
+  static constexpr const char* kLayer = "distance";
+
+  /// Precondition: the layers outlive this.
+  explicit DistancePicks(Layers& layers) : layers_(layers) {}
+
+  /// The next place; a third begins anew.
+  void add(const Pick& pick);
+  void clear();
+
+  const std::vector<Pick>& picks() const { return picks_; }
+  /// From the first to the second, in the coordinates of the file if both are of one object, else of the
+  /// scene. Precondition: two picks.
+  Vec3 way() const;
+
+ private:
+  Layers& layers_;
+  std::vector<Pick> picks_;  // none, one or two
+};
+
+}  // namespace arete
