@@ -20,6 +20,7 @@
 #include "cli/session/model_file.h"
 #include "cli/session/option_names.h"
 #include "cli/sight/arguments.h"
+#include "cli/sight/meshes_in_the_way.h"
 #include "cli/sight/rows.h"
 #include "io/files/file_writer.h"
 #include "io/files/text_scan.h"
@@ -28,6 +29,7 @@
 #include "io/geo/dem/clutter_raster.h"
 #include "io/geo/table/line_table.h"
 #include "io/geo/table/sight_pairs.h"
+#include "io/query/scene/open_scene.h"
 #include "terrain/sight/paths.h"
 
 namespace arete {
@@ -294,16 +296,56 @@ Status reportMany(const LosArguments& a, const SightResults& results, Json json,
   return {};
 }
 
+/// What is asked, over a model of which enough is read.
+struct LosQuestion {
+  const TerrainModel& model;
+  const SightPairs& pairs;
+  const SightPathOptions& options;
+  const SightEarth& earth;
+  const TerrainError& maxError;
+  const OpenScene* scene = nullptr;  ///< whose meshes are in the way too
+};
+Status answerLos(const LosArguments& a, const LosQuestion& question, Session& session);
+
+Status checkOutputOf(const LosArguments& a, const std::vector<std::string>& inputs) {
+  return a.output.empty() ? Status{} : checkOutput("--output", a.output, inputs);
+}
+
+/// Over the first terrain of a scene, and through its meshes.
+Status runLosOfScene(const LosArguments& a, Session& session) {
+  if (isAboveZero(a.maxError))
+    return failure(ErrorCode::usage,
+                   "requires a model of terrain alone; a scene is answered at full resolution",
+                   "--max-error");
+  ARETE_TRY(auto file, readScene(a.model));
+  std::vector<std::string> inputs = {a.model, a.pairs, a.points, a.clutter};
+  for (const SceneObject& object : file.objects) inputs.push_back(object.file);
+  ARETE_CHECK(checkOutputOf(a, inputs));
+  ARETE_TRY(const OpenScene scene, openScene(std::move(file), session.context()));
+  session.warn(scene.warnings, {});
+  if (!scene.terrain)
+    return failure(ErrorCode::invalidData, "has no terrain, over which lines of sight lead", a.model);
+  const TerrainModel& model = *scene.terrainModel();
+  for (std::size_t i = *scene.terrain + 1; i < scene.objects.size(); ++i)
+    if (!scene.surfaceOf(i))
+      session.warn(fmt::format("'{}' is further terrain, which lines of sight do not regard",
+                               scene.file.objects[i].name));
+  ARETE_CHECK(checkGroundUnits(model.georeference, {a.clutterFreeWithUnit}));
+  ARETE_TRY(auto pairs, readRows(a, model, session));
+  ARETE_CHECK(addUsualHeights(a, heightUnitOf(model.georeference), pairs));
+  const TerrainError exact;
+  ARETE_TRY(const auto options, optionsOf(a, 0, model, session));
+  ARETE_TRY(const auto earth, a.sight.makeEarth(model, session));
+  return answerLos(a, {model, pairs, options, *earth, exact, &scene}, session);
+}
+
 Status runLos(const LosArguments& a, Session& session) {
   ARETE_CHECK(checkArguments(a));
+  if (isSceneFile(a.model)) return runLosOfScene(a, session);
   ARETE_TRY(const AmtFile file, openTerrain(a.model));
   ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
   ARETE_CHECK(checkGroundUnits(outline.georeference, {a.clutterFreeWithUnit}));
-  if (!a.output.empty())
-    if (Status output =
-            checkOutput("--output", a.output, {a.model, a.pairs, a.points, a.clutter, outline.source});
-        !output)
-      return output;
+  ARETE_CHECK(checkOutputOf(a, {a.model, a.pairs, a.points, a.clutter, outline.source}));
   ARETE_TRY(auto pairs, readRows(a, outline, session));
   ARETE_CHECK(addUsualHeights(a, heightUnitOf(outline.georeference), pairs));
   ARETE_TRY(const TerrainError maxError, terrainErrorOf(a.maxError, file, session));
@@ -311,6 +353,11 @@ Status runLos(const LosArguments& a, Session& session) {
   ARETE_TRY(const auto earth, a.sight.makeEarth(outline, session));
   ARETE_TRY(const TerrainModel model,
             readWanted(file, outline, wantedFor(a, maxError.value, pairs, *earth, outline), session));
+  return answerLos(a, {model, pairs, options, *earth, maxError}, session);
+}
+
+Status answerLos(const LosArguments& a, const LosQuestion& question, Session& session) {
+  const auto& [model, pairs, options, earth, maxError, scene] = question;
   // Profiles at full resolution walk over the cells of a raster.
   const bool hasProfiles = options.frequencyMegahertz > 0 || options.clutter.height;
   const auto grid = hasProfiles && model.isRaster ? std::make_shared<const SightGrid>(model) : nullptr;
@@ -322,16 +369,20 @@ Status runLos(const LosArguments& a, Session& session) {
     return failure(ErrorCode::usage, fmt::format("requires a raster; {} is made of points", a.model),
                    fmt::format("--method {}", toString(method)));
   ARETE_TRY(const auto engine, makeSightEngine(method, model, grid, session.context()));
-  ARETE_TRY(const auto answers,
-            answerPaths(rows.paths, *earth, *engine, profiles, options, session.context()));
+  ARETE_TRY(auto answers, answerPaths(rows.paths, earth, *engine, profiles, options, session.context()));
 
+  std::vector<std::string> blockedBy;
+  if (scene) {
+    ARETE_TRY(blockedBy, addMeshesInTheWay(*scene, rows.paths, earth, answers, session.context()));
+  }
   const SightResults results{.pairs = pairs,
                              .rows = rows,
                              .answers = answers,
                              .model = model,
                              .hasFresnel = a.frequency > 0,
                              .hasTolerance = maxError.value > 0,
-                             .fresnel = a.fresnel};
+                             .fresnel = a.fresnel,
+                             .blockedBy = blockedBy};
   Json json = {{"model", a.model},
                {"verticalUnit", model.georeference.verticalUnit},
                {"earth", a.sight.earthName(model)},
@@ -356,12 +407,17 @@ void addLosCommand(CLI::App& app, Session& session) {
       "  arete los dem.amt --from 409050,3801450,10 --to 411000,3795000      to the ground there\n"
       "  arete los dem.amt --from 8.55,46.6,30 --to 8.7,46.55,10 --lonlat --frequency 2400\n"
       "  arete los dem.amt --pairs links.gpkg -o answers.gpkg --observer-height 30 --target-height 10\n"
+      "  arete los scene.json --pairs links.csv -o seen.gpkg     through buildings and masts\n"
       "  arete los dem.amt --from 409050,3801450,10 --points huts.gpkg --target-height 2 -o seen.csv\n"
       "\n"
       "The answer is that of full resolution. H is in the DEM's unit: above ground (agl), msl or ell.\n"
       "See docs/topics/visibility.md.",
       [arguments](Session& s) { return runLos(*arguments, s); });
-  command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
+  command
+      ->add_option("FILE.amt", arguments->model,
+                   "Multitriangulation, or a scene.json whose meshes are in the way too")
+      ->required()
+      ->type_name("");
   command->add_option("--from,--observer", arguments->from, "Position of the observer, in the DEM's CRS")
       ->type_name("X,Y,H");
   command

@@ -50,6 +50,8 @@ struct SightResults {
   const TerrainModel& model;
   bool hasFresnel = false, hasTolerance = false;
   double fresnel = kUsualFresnel;
+  /// Of a scene, by path: what is first in the way, or nothing. Empty: there is terrain alone.
+  std::span<const std::string> blockedBy = {};
 
   /// Null where the row has an answer.
   const Error* errorOf(std::size_t row) const;
