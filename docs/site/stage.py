@@ -27,7 +27,7 @@ START = ["install", "tutorial", "choose", "limits", "compare", "faq", "help", "r
 READERS = {
     "Maps and terrain": ["reading", "heights", "gdal", "qgis", "formats"],
     "Simulation and proof": ["error", "cuts", "fit", "certificate"],
-    "Visibility": ["visibility"],
+    "Visibility": ["visibility", "scenes"],
     "Meshes": ["surfaces", "meshes", "decimation", "distance"],
     "Drawing": ["viewer", "flights", "geomorphing"],
     "Programming": ["python", "library", "package", "services", "log", "multitriangulation", "amt-format", "sources"],

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The files that the examples of the pages name, made small: a DEM, places, regions, pictures and scans."""
+import json
 import math
 import pathlib
 import sqlite3
@@ -119,3 +120,5 @@ def make(folder, arete):
     run("build", "dem.tif", "-o", "dem.amt")
     run("build", "scan.ply", "-o", "scan.amt")
     run("extract", "dem.amt", "-o", "tin.ply", "--max-error", "5")
+    (folder / "scene.json").write_text(json.dumps({"objects": [
+        {"file": "dem.amt"}, {"name": "mast", "file": "scan.obj", "at": [405000, 3801000], "scale": 20, "anchor": "base"}]}))

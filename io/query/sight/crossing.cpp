@@ -90,7 +90,7 @@ std::optional<double> LineCrossing::upright(Vec2 place, const std::array<Vec3, 3
   const double metric = a.y + a.x / (a.x - b.x) * (b.y - a.y);
   const double z = metric / frame_.scale.z + frame_.origin.z,
                end = kSightEndMetres / line_.heightUnitMetres();
-  const auto [low, high] = std::minmax(line_.fromHeight(), line_.toHeight());
+  const auto [low, high] = std::minmax({line_.fromHeight(), line_.toHeight()});
   return z > low + end && z < high - end ? std::optional(z) : std::nullopt;
 }
 

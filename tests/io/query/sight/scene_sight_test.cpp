@@ -164,7 +164,7 @@ TEST_F(SightThroughMeshes, EveryVerdictIsThatOfAllTriangles) {
   for (int i = 0; i < 6; ++i)
     objects += fmt::format(
         R"(, {{"file": "{}.obj", "at": [{}, {}], "above": {}, "turn": [{}, {}, {}], "scale": {}}})",
-        i % 2 ? "a" : "b", 500200 + 600 * part(random), 5200200 + 600 * part(random), 20 * part(random),
+        i % 2 ? "a" : "b", 500350 + 300 * part(random), 5200350 + 300 * part(random), 20 * part(random),
         360 * part(random), 180 * part(random), 180 * part(random), 2 + 3 * part(random));
   makeScene(objects);
   const TerrainModel& model = *scene_->terrainModel();
@@ -173,7 +173,7 @@ TEST_F(SightThroughMeshes, EveryVerdictIsThatOfAllTriangles) {
   ASSERT_TRUE(curved);
   const SceneSight sight(*scene_);
   int blocked = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const auto place = [&] { return Vec2{500100 + 800 * part(random), 5200100 + 800 * part(random)}; };
     const SightPath one = path(place(), 101 + 30 * part(random), place(), 101 + 30 * part(random));
     const bool isPlane = i % 2 == 0;
@@ -186,8 +186,8 @@ TEST_F(SightThroughMeshes, EveryVerdictIsThatOfAllTriangles) {
     ++blocked;
     EXPECT_NEAR(answer->height, line->height(answer->distance), 1e-6);
   }
-  EXPECT_GT(blocked, 60);
-  EXPECT_LT(blocked, 240);
+  EXPECT_GT(blocked, 40);
+  EXPECT_LT(blocked, 160);
 }
 
 /// A tower of 10 by 10 m, 30 m high, around 0,0.
@@ -217,8 +217,7 @@ TEST_F(SightThroughMeshes, ATowerBlocksUpToItsTopWhichTouchesAndIsSeenAtItsVerti
     EXPECT_FALSE(first(path({500200, 5200300}, 125, {500495, 5200495}, z), *earth)) << z;
     EXPECT_TRUE(first(path({500200, 5200500}, 125, {500505, 5200503}, z - 1e-3), *earth)) << z;
   }
-  EXPECT_FALSE(first(path({500500, 5200500}, 130, {500800, 5200500}, 101), *earth))
-      << "from the roof's middle";
+  EXPECT_FALSE(first(path({500500, 5200500}, 130, {500800, 5200500}, 130), *earth)) << "along the roof";
   EXPECT_TRUE(first(path({500500, 5200500}, 120, {500800, 5200500}, 101), *earth)) << "from inside";
   // Upright lines.
   EXPECT_TRUE(first(path({500501, 5200502}, 150, {500501, 5200502}, 101), *earth));
