@@ -323,18 +323,30 @@ Status runLosOfScene(const LosArguments& a, Session& session) {
   ARETE_CHECK(checkOutputOf(a, inputs));
   ARETE_TRY(const OpenScene scene, openScene(std::move(file), session.context()));
   session.warn(scene.warnings, {});
-  if (!scene.terrain)
-    return failure(ErrorCode::invalidData, "has no terrain, over which lines of sight lead", a.model);
-  const TerrainModel& model = *scene.terrainModel();
-  for (std::size_t i = *scene.terrain + 1; i < scene.objects.size(); ++i)
-    if (!scene.surfaceOf(i))
+  // Without terrain lines lead through the scene's space, and nothing else is known to be below them.
+  TerrainModel nothing;
+  nothing.isRaster = false;
+  nothing.georeference.verticalUnit = "m";
+  if (!scene.terrain && !scene.file.crs.empty())
+    return failure(ErrorCode::invalidData,
+                   "has a CRS and no terrain: lines of sight without terrain are in plain metres", a.model);
+  const TerrainModel& model = scene.terrain ? *scene.terrainModel() : nothing;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    if (!scene.surfaceOf(i) && i != scene.terrain)
       session.warn(fmt::format("'{}' is further terrain, which lines of sight do not regard",
                                scene.file.objects[i].name));
   ARETE_CHECK(checkGroundUnits(model.georeference, {a.clutterFreeWithUnit}));
   ARETE_TRY(auto pairs, readRows(a, model, session));
   ARETE_CHECK(addUsualHeights(a, heightUnitOf(model.georeference), pairs));
   const TerrainError exact;
-  ARETE_TRY(const auto options, optionsOf(a, 0, model, session));
+  ARETE_TRY(auto options, optionsOf(a, 0, model, session));
+  if (!scene.terrain) {
+    options.sight.nodata = NodataSight::clear;
+    for (auto& row : pairs.rows)
+      for (SightSite& site : row)
+        if (site.height && site.height->kind == HeightKind::aboveGround)
+          site.height->kind = HeightKind::seaLevel;  // z, from the scene's own zero
+  }
   ARETE_TRY(const auto earth, a.sight.makeEarth(model, session));
   return answerLos(a, {model, pairs, options, *earth, exact, &scene}, session);
 }
@@ -373,7 +385,7 @@ Status answerLos(const LosArguments& a, const LosQuestion& question, Session& se
 
   std::vector<std::string> blockedBy;
   if (scene) {
-    ARETE_TRY(blockedBy, addMeshesInTheWay(*scene, rows.paths, earth, answers, session.context()));
+    ARETE_TRY(blockedBy, addMeshesInTheWay(*scene, model, rows.paths, earth, answers, session.context()));
   }
   const SightResults results{.pairs = pairs,
                              .rows = rows,

@@ -9,11 +9,11 @@
 
 namespace arete {
 
-Result<std::vector<std::string>> addMeshesInTheWay(const OpenScene& scene, std::span<const SightPath> paths,
-                                                   const SightEarth& earth,
+Result<std::vector<std::string>> addMeshesInTheWay(const OpenScene& scene, const TerrainModel& model,
+                                                   std::span<const SightPath> paths, const SightEarth& earth,
                                                    std::vector<Result<SightPathAnswer>>& answers,
                                                    const RunContext& context) {
-  const SceneSight sight(scene);
+  const SceneSight sight(scene, model);
   ARETE_TRY(const auto meshes, sight.first(paths, earth, context));
   std::vector<std::string> blockedBy(paths.size());
   for (std::size_t i = 0; i < paths.size(); ++i) {

@@ -15,10 +15,11 @@ namespace arete {
 /// Adds the meshes of a scene to answers over its terrain: where one is in the way before the terrain is, the
 /// line is blocked there. Clearances and Fresnel zones stay of the terrain alone.
 ///
+/// @param model the first terrain, or an empty model.
 /// @return by path, what is first in the way: an object's name, "terrain", "nodata" or nothing. Errors:
 /// interrupted.
-Result<std::vector<std::string>> addMeshesInTheWay(const OpenScene& scene, std::span<const SightPath> paths,
-                                                   const SightEarth& earth,
+Result<std::vector<std::string>> addMeshesInTheWay(const OpenScene& scene, const TerrainModel& model,
+                                                   std::span<const SightPath> paths, const SightEarth& earth,
                                                    std::vector<Result<SightPathAnswer>>& answers,
                                                    const RunContext& context);
 

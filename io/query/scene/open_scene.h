@@ -24,14 +24,14 @@ inline Vec3 uprightPosition(const Vec3& p, bool isYUp) {
 /// An object of a scene that is open.
 struct PlacedObject {
   std::size_t model = 0;  ///< of OpenScene::models
-  /// Of a surface: from the file's coordinates turned z up (uprightPosition()) to the scene's space.
+  /// A surface has one: from the file's coordinates turned z up (uprightPosition()) to the scene's space.
   Similarity placement;
   bool isYUp = false;
 };
 
 /// A scene whose files are open. The scene's space is in metres and right-handed, z up. With terrain it is
 /// the metric space of the first terrain's multitriangulation (metricPosition()), whose y is turned round
-/// where that is left-handed, as of a raster whose rows lead south (metricOf()). Without terrain x is east
+/// where that is left-handed, as it is where rows lead south (metricOf()). Without terrain x is east
 /// and y north of the first object, or of 0,0 where there is no CRS, and z is the height.
 struct OpenScene {
   SceneFile file;

@@ -203,9 +203,9 @@ struct SceneSight::State {
 
 SceneSight::~SceneSight() = default;
 
-SceneSight::SceneSight(const OpenScene& scene) {
+SceneSight::SceneSight(const OpenScene& scene, const TerrainModel& plan) {
   auto state = std::make_unique<State>();
-  state->terrain = scene.terrainModel();
+  state->terrain = &plan;
   state->frame = state->terrain->mt.metric();
   state->isMirrored = scene.isMirrored;
   std::vector<SightBox> boxes;

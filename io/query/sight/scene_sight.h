@@ -18,11 +18,11 @@ namespace arete {
 struct MeshObstruction {
   std::size_t object = 0;  ///< of the scene
   double distance = 0;     ///< metres along the ground from the first end
-  Vec2 plan;               ///< plan coordinates of the first terrain
+  Vec2 plan;               ///< plan coordinates
   double height = 0;       ///< of the line there, in the terrain's vertical unit
 };
 
-/// The meshes of a scene with terrain as obstacles of lines of sight, at full resolution.
+/// The meshes of a scene as obstacles of lines of sight, at full resolution.
 ///
 /// A mesh is in the way of a line if it meets both the line raised and the line lowered by
 /// SightLine::tolerance(): touching from above or below does not block, as with terrain, and a line through
@@ -32,8 +32,9 @@ struct MeshObstruction {
 class SceneSight {
  public:
   /// O(triangles log triangles) of each model, once.
-  /// @param scene outlives this, and has terrain.
-  explicit SceneSight(const OpenScene& scene);
+  /// @param plan whose plan coordinates and unit of heights the lines have: the scene's first terrain; of a
+  /// scene without terrain an empty model, whose plan is the scene's space. Both outlive this.
+  SceneSight(const OpenScene& scene, const TerrainModel& plan);
   ~SceneSight();
 
   /// @return nothing where no mesh is in the way. O(legs + boxes near the line).

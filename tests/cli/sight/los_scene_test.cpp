@@ -77,14 +77,39 @@ TEST_F(LosOfScene, AMeshBlocksOverAVoidToo) {
   EXPECT_EQ(ask(line)["verdict"], "unknown");
 }
 
+TEST_F(LosOfScene, WithoutTerrainLinesAreInMetresOfTheScene) {
+  write("scene.json", R"({"objects": [{"name": "a", "file": "tower.obj"},
+                                      {"name": "b", "file": "tower.obj", "at": [100, 0, 20], "scale": 2}]})");
+  const Json low = ask({"--from", "-50,0,10", "--to", "150,0,10"});
+  EXPECT_EQ(low["blockedBy"], "a");
+  EXPECT_NEAR(low["obstruction"]["distance"].get<double>(), 45, 1e-6);
+  const Json high = ask({"--from", "-50,0,40", "--to", "150,0,40"});
+  EXPECT_EQ(high["blockedBy"], "b");
+  EXPECT_NEAR(high["obstruction"]["x"].get<double>(), 90, 1e-6);
+  EXPECT_EQ(ask({"--from", "-50,0,90", "--to", "150,0,90"})["verdict"], "visible");
+  EXPECT_EQ(ask({"--from", "20,-50,10", "--to", "20,50,10"})["verdict"], "visible");
+}
+
 TEST_F(LosOfScene, WhatASceneCannotAnswerIsRefused) {
   refused({"los", "scene.json", "--from", "1105,1895,20", "--to", "1505,1895,20", "--max-error", "1"}, 2,
           "--max-error");
   write("bad.json", R"({"objects": [{"file": "dem.amt"}, {"file": "tower.obj", "at": [1, 1]}]})");
   refused({"los", "bad.json", "--from", "1105,1895,20", "--to", "1505,1895,20"}, 4, "objects[1] 'tower': at");
-  write("bare.json", R"({"objects": [{"file": "tower.obj"}]})");
+  write("bare.json", R"({"crs": "EPSG:32632", "objects": [{"file": "tower.obj"}]})");
   refused({"los", "bare.json", "--from", "1,1,1", "--to", "2,2,2"}, 4, "no terrain");
   refused({"los", "none.json", "--from", "1,1,1", "--to", "2,2,2"}, 3, "none.json");
+}
+
+TEST_F(LosOfScene, InfoNamesObjectsAndFiles) {
+  const Json json = run({"info", "scene.json", "--json"}).json();
+  EXPECT_EQ(json["terrain"], "dem");
+  EXPECT_EQ(json["objects"][1]["name"], "tower");
+  EXPECT_EQ(json["objects"][1]["triangles"], 12);
+  EXPECT_EQ(json["files"].size(), 2u);
+  const Outcome text = run({"info", "scene.json"});
+  EXPECT_NE(text.out.find("scene.json: 2 objects of 2 files"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("1200,1895 on the ground"), std::string::npos) << text.out;
+  refused({"info", "scene.json", "--at", "1"}, 2, "--at");
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ class SightThroughMeshes : public testing::Test {
   std::optional<MeshObstruction> first(const SightPath& path, const SightEarth& earth) const {
     const auto line = sightLine(path, earth, *scene_->terrainModel());
     EXPECT_TRUE(line);
-    return SceneSight(*scene_).first(*line);
+    return SceneSight(*scene_, *scene_->terrainModel()).first(*line);
   }
 
   /// The objects that fine chords of the line meet, both raised and lowered.
@@ -171,7 +171,7 @@ TEST_F(SightThroughMeshes, EveryVerdictIsThatOfAllTriangles) {
   const auto plane = makePlaneEarth(model);
   const auto curved = makeEllipsoidEarth(model);
   ASSERT_TRUE(curved);
-  const SceneSight sight(*scene_);
+  const SceneSight sight(*scene_, *scene_->terrainModel());
   int blocked = 0;
   for (int i = 0; i < 200; ++i) {
     const auto place = [&] { return Vec2{500100 + 800 * part(random), 5200100 + 800 * part(random)}; };
@@ -231,7 +231,7 @@ TEST_F(SightThroughMeshes, LinesThroughSharedEdgesAndVerticesDoNotLeak) {
   const auto earth = makePlaneEarth(*scene_->terrainModel());
   const SurfaceModel& ball = *scene_->surfaceOf(1);
   const TerrainModel& model = *scene_->terrainModel();
-  const SceneSight sight(*scene_);
+  const SceneSight sight(*scene_, *scene_->terrainModel());
   int tried = 0;
   for (std::uint32_t v = 0; v < ball.mt.vertexCount(); ++v)
     for (std::uint32_t w = v; w < std::min(v + 20, ball.mt.vertexCount()); w += 3) {
