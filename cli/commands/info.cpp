@@ -13,6 +13,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/columns_json.h"
+#include "cli/scene/info.h"
 #include "cli/surface/info.h"
 #include "engine/base/counted.h"
 #include "io/files/text/stated_size.h"
@@ -20,6 +21,7 @@
 #include "io/geo/crs/names.h"
 #include "io/query/extract/model_file.h"
 #include "io/query/extract/tin.h"
+#include "io/query/scene/scene_file.h"
 #include "io/store/amt/file.h"
 #include "terrain/measure/measure.h"
 #include "terrain/model/error_curve.h"
@@ -199,6 +201,10 @@ Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const 
 }
 
 Status runInfo(const InfoArguments& arguments, Session& session) {
+  if (isSceneFile(arguments.model)) {
+    if (!arguments.at.empty()) return failure(ErrorCode::usage, "is for one model, not for a scene", "--at");
+    return sayAboutScene(arguments.model, session);
+  }
   ARETE_TRY(AmtContainer container, openModelFile(arguments.model));
   if (container.isOfSurface())
     return sayAboutSurface(container, arguments.at, arguments.curvePoints, session);
@@ -241,7 +247,9 @@ void addInfoCommand(CLI::App& app, Session& session) {
       "  arete info dem.amt --at 1,5,20\n"
       "  arete info dem.amt --json | jq '.curve'",
       [arguments](Session& s) { return runInfo(*arguments, s); });
-  command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
+  command->add_option("FILE.amt", arguments->model, "Multitriangulation, or a scene.json")
+      ->required()
+      ->type_name("");
   CLI::Option* points = command
                             ->add_option("--curve", arguments->curvePoints,
                                          "Number of steps 1, 2, 5, 10 ... of the curve, from the coarsest "

@@ -20,6 +20,7 @@
 #include "cli/session/model_file.h"
 #include "cli/session/option_names.h"
 #include "cli/sight/arguments.h"
+#include "cli/sight/meshes_in_the_way.h"
 #include "cli/sight/rows.h"
 #include "io/files/file_writer.h"
 #include "io/files/text_scan.h"
@@ -28,7 +29,7 @@
 #include "io/geo/dem/clutter_raster.h"
 #include "io/geo/table/line_table.h"
 #include "io/geo/table/sight_pairs.h"
-#include "io/query/scene/object_sight.h"
+#include "io/query/scene/open_scene.h"
 #include "terrain/sight/paths.h"
 
 namespace arete {
@@ -295,80 +296,80 @@ Status reportMany(const LosArguments& a, const SightResults& results, Json json,
   return {};
 }
 
-/// The terrain that lines are seen over: of a model, whose parts are read, or of a scene, with its objects.
-class LosModel {
- public:
-  Status open(const std::string& path, Session& session) {
-    if (!isSceneFile(path)) {
-      ARETE_TRY(file_, openTerrain(path));
-      ARETE_TRY(outline_, outlineOf(*file_, session));
-      return {};
-    }
-    ARETE_TRY(const SceneFile stated, readScene(path));
-    ARETE_TRY(SceneRead read, openScene(stated, session.context()));
-    session.warn(read.warnings, path);
-    if (!read.scene.terrain())
-      return failure(ErrorCode::usage, "has no terrain, over which lines of sight go", path);
-    scene_ = std::move(read.scene);
-    return {};
-  }
-  const TerrainModel& outline() const { return scene_ ? *scene_->terrain() : *outline_; }
-  const TerrainModel& model() const { return scene_ ? *scene_->terrain() : *model_; }
-  /// None of which is to be overwritten.
-  std::vector<std::string> inputs(std::vector<std::string> stated) const {
-    stated.push_back(outline().source);
-    if (scene_) stated.insert(stated.end(), scene_->files.begin(), scene_->files.end());
-    return stated;
-  }
-  Result<TerrainError> errorOf(const std::string& text, const Session& session) const {
-    if (file_) return terrainErrorOf(text, *file_, session);
-    if (isAboveZero(text)) return failure(ErrorCode::usage, "is not for scenes", "--max-error " + text);
-    return TerrainError{};
-  }
-  Status read(const RequiredError& wanted, const Session& session) {
-    if (scene_) return {};
-    ARETE_TRY(model_, readWanted(*file_, *outline_, wanted, session));
-    return {};
-  }
-  /// Blocks the lines that the objects of a scene are in the way of.
-  Result<SightObjects> objectsInTheWay(std::span<const SightPath> paths, const SightEarth& earth,
-                                       std::vector<Result<SightPathAnswer>>& answers,
-                                       Session& session) const {
-    SightObjects objects;
-    if (!scene_) return objects;
-    ARETE_TRY(const auto hits, hitObjects(paths, earth, *scene_, session.context()));
-    for (const PlacedObject& object : scene_->objects) objects.names.push_back(object.stated.name);
-    objects.blockedBy.resize(paths.size());
-    for (std::size_t i = 0; i < paths.size(); ++i)
-      if (hits[i] && answers[i] && joinHit(answers[i]->sight, *hits[i]))
-        objects.blockedBy[i] = hits[i]->object;
-    return objects;
-  }
-
- private:
-  std::optional<AmtFile> file_;
-  std::optional<TerrainModel> outline_, model_;
-  std::optional<OpenScene> scene_;
+/// What is asked, over a model of which enough is read.
+struct LosQuestion {
+  const TerrainModel& model;
+  const SightPairs& pairs;
+  const SightPathOptions& options;
+  const SightEarth& earth;
+  const TerrainError& maxError;
+  const OpenScene* scene = nullptr;  ///< whose meshes are in the way too
 };
+Status answerLos(const LosArguments& a, const LosQuestion& question, Session& session);
+
+Status checkOutputOf(const LosArguments& a, const std::vector<std::string>& inputs) {
+  return a.output.empty() ? Status{} : checkOutput("--output", a.output, inputs);
+}
+
+/// Over the first terrain of a scene, and through its meshes.
+Status runLosOfScene(const LosArguments& a, Session& session) {
+  if (isAboveZero(a.maxError))
+    return failure(ErrorCode::usage,
+                   "requires a model of terrain alone; a scene is answered at full resolution",
+                   "--max-error");
+  ARETE_TRY(auto file, readScene(a.model));
+  std::vector<std::string> inputs = {a.model, a.pairs, a.points, a.clutter};
+  for (const SceneObject& object : file.objects) inputs.push_back(object.file);
+  ARETE_CHECK(checkOutputOf(a, inputs));
+  ARETE_TRY(const OpenScene scene, openScene(std::move(file), session.context()));
+  session.warn(scene.warnings, {});
+  // Without terrain lines lead through the scene's space, and nothing else is known to be below them.
+  TerrainModel nothing;
+  nothing.isRaster = false;
+  nothing.georeference.verticalUnit = "m";
+  if (!scene.terrain && !scene.file.crs.empty())
+    return failure(ErrorCode::invalidData,
+                   "has a CRS and no terrain: lines of sight without terrain are in plain metres", a.model);
+  const TerrainModel& model = scene.terrain ? *scene.terrainModel() : nothing;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    if (!scene.surfaceOf(i) && i != scene.terrain)
+      session.warn(fmt::format("'{}' is further terrain, which lines of sight do not regard",
+                               scene.file.objects[i].name));
+  ARETE_CHECK(checkGroundUnits(model.georeference, {a.clutterFreeWithUnit}));
+  ARETE_TRY(auto pairs, readRows(a, model, session));
+  ARETE_CHECK(addUsualHeights(a, heightUnitOf(model.georeference), pairs));
+  const TerrainError exact;
+  ARETE_TRY(auto options, optionsOf(a, 0, model, session));
+  if (!scene.terrain) {
+    options.sight.nodata = NodataSight::clear;
+    for (auto& row : pairs.rows)
+      for (SightSite& site : row)
+        if (site.height && site.height->kind == HeightKind::aboveGround)
+          site.height->kind = HeightKind::seaLevel;  // z, from the scene's own zero
+  }
+  ARETE_TRY(const auto earth, a.sight.makeEarth(model, session));
+  return answerLos(a, {model, pairs, options, *earth, exact, &scene}, session);
+}
 
 Status runLos(const LosArguments& a, Session& session) {
   ARETE_CHECK(checkArguments(a));
-  LosModel source;
-  ARETE_CHECK(source.open(a.model, session));
-  const TerrainModel& outline = source.outline();
+  if (isSceneFile(a.model)) return runLosOfScene(a, session);
+  ARETE_TRY(const AmtFile file, openTerrain(a.model));
+  ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
   ARETE_CHECK(checkGroundUnits(outline.georeference, {a.clutterFreeWithUnit}));
-  if (!a.output.empty())
-    if (Status output =
-            checkOutput("--output", a.output, source.inputs({a.model, a.pairs, a.points, a.clutter}));
-        !output)
-      return output;
+  ARETE_CHECK(checkOutputOf(a, {a.model, a.pairs, a.points, a.clutter, outline.source}));
   ARETE_TRY(auto pairs, readRows(a, outline, session));
   ARETE_CHECK(addUsualHeights(a, heightUnitOf(outline.georeference), pairs));
-  ARETE_TRY(const TerrainError maxError, source.errorOf(a.maxError, session));
+  ARETE_TRY(const TerrainError maxError, terrainErrorOf(a.maxError, file, session));
   ARETE_TRY(const auto options, optionsOf(a, maxError.value, outline, session));
   ARETE_TRY(const auto earth, a.sight.makeEarth(outline, session));
-  ARETE_CHECK(source.read(wantedFor(a, maxError.value, pairs, *earth, outline), session));
-  const TerrainModel& model = source.model();
+  ARETE_TRY(const TerrainModel model,
+            readWanted(file, outline, wantedFor(a, maxError.value, pairs, *earth, outline), session));
+  return answerLos(a, {model, pairs, options, *earth, maxError}, session);
+}
+
+Status answerLos(const LosArguments& a, const LosQuestion& question, Session& session) {
+  const auto& [model, pairs, options, earth, maxError, scene] = question;
   // Profiles at full resolution walk over the cells of a raster.
   const bool hasProfiles = options.frequencyMegahertz > 0 || options.clutter.height;
   const auto grid = hasProfiles && model.isRaster ? std::make_shared<const SightGrid>(model) : nullptr;
@@ -380,17 +381,20 @@ Status runLos(const LosArguments& a, Session& session) {
     return failure(ErrorCode::usage, fmt::format("requires a raster; {} is made of points", a.model),
                    fmt::format("--method {}", toString(method)));
   ARETE_TRY(const auto engine, makeSightEngine(method, model, grid, session.context()));
-  ARETE_TRY(auto answers, answerPaths(rows.paths, *earth, *engine, profiles, options, session.context()));
-  ARETE_TRY(const SightObjects objects, source.objectsInTheWay(rows.paths, *earth, answers, session));
+  ARETE_TRY(auto answers, answerPaths(rows.paths, earth, *engine, profiles, options, session.context()));
 
+  std::vector<std::string> blockedBy;
+  if (scene) {
+    ARETE_TRY(blockedBy, addMeshesInTheWay(*scene, model, rows.paths, earth, answers, session.context()));
+  }
   const SightResults results{.pairs = pairs,
                              .rows = rows,
                              .answers = answers,
                              .model = model,
-                             .objects = objects,
                              .hasFresnel = a.frequency > 0,
                              .hasTolerance = maxError.value > 0,
-                             .fresnel = a.fresnel};
+                             .fresnel = a.fresnel,
+                             .blockedBy = blockedBy};
   Json json = {{"model", a.model},
                {"verticalUnit", model.georeference.verticalUnit},
                {"earth", a.sight.earthName(model)},
@@ -415,14 +419,15 @@ void addLosCommand(CLI::App& app, Session& session) {
       "  arete los dem.amt --from 409050,3801450,10 --to 411000,3795000      to the ground there\n"
       "  arete los dem.amt --from 8.55,46.6,30 --to 8.7,46.55,10 --lonlat --frequency 2400\n"
       "  arete los dem.amt --pairs links.gpkg -o answers.gpkg --observer-height 30 --target-height 10\n"
+      "  arete los scene.json --pairs links.csv -o seen.gpkg     through buildings and masts\n"
       "  arete los dem.amt --from 409050,3801450,10 --points huts.gpkg --target-height 2 -o seen.csv\n"
-      "  arete los scene.json --pairs links.csv -o seen.gpkg       the scene's buildings and masts block "
-      "too\n"
       "\n"
       "The answer is that of full resolution. H is in the DEM's unit: above ground (agl), msl or ell.\n"
       "See docs/topics/visibility.md.",
       [arguments](Session& s) { return runLos(*arguments, s); });
-  command->add_option("FILE.amt", arguments->model, "Multitriangulation, or a scene (docs/topics/scenes.md)")
+  command
+      ->add_option("FILE.amt", arguments->model,
+                   "Multitriangulation, or a scene.json whose meshes are in the way too")
       ->required()
       ->type_name("");
   command->add_option("--from,--observer", arguments->from, "Position of the observer, in the DEM's CRS")

@@ -135,11 +135,12 @@ std::string SightResults::textOf(std::size_t row) const {
       text += fmt::format("             within {}\n", withUnit(a.sight.clearanceWithin, unit));
   }
   // An obstruction without a terrain height is NODATA that counts as opaque.
+  const std::string by = blockedBy.empty() ? std::string() : blockedBy[rows.rows[row].path];
+  if (!by.empty()) text += fmt::format("blocked by   {}\n", by);
   if (a.sight.obstruction)
     text += fmt::format("obstruction  {} at {}\n",
-                        objects.blocks(rows.rows[row].path)
-                            ? fmt::format("{} at a height of {}", objects.nameFor(rows.rows[row].path),
-                                          withUnit(a.sight.obstruction->terrainHeight, unit))
+                        !by.empty() && by != "terrain" && by != "nodata"
+                            ? fmt::format("{} at {}", by, withUnit(a.sight.obstruction->terrainHeight, unit))
                         : std::isnan(a.sight.obstruction->terrainHeight)
                             ? "NODATA"
                             : "terrain of " + withUnit(a.sight.obstruction->terrainHeight, unit),
@@ -189,8 +190,10 @@ Json SightResults::jsonOf(std::size_t row) const {
   json["least"] = a.sight.clearance ? placeJson(a.sight.least) : Json();
   json["obstruction"] = a.sight.obstruction ? placeJson(*a.sight.obstruction) : Json();
   if (a.sight.obstruction) json["obstruction"]["approximate"] = a.sight.isObstructionLatest;
-  if (objects.isThere())
-    json["blockedBy"] = a.sight.obstruction ? Json(objects.nameFor(rows.rows[row].path)) : Json();
+  if (!blockedBy.empty()) {
+    const std::string& by = blockedBy[rows.rows[row].path];
+    json["blockedBy"] = by.empty() ? Json() : Json(by);
+  }
   json["gap"] = a.sight.gapMetres;
   json["visited"] = a.sight.visited;
   if (hasFresnel) {
@@ -212,8 +215,8 @@ PointAttributes SightResults::columns() const {
        {"distance", "azimuth", "elevation", "clearance", "clearance_within", "obstruction_x", "obstruction_y",
         "obstruction_height", "obstruction_distance", "gap"})
     table.columns.push_back({name, Kind::real});
+  if (!blockedBy.empty()) table.columns.push_back({"blocked_by", Kind::text});
   if (hasTolerance) table.columns.push_back({"obstruction_approximate", Kind::integer});
-  if (objects.isThere()) table.columns.push_back({"blocked_by", Kind::text});
   table.columns.push_back({"visited", Kind::integer});
   if (hasFresnel) {
     table.columns.push_back({"fresnel", Kind::real});
@@ -237,7 +240,7 @@ PointAttributes SightResults::columns() const {
     table.add(number(to.stated.y));
     table.add(error ? "" : number(path.toHeight));
     if (error) {
-      for (int k = 0; k < 12 + (hasTolerance ? 1 : 0) + (objects.isThere() ? 1 : 0) + (hasFresnel ? 2 : 0);
+      for (int k = 0; k < 12 + (blockedBy.empty() ? 0 : 1) + (hasTolerance ? 1 : 0) + (hasFresnel ? 2 : 0);
            ++k)
         table.add({});
       table.add(withOptionNames(*error).describe());
@@ -258,8 +261,8 @@ PointAttributes SightResults::columns() const {
     table.add(obstruction ? number(obstruction->terrainHeight) : "");
     table.add(obstruction ? number(obstruction->distance) : "");
     table.add(number(a.sight.gapMetres));
+    if (!blockedBy.empty()) table.add(blockedBy[rows.rows[i].path]);
     if (hasTolerance) table.add(obstruction ? a.sight.isObstructionLatest ? "1" : "0" : "");
-    if (objects.isThere()) table.add(obstruction ? objects.nameFor(rows.rows[i].path) : "");
     table.add(fmt::format("{}", a.sight.visited));
     if (hasFresnel) {
       table.add(a.fresnel ? number(a.fresnel->fraction) : "");

@@ -42,29 +42,16 @@ struct SightCounts {
   std::string text() const;
 };
 
-/// What objects of a scene are in the way of; empty without a scene.
-struct SightObjects {
-  std::vector<std::string> names;
-  std::vector<std::optional<std::size_t>> blockedBy;  ///< by path: the object that obstructs it first
-
-  bool isThere() const { return !names.empty(); }
-  /// The name of what obstructs a path first; of none of the objects: the terrain. Precondition: it is
-  /// blocked.
-  std::string nameFor(std::size_t path) const {
-    return isThere() && blockedBy[path] ? names[*blockedBy[path]] : std::string("terrain");
-  }
-  bool blocks(std::size_t path) const { return isThere() && blockedBy[path].has_value(); }
-};
-
 /// Answers to rows, as text, JSON and the columns of a table.
 struct SightResults {
   const SightPairs& pairs;
   const SightRows& rows;
   std::span<const Result<SightPathAnswer>> answers;  ///< one per path
   const TerrainModel& model;
-  const SightObjects& objects;
   bool hasFresnel = false, hasTolerance = false;
   double fresnel = kUsualFresnel;
+  /// Of a scene, by path: what is first in the way, or nothing. Empty: there is terrain alone.
+  std::span<const std::string> blockedBy = {};
 
   /// Null where the row has an answer.
   const Error* errorOf(std::size_t row) const;

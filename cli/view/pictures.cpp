@@ -54,9 +54,9 @@ Json jsonOf(const FrameFigures& f, const Subject& subject) {
 }
 
 /// Of each object of a scene, after a picture of it.
-Json jsonOf(const std::vector<SceneObject>& objects) {
+Json jsonOf(const std::vector<ShownObject>& objects) {
   Json list = Json::array();
-  for (const SceneObject& object : objects) {
+  for (const ShownObject& object : objects) {
     const double pixels = object.figures.pixels;
     list.push_back({{"name", object.name},
                     {"isShown", object.isShown},

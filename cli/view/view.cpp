@@ -68,7 +68,7 @@ std::string buildCommandOf(const std::string& path) {
 
 ModelKind kindOf(const Opened& opened) {
   if (const auto* const scene = std::get_if<OpenScene>(&opened))
-    return scene->ground ? ModelKind::terrain : ModelKind::surface;
+    return scene->terrain ? ModelKind::terrain : ModelKind::surface;
   return std::holds_alternative<SurfaceModel>(opened) ? ModelKind::surface : ModelKind::terrain;
 }
 
@@ -97,9 +97,10 @@ Result<Opening> open(const std::string& path, std::optional<AmtContainer> file, 
     return Opening{.opened = asOpened(std::move(model))};
   }
   if (isSceneFile(path)) {
-    ARETE_TRY(const SceneFile scene, readScene(path));
-    ARETE_TRY(SceneRead read, openScene(scene, context));
-    return Opening{.opened = std::move(read.scene), .warnings = std::move(read.warnings)};
+    ARETE_TRY(SceneFile stated, readScene(path));
+    ARETE_TRY(OpenScene scene, openScene(std::move(stated), context));
+    Warnings warnings = std::move(scene.warnings);
+    return Opening{.opened = std::move(scene), .warnings = std::move(warnings)};
   }
   ARETE_TRY(AnyModel any, openAnyModel(path, {}, context));
   return Opening{asOpened(std::move(any.model)), std::move(any.warnings), any.isBuilt};

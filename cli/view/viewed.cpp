@@ -13,7 +13,6 @@
 #include "cli/surface/camera.h"
 #include "io/geo/crs/data_unit.h"
 #include "io/query/extract/camera_argument.h"
-#include "io/query/scene/placed_surface.h"
 #include "viewer/gl/terrain_drawable.h"
 #include "viewer/heights/contour_labels.h"
 #include "viewer/layers/contour_heights.h"
@@ -113,28 +112,33 @@ Result<Viewed> viewedSurface(const ViewArguments& a, SurfaceModel opened) {
   return viewed;
 }
 
-/// Where an object stands in the metric space of the scene.
-Placement placementOf(const PlacedObject& object, const SurfaceForm& form, const Subject* ground) {
-  const StatedObject& stated = object.stated;
+/// Where an object stands in the metric space of the scene: on the middle of the bottom of its box, which is
+/// also what it turns about.
+Placement placementOf(const OpenScene& scene, std::size_t i, const SurfaceForm& form) {
+  const SceneObject& stated = scene.file.objects[i];
+  const MetricBox& box = form.shape.box;
+  const Vec3 middle = box.centre();
   Placement placement;
+  placement.pivot = {middle.x, middle.y, box.low.z};
   placement.turn = stated.turn;
   placement.scale = stated.scale;
-  placement.anchor = ground ? ground->space().position(object.xy, object.height)
-                            : Vec3{object.xy.x, object.xy.y, object.height};
-  placement.pivot = form.upright.fromFile(pivotOf(stated, form.model));
+  const Vec3 inFile = uprightPosition(form.upright.toFile(placement.pivot), scene.objects[i].isYUp);
+  placement.anchor = scene.metricOf(scene.objects[i].placement(inFile));
   return placement;
 }
 
-std::optional<HandLevel> levelOf(const StatedObject& stated) {
-  if (!stated.levelError && !stated.levelTriangles) return std::nullopt;
-  return HandLevel{.error = stated.levelError.value_or(0), .triangles = stated.levelTriangles.value_or(0)};
+std::optional<HandLevel> levelOf(const SceneLevel& level) {
+  if (!level.isStated()) return std::nullopt;
+  constexpr std::uint64_t kMost = 0xFFFFFFFF;
+  return HandLevel{.error = level.error.value_or(0),
+                   .triangles = std::uint32_t(std::min(level.triangles.value_or(0), kMost))};
 }
 
-SceneObject sceneObjectOf(const StatedObject& stated) {
+ShownObject shownObjectOf(const SceneObject& stated) {
   return {.name = stated.name,
-          .toleranceFactor = stated.toleranceFactor,
-          .level = levelOf(stated),
-          .isShown = stated.isShown};
+          .toleranceFactor = stated.tolerance,
+          .level = levelOf(stated.level),
+          .isShown = stated.isVisible};
 }
 
 /// The subjects of a scene, before anything is drawn.
@@ -162,8 +166,8 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
   Viewed viewed;
   std::shared_ptr<const Subject> ground;  // terrain, which nothing turns
   FillScene addGround;
-  if (scene.ground) {
-    ARETE_TRY(viewed, viewedTerrain(a, terrainOf(scene, scene.objects[*scene.ground].model), session));
+  if (scene.terrain) {
+    ARETE_TRY(viewed, viewedTerrain(a, terrainOf(scene, scene.objects[*scene.terrain].model), session));
     ground = viewed.subject;
     addGround = viewed.addModel;
     viewed.finestTriangles = 0;
@@ -173,16 +177,17 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
     const PlacedObject& object = scene.objects[i];
     if (const SurfaceModel* const surface = parts->surface(object.model)) {
       auto& form = parts->forms[object.model];
-      if (!form) form = std::make_shared<const SurfaceForm>(*surface, ZUpFrame(*surface, object.stated.up));
+      if (!form)
+        form = std::make_shared<const SurfaceForm>(*surface, ZUpFrame(*surface, scene.file.objects[i].up));
       parts->surfaces.push_back(
-          std::make_shared<SurfaceSubject>(form, placementOf(object, *form, ground.get()), ground.get()));
+          std::make_shared<SurfaceSubject>(form, placementOf(scene, i, *form), ground.get()));
       parts->subjects.push_back(parts->surfaces.back());
       viewed.finestTriangles += surface->mt.finestTriangleCount();
     } else {
       const auto terrain = terrainOf(scene, object.model);
       parts->surfaces.push_back(nullptr);
-      parts->subjects.push_back(i == *scene.ground ? ground
-                                                   : std::make_shared<const TerrainSubject>(*terrain));
+      parts->subjects.push_back(i == *scene.terrain ? ground
+                                                    : std::make_shared<const TerrainSubject>(*terrain));
       viewed.finestTriangles += terrain->mt.finestTriangleCount();
     }
   }
@@ -198,17 +203,17 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
     std::vector<std::shared_ptr<SurfaceAssets>> assets(parts->scene.models.size());
     for (std::size_t i = 0; i < parts->subjects.size(); ++i) {
       const PlacedObject& object = parts->scene.objects[i];
-      if (parts->scene.ground == i) {
+      if (parts->scene.terrain == i) {
         ARETE_CHECK(addGround(shown));
-        shown.objects().back() = sceneObjectOf(object.stated);
+        shown.objects().back() = shownObjectOf(parts->scene.file.objects[i]);
         continue;
       }
       if (!parts->surface(object.model)) {
         ARETE_TRY(TerrainDrawable made,
                   TerrainDrawable::create(std::static_pointer_cast<const TerrainSubject>(parts->subjects[i]),
                                           terrainOptions(a), session.context()));
-        ARETE_CHECK(
-            shown.add(std::make_unique<TerrainDrawable>(std::move(made)), sceneObjectOf(object.stated)));
+        ARETE_CHECK(shown.add(std::make_unique<TerrainDrawable>(std::move(made)),
+                              shownObjectOf(parts->scene.file.objects[i])));
         continue;
       }
       const auto& subject = parts->surfaces[i];
@@ -216,7 +221,7 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
         ARETE_TRY(assets[object.model], SurfaceAssets::create(subject->model(), subject->upright()));
       }
       ARETE_CHECK(shown.add(std::make_unique<SurfaceDrawable>(assets[object.model], subject),
-                            sceneObjectOf(object.stated)));
+                            shownObjectOf(parts->scene.file.objects[i])));
     }
     return {};
   };

@@ -27,9 +27,9 @@ START = ["install", "tutorial", "choose", "limits", "compare", "faq", "help", "r
 READERS = {
     "Maps and terrain": ["reading", "heights", "gdal", "qgis", "formats"],
     "Simulation and proof": ["error", "cuts", "fit", "certificate"],
-    "Visibility": ["visibility"],
+    "Visibility": ["visibility", "scenes"],
     "Meshes": ["surfaces", "meshes", "decimation", "distance"],
-    "Drawing": ["viewer", "scenes", "flights", "geomorphing"],
+    "Drawing": ["viewer", "flights", "geomorphing"],
     "Programming": ["python", "library", "package", "services", "log", "multitriangulation", "amt-format", "sources"],
 }
 # The contact and the tracker that CMake has for the build; pages leave out what is empty.

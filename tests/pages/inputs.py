@@ -3,7 +3,6 @@
 import json
 import math
 import pathlib
-import shutil
 import sqlite3
 import struct
 import subprocess
@@ -120,9 +119,6 @@ def make(folder, arete):
     run("mesh", "decimate", "scan.ply", "-o", "small.ply", "--max-triangles", "10%")
     run("build", "dem.tif", "-o", "dem.amt")
     run("build", "scan.ply", "-o", "scan.amt")
-    for name, source in (("mast.glb", "scan.glb"), ("hut.obj", "scan.obj"), ("rock.amt", "scan.amt")):
-        shutil.copy(folder / source, folder / name)
-    (folder / "links.csv").write_text("x1,y1,h1,x2,y2,h2\n409000,3801300,20,409200,3801500,20\n400000,3800000,30,409050,3801450,10\n")
-    (folder / "scene.json").write_text(json.dumps({"objects": [{"file": "dem.amt"}, {"name": "rock", "file": "rock.amt", "at": [409100, 3801400],
-                                                                                   "scale": 50, "anchor": "base"}]}))
     run("extract", "dem.amt", "-o", "tin.ply", "--max-error", "5")
+    (folder / "scene.json").write_text(json.dumps({"objects": [
+        {"file": "dem.amt"}, {"name": "mast", "file": "scan.obj", "at": [405000, 3801000], "scale": 20, "anchor": "base"}]}))

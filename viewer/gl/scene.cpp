@@ -17,7 +17,7 @@ Result<Scene> Scene::create() {
   return Scene(std::move(painter));
 }
 
-Status Scene::add(std::unique_ptr<Drawable> drawable, SceneObject object) {
+Status Scene::add(std::unique_ptr<Drawable> drawable, ShownObject object) {
   const auto standsNowhere = [](const Subject& s) { return !s.isTerrain() && !s.isPlaced(); };
   if (!drawables_.empty() &&
       (standsNowhere(drawable->subject()) || standsNowhere(drawables_.front()->subject())))
@@ -41,7 +41,7 @@ const Subject& Scene::subject() const {
 // What a model cannot be coloured by, it shows as it usually is.
 ViewSettings Scene::settingsOf(std::size_t model, const ViewSettings& settings) const {
   ViewSettings own = settings;
-  const SceneObject& object = objects()[model];
+  const ShownObject& object = objects()[model];
   own.pixels *= object.toleranceFactor;
   own.level = object.level;
   if (drawables_.size() == 1) return own;
@@ -59,7 +59,7 @@ Result<FrameFigures> Scene::cut(const Camera& camera, const ViewSettings& settin
                                 const RunContext& context) {
   FrameFigures sum;
   for (std::size_t i = 0; i < drawables_.size(); ++i) {
-    SceneObject& object = objects()[i];
+    ShownObject& object = objects()[i];
     if (!object.isShown) continue;
     auto cut = drawables_[i]->cut(camera, settingsOf(i, settings), context);
     if (!cut && !object.name.empty() && cut.error().code != ErrorCode::interrupted)

@@ -18,7 +18,7 @@
 namespace arete {
 
 /// What a scene knows of one of its models beside the model.
-struct SceneObject {
+struct ShownObject {
   std::string name = {};
   double toleranceFactor = 1;           ///< its tolerance in pixels is the scene's times this, > 0
   std::optional<HandLevel> level = {};  ///< nothing: by the view
@@ -35,11 +35,11 @@ class Scene {
 
   /// The first terrain has the layers on the ground. A surface beside another model is of a SurfaceSubject in
   /// a scene. Errors: usage: a surface that stands nowhere beside another model.
-  Status add(std::unique_ptr<Drawable> drawable, SceneObject object = {});
+  Status add(std::unique_ptr<Drawable> drawable, ShownObject object = {});
   const std::vector<std::unique_ptr<Drawable>>& drawables() const { return drawables_; }
   /// By model.
-  std::vector<SceneObject>& objects() { return *objects_; }
-  const std::vector<SceneObject>& objects() const { return *objects_; }
+  std::vector<ShownObject>& objects() { return *objects_; }
+  const std::vector<ShownObject>& objects() const { return *objects_; }
   /// Of the model, where it is one; else of all. Precondition: there is one. Valid until the next add().
   const Subject& subject() const;
 
@@ -70,7 +70,7 @@ class Scene {
   /// The layers that draw themselves.
   Status drawContents(const Camera& camera, const ViewSettings& settings);
   std::vector<std::unique_ptr<Drawable>> drawables_;
-  std::unique_ptr<std::vector<SceneObject>> objects_ = std::make_unique<std::vector<SceneObject>>();
+  std::unique_ptr<std::vector<ShownObject>> objects_ = std::make_unique<std::vector<ShownObject>>();
   std::unique_ptr<SceneSubject> all_;  // of several
   SpacePainter painter_;
   std::uint64_t pictures_ = 0;  // that were drawn

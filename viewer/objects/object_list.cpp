@@ -45,13 +45,13 @@ std::string ObjectList::multiply(double factor) {
 }
 
 std::string ObjectList::toggleAlone() {
-  std::vector<SceneObject>& objects = scene_.objects();
+  std::vector<ShownObject>& objects = scene_.objects();
   if (isAlone()) {
     for (std::size_t i = 0; i < objects.size(); ++i) objects[i].isShown = wasShown_[i];
     wasShown_.clear();
     return "all objects";
   }
-  for (const SceneObject& each : objects) wasShown_.push_back(each.isShown);
+  for (const ShownObject& each : objects) wasShown_.push_back(each.isShown);
   for (std::size_t i = 0; i < objects.size(); ++i) objects[i].isShown = i == selected_;
   return nameOf(selected_) + " alone";
 }

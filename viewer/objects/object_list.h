@@ -37,8 +37,8 @@ class ObjectList {
   std::optional<Turn> turn() const { return drawable().turn(); }
   void setTurn(const Turn& turn) { drawable().setTurn(turn); }
 
-  SceneObject& object() { return scene_.objects()[selected_]; }
-  SceneObject& object(std::size_t i) { return scene_.objects()[i]; }
+  ShownObject& object() { return scene_.objects()[selected_]; }
+  ShownObject& object(std::size_t i) { return scene_.objects()[i]; }
   const Subject& subject() const { return drawable().subject(); }
   /// "rock"; of a model alone its kind.
   std::string nameOf(std::size_t i) const;

@@ -29,7 +29,7 @@ void drawList(ObjectList& objects, const std::function<void(std::string)>& say) 
   while (clipper.Step())
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       const auto at = std::size_t(i);
-      SceneObject& object = objects.object(at);
+      ShownObject& object = objects.object(at);
       ImGui::PushID(i);
       ImGui::Checkbox("##shown", &object.isShown);
       ImGui::SameLine();
@@ -43,7 +43,7 @@ void drawList(ObjectList& objects, const std::function<void(std::string)>& say) 
 }
 
 void drawLevel(ObjectList& objects, const std::function<void(std::string)>& say) {
-  SceneObject& object = objects.object();
+  ShownObject& object = objects.object();
   const SubjectFacts facts = objects.subject().facts();
   int kind = !object.level ? 0 : object.level->triangles > 0 ? 2 : 1;
   if (ImGui::Combo("level", &kind, "by the view\0an error\0triangles\0")) {
@@ -79,7 +79,7 @@ void drawObjectsSection(ObjectList& objects, const std::function<void(std::strin
   if (!widget::section(isOne ? "Surface" : "Objects", !widget::isNarrow() && !isOne)) return;
   if (!isOne) drawList(objects, say);
   const SubjectFacts facts = objects.subject().facts();
-  const SceneObject& object = objects.object();
+  const ShownObject& object = objects.object();
   if (!isOne) {
     row("selected", objects.nameOf(objects.selected()));
     bool isAlone = objects.isAlone();

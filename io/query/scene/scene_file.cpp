@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Each object is read member by member. A member that is not known is an error, not a warning: a misspelt
-// "turn" would leave a building in the wrong place without a word.
+// Every key is read by one function, which knows its type and range; keys that no function takes are errors,
+// so that a misspelt one does not pass in silence.
 #include "io/query/scene/scene_file.h"
 
 #include <fmt/format.h>
@@ -10,242 +10,279 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "io/files/file_bytes.h"
-#include "io/files/text_scan.h"
 
 namespace arete {
 namespace {
 
-using nlohmann::json;
+using SceneJson = nlohmann::json;
 
-constexpr std::array kSceneMembers = {"crs", "objects", "comment"};
-constexpr std::array kObjectMembers = {"name",    "file",    "at",        "lonlat",   "above",
-                                       "turn",    "scale",   "up",        "anchor",   "level",
-                                       "visible", "comment", "instances", "tolerance"};
-constexpr std::array kInstanceMembers = {"name",  "at",    "lonlat",    "above",   "turn",
-                                         "scale", "level", "tolerance", "visible", "comment"};
-constexpr std::array kLevelMembers = {"error", "triangles"};
+Status wrongValue(const std::string& culprit, std::string message) {
+  return failure(ErrorCode::invalidData, std::move(message), culprit);
+}
 
-/// What is wrong with an object; empty while nothing is.
-class Reader {
- public:
-  explicit Reader(const json& object) : object_(object) {}
+/// Parses; a key that an object has twice is an error, of which the parser would keep one in silence.
+Result<SceneJson> parsedScene(std::string_view text, const std::string& path) {
+  std::vector<std::unordered_set<std::string>> keys;
+  std::string repeated;
+  const auto watch = [&](int, SceneJson::parse_event_t event, SceneJson& value) {
+    if (event == SceneJson::parse_event_t::object_start) keys.emplace_back();
+    if (event == SceneJson::parse_event_t::object_end) keys.pop_back();
+    if (event == SceneJson::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second &&
+        repeated.empty())
+      repeated = value.get<std::string>();
+    return true;
+  };
+  try {
+    SceneJson json = SceneJson::parse(text.begin(), text.end(), watch);
+    if (!repeated.empty())
+      return failure(ErrorCode::invalidData, fmt::format("states the key '{}' twice", repeated), path);
+    return json;
+  } catch (const SceneJson::exception& error) {
+    // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
+    std::string what = error.what();
+    if (const auto at = what.find("] "); at != std::string::npos) what.erase(0, at + 2);
+    return failure(ErrorCode::invalidData, fmt::format("is not a scene in JSON: {}", what), path);
+  }
+}
 
-  template <class Names>
-  void refuseStrangers(const Names& known) {
-    for (const auto& member : object_.items())
-      if (std::ranges::find(known, member.key()) == known.end())
-        note(fmt::format("knows no \"{}\"", member.key()));
+/// One object's keys, with what names them in errors.
+struct SceneFields {
+  const SceneJson& json;
+  std::string culprit;
+
+  std::string of(std::string_view key) const { return fmt::format("{}: {}", culprit, key); }
+  const SceneJson* find(const char* key) const {
+    const auto found = json.find(key);
+    return found == json.end() ? nullptr : &*found;
   }
-  const json* find(const char* name) const {
-    const auto member = object_.find(name);
-    return member == object_.end() ? nullptr : &*member;
+
+  Status checkKeys(std::initializer_list<std::string_view> known) const {
+    for (const auto& [key, value] : json.items())
+      if (std::find(known.begin(), known.end(), key) == known.end())
+        return wrongValue(
+            culprit, fmt::format("has the unknown key '{}'; the keys are {}", key, fmt::join(known, ", ")));
+    return {};
   }
-  void text(const char* name, std::string& value) {
-    const json* const member = find(name);
-    if (!member) return;
-    if (!member->is_string() || member->get<std::string>().empty()) return note(name, "must be a text");
-    value = member->get<std::string>();
-    if (value.find('\0') != std::string::npos) note(name, "must be a text without a zero byte");
+  Status text(const char* key, std::string& value) const {
+    const SceneJson* found = find(key);
+    if (!found) return {};
+    if (!found->is_string()) return wrongValue(of(key), "must be a text");
+    value = found->get<std::string>();
+    if (value.empty()) return wrongValue(of(key), "is empty");
+    return {};
   }
-  void flag(const char* name, bool& value) {
-    const json* const member = find(name);
-    if (!member) return;
-    if (!member->is_boolean()) return note(name, "must be true or false");
-    value = member->get<bool>();
+  Status number(const char* key, double& value) const {
+    const SceneJson* found = find(key);
+    if (!found) return {};
+    if (!found->is_number()) return wrongValue(of(key), "must be a number");
+    value = found->get<double>();
+    return std::isfinite(value) ? Status{} : wrongValue(of(key), "must be a finite number");
   }
-  void number(const char* name, double& value) {
-    if (const json* const member = find(name)) value = numberOf(name, *member);
+  Status positive(const char* key, double& value) const {
+    ARETE_CHECK(number(key, value));
+    return value > 0 ? Status{} : wrongValue(of(key), fmt::format("must be above 0, not {:g}", value));
   }
-  void positive(const char* name, double& value) {
-    if (!find(name)) return;
-    number(name, value);
-    if (!(value > 0)) note(name, "must be above 0");
+  Status flag(const char* key, bool& value) const {
+    const SceneJson* found = find(key);
+    if (!found) return {};
+    if (!found->is_boolean()) return wrongValue(of(key), "must be true or false");
+    value = found->get<bool>();
+    return {};
   }
-  /// So many numbers, at least and at most.
-  std::vector<double> numbers(const char* name, std::size_t least, std::size_t most) {
-    const json* const member = find(name);
-    if (!member) return {};
-    const std::string count = least == most ? std::to_string(least) : fmt::format("{} or {}", least, most);
-    if (!member->is_array() || member->size() < least || member->size() > most) {
-      note(name, fmt::format("must be {} numbers", count));
-      return {};
+  Status numbers(const char* key, std::size_t least, std::size_t most, std::vector<double>& values) const {
+    values.clear();
+    const SceneJson* found = find(key);
+    if (!found) return {};
+    const auto count = least == most ? fmt::format("{}", least) : fmt::format("{} or {}", least, most);
+    if (!found->is_array() || found->size() < least || found->size() > most)
+      return wrongValue(of(key), fmt::format("must be a list of {} numbers", count));
+    for (const SceneJson& one : *found) {
+      if (!one.is_number() || !std::isfinite(one.get<double>()))
+        return wrongValue(of(key), fmt::format("must be a list of {} finite numbers", count));
+      values.push_back(one.get<double>());
     }
-    std::vector<double> values;
-    for (const json& each : *member) values.push_back(numberOf(name, each));
-    return values;
+    return {};
   }
-  void note(std::string problem) {
-    if (problem_.empty()) problem_ = std::move(problem);
-  }
-  void note(const char* name, std::string_view problem) { note(fmt::format("its {} {}", name, problem)); }
-  const std::string& problem() const { return problem_; }
-
- private:
-  double numberOf(const char* name, const json& value) {
-    if (!value.is_number()) {
-      note(name, fmt::format("is {}, not a number", value.type_name()));
-      return 1;
-    }
-    const double number = value.get<double>();
-    if (!std::isfinite(number)) note(name, "is not finite");
-    return number;
-  }
-
-  const json& object_;
-  std::string problem_;
 };
 
-void readLevel(Reader& reader, StatedObject& object) {
-  const json* const level = reader.find("level");
-  if (!level) return;
-  if (!level->is_object() || level->size() != 1)
-    return reader.note("level", "must be {\"error\": E} or {\"triangles\": N}");
-  Reader inside(*level);
-  inside.refuseStrangers(kLevelMembers);
-  double value = 0;
-  const bool isError = inside.find("error") != nullptr;
-  inside.number(isError ? "error" : "triangles", value);
-  if (!inside.problem().empty()) return reader.note("level", inside.problem());
-  object.levelError.reset();
-  object.levelTriangles.reset();
-  if (isError) {
-    if (value < 0) return reader.note("level", "has an error below 0");
-    object.levelError = value;
+Status readPlace(const SceneFields& fields, SceneObject& object) {
+  std::vector<double> at, lonLat;
+  ARETE_CHECK(fields.numbers("at", 2, 3, at));
+  ARETE_CHECK(fields.numbers("lonlat", 2, 3, lonLat));
+  if (!at.empty() && !lonLat.empty()) return wrongValue(fields.of("at"), "cannot be combined with lonlat");
+  if (!lonLat.empty() && (std::abs(lonLat[1]) > 90 || std::abs(lonLat[0]) > 360))
+    return wrongValue(fields.of("lonlat"),
+                      fmt::format("{:g},{:g} is no longitude and latitude in degrees", lonLat[0], lonLat[1]));
+  const std::vector<double>& stated = at.empty() ? lonLat : at;
+  if (stated.empty()) return {};
+  object.place = ScenePlace{{stated[0], stated[1]}, at.empty(), std::nullopt};
+  if (stated.size() == 3) object.place->height = stated[2];
+  return {};
+}
+
+Status readLevel(const SceneFields& fields, SceneLevel& level) {
+  const SceneJson* found = fields.find("level");
+  if (!found) return {};
+  if (!found->is_object() || found->size() != 1)
+    return wrongValue(fields.of("level"), "must be {\"error\": E} or {\"triangles\": N}");
+  const SceneFields inner{*found, fields.of("level")};
+  ARETE_CHECK(inner.checkKeys({"error", "triangles"}));
+  if (inner.find("error")) {
+    double error = 0;
+    ARETE_CHECK(inner.number("error", error));
+    if (error < 0) return wrongValue(inner.of("error"), fmt::format("must be 0 or more, not {:g}", error));
+    level.error = error;
   } else {
-    if (!(value >= 1 && value <= 4e9 && value == std::floor(value)))
-      return reader.note("level", "has no whole number of triangles");
-    object.levelTriangles = static_cast<std::uint32_t>(value);
+    const SceneJson& triangles = *inner.find("triangles");
+    if (!triangles.is_number_unsigned() || triangles.get<std::uint64_t>() == 0)
+      return wrongValue(inner.of("triangles"), "must be a whole number above 0");
+    level.triangles = triangles.get<std::uint64_t>();
   }
+  return {};
 }
 
-/// What an object and its instances both state.
-void readPlace(Reader& reader, StatedObject& object) {
-  if (reader.find("at") && reader.find("lonlat")) reader.note("at", "and its lonlat exclude each other");
-  for (const char* name : {"at", "lonlat"}) {
-    const auto numbers = reader.numbers(name, 2, 3);
-    if (numbers.empty()) continue;
-    object.hasPlace = true;
-    object.isLonLat = std::string_view(name) == "lonlat";
-    object.place = {numbers[0], numbers[1]};
-    object.height.reset();
-    if (numbers.size() == 3) object.height = numbers[2];
-    if (object.isLonLat && std::abs(numbers[1]) > 90) reader.note(name, "has a latitude beyond 90 degrees");
-  }
-  reader.number("above", object.above);
-  if (reader.find("above") && object.height)
-    reader.note("above", "is over the ground, and its place states a height");
-  if (const auto turn = reader.numbers("turn", 3, 3); !turn.empty())
-    object.turn = {turn[0], turn[1], turn[2]};
-  reader.positive("scale", object.scale);
-  reader.positive("tolerance", object.toleranceFactor);
-  reader.flag("visible", object.isShown);
-  reader.text("name", object.name);
-  readLevel(reader, object);
-}
-
-void readLook(Reader& reader, StatedObject& object) {
-  reader.text("up", object.up);
-  if (!object.up.empty() && object.up != "y" && object.up != "z") reader.note("up", "must be \"y\" or \"z\"");
+Result<SceneObject> readObject(const SceneFields& fields, const std::filesystem::path& folder) {
+  ARETE_CHECK(fields.checkKeys({"name", "file", "at", "lonlat", "above", "turn", "scale", "up", "anchor",
+                                "tolerance", "level", "visible", "instances"}));
+  SceneObject object;
+  if (!fields.find("file")) return tl::unexpected(wrongValue(fields.culprit, "has no file").error());
+  ARETE_CHECK(fields.text("file", object.file));
+  // An address stays as it is.
+  if (object.file.find("://") == std::string::npos && !object.file.starts_with("/vsi"))
+    object.file = (folder / object.file).lexically_normal().string();
+  ARETE_CHECK(fields.text("name", object.name));
+  ARETE_CHECK(readPlace(fields, object));
+  ARETE_CHECK(fields.number("above", object.above));
+  std::vector<double> turn;
+  ARETE_CHECK(fields.numbers("turn", 3, 3, turn));
+  if (!turn.empty()) object.turn = {turn[0], turn[1], turn[2]};
+  ARETE_CHECK(fields.positive("scale", object.scale));
+  ARETE_CHECK(fields.text("up", object.up));
+  if (!object.up.empty() && object.up != "y" && object.up != "z")
+    return tl::unexpected(wrongValue(fields.of("up"), "must be \"y\" or \"z\"").error());
   std::string anchor = "origin";
-  reader.text("anchor", anchor);
-  if (anchor != "origin" && anchor != "base") reader.note("anchor", "must be \"origin\" or \"base\"");
-  object.anchor = anchor == "base" ? StatedObject::Anchor::base : StatedObject::Anchor::origin;
+  ARETE_CHECK(fields.text("anchor", anchor));
+  if (anchor != "origin" && anchor != "base")
+    return tl::unexpected(wrongValue(fields.of("anchor"), "must be \"origin\" or \"base\"").error());
+  object.anchor = anchor == "base" ? SceneObject::Anchor::base : SceneObject::Anchor::origin;
+  ARETE_CHECK(fields.positive("tolerance", object.tolerance));
+  ARETE_CHECK(readLevel(fields, object.level));
+  ARETE_CHECK(fields.flag("visible", object.isVisible));
+  for (const char* key : {"at", "lonlat", "above", "turn", "scale", "up", "anchor"})
+    object.statesPlacement |= fields.find(key) != nullptr;
+  return object;
 }
 
-/// Gives names to objects that state none: that of the file, numbered where several have it.
-Status nameAll(SceneFile& scene) {
-  std::unordered_set<std::string> taken;
+/// The object that an instance states: what it does not say is as the object says. A place of its own
+/// replaces the object's, its height above the ground too.
+Result<SceneJson> instanceOf(SceneJson object, const SceneFields& instance, std::size_t number) {
+  ARETE_CHECK(instance.checkKeys(
+      {"name", "at", "lonlat", "above", "turn", "scale", "tolerance", "level", "visible"}));
+  object.erase("instances");
+  if (instance.find("at") || instance.find("lonlat"))
+    for (const char* key : {"at", "lonlat", "above"}) object.erase(key);
+  if (const auto name = object.find("name"); name != object.end() && name->is_string())
+    *name = fmt::format("{} {}", name->get<std::string>(), number + 1);
+  object.update(instance.json);
+  return object;
+}
+
+/// One object, or as many as it has instances.
+Status addObjects(const SceneFields& fields, const std::filesystem::path& folder, SceneFile& scene) {
+  const SceneJson* const instances = fields.find("instances");
+  if (!instances) {
+    ARETE_TRY(auto object, readObject(fields, folder));
+    scene.objects.push_back(std::move(object));
+    return {};
+  }
+  if (!instances->is_array() || instances->empty())
+    return wrongValue(fields.of("instances"), "must be a list of at least one object");
+  for (std::size_t k = 0; k < instances->size(); ++k) {
+    const SceneJson& each = (*instances)[k];
+    const std::string culprit = fmt::format("{}: instances[{}]", fields.culprit, k);
+    if (!each.is_object()) return wrongValue(culprit, "must be an object");
+    ARETE_TRY(const SceneJson whole, instanceOf(fields.json, {each, culprit}, k));
+    ARETE_TRY(auto object, readObject({whole, culprit}, folder));
+    scene.objects.push_back(std::move(object));
+  }
+  return {};
+}
+
+/// Names objects without a name by their file; of several with one name the second is "mast 2".
+Status nameObjects(SceneFile& scene) {
+  std::unordered_map<std::string, std::size_t> taken;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const std::string& name = scene.objects[i].name;
-    if (!name.empty() && !taken.insert(name).second)
-      return failure(ErrorCode::invalidData, fmt::format("two objects have the name \"{}\"", name),
-                     scene.path);
+    if (name.empty()) continue;
+    if (const auto [first, isNew] = taken.emplace(name, i); !isNew)
+      return wrongValue(sceneCulprit(scene, i, "name"), fmt::format("objects[{}] has it too", first->second));
   }
-  std::unordered_map<std::string, std::size_t> last;
-  for (StatedObject& object : scene.objects) {
+  std::unordered_map<std::string, std::size_t> next;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    SceneObject& object = scene.objects[i];
     if (!object.name.empty()) continue;
     const std::string stem = std::filesystem::path(object.file).stem().string();
-    std::string name = stem;
-    while (!taken.insert(name).second) name = fmt::format("{} {}", stem, 1 + ++last[stem]);
-    object.name = name;
+    std::size_t& number = next[stem];
+    do {
+      ++number;
+      object.name = number == 1 ? stem : fmt::format("{} {}", stem, number);
+    } while (!taken.emplace(object.name, i).second);
   }
   return {};
 }
 
 }  // namespace
 
-bool isSceneFile(const std::string& path) {
-  return text::lowerExtension(path) == "json";
+std::string sceneCulprit(const SceneFile& scene, std::size_t object, std::string_view key) {
+  const std::string& name = scene.objects[object].name;
+  std::string culprit = fmt::format("{}: objects[{}]", scene.path, object);
+  if (!name.empty()) culprit += fmt::format(" '{}'", name);
+  if (!key.empty()) culprit += fmt::format(": {}", key);
+  return culprit;
 }
 
-Result<SceneFile> readSceneText(std::string_view text, const std::string& path) {
-  const json whole = json::parse(text, nullptr, false);
-  if (whole.is_discarded())
-    return failure(ErrorCode::corrupt, "is not JSON (which knows no NaN), or has a number too large", path);
-  const auto refuse = [&](std::string problem) {
-    return failure(ErrorCode::invalidData, std::move(problem), path);
-  };
-  if (!whole.is_object()) return refuse("is no scene: a JSON object with objects");
-  Reader reader(whole);
-  reader.refuseStrangers(kSceneMembers);
-  SceneFile scene{.path = path, .objects = {}};
-  reader.text("crs", scene.crs);
-  if (!reader.problem().empty()) return refuse(reader.problem());
-  const json* const objects = reader.find("objects");
+bool isSceneFile(std::string_view path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+  return extension == ".json";
+}
+
+Result<SceneFile> readScene(const std::string& path) try {
+  ARETE_TRY(const FileBytes bytes, FileBytes::readText(path));
+  ARETE_TRY(const SceneJson json, parsedScene(bytes.view(), path));
+  SceneFile scene;
+  scene.path = path;
+  if (!json.is_object())
+    return failure(ErrorCode::invalidData, "is no scene: it must be an object with a list of objects", path);
+  const SceneFields top{json, path};
+  ARETE_CHECK(top.checkKeys({"$schema", "crs", "objects"}));
+  ARETE_CHECK(top.text("crs", scene.crs));
+  const SceneJson* objects = top.find("objects");
   if (!objects || !objects->is_array() || objects->empty())
-    return refuse("is no scene: it has no list of objects, \"objects\"");
-
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    return failure(ErrorCode::invalidData, "must be a list of at least one object", top.of("objects"));
+  const auto folder = std::filesystem::path(path).parent_path();
+  scene.objects.reserve(objects->size());
   for (std::size_t i = 0; i < objects->size(); ++i) {
-    const json& stated = (*objects)[i];
-    std::string where = fmt::format("objects[{}]", i);
-    if (!stated.is_object()) return refuse(fmt::format("{} is {}, not an object", where, stated.type_name()));
-    Reader one(stated);
-    one.refuseStrangers(kObjectMembers);
-    StatedObject object;
-    one.text("file", object.file);
-    if (object.file.empty()) one.note("file", "is missing");
-    readPlace(one, object);
-    readLook(one, object);
-    if (!object.name.empty()) where += fmt::format(" \"{}\"", object.name);
-    if (!one.problem().empty()) return refuse(fmt::format("{}: {}", where, one.problem()));
-    object.file = (folder / object.file).lexically_normal().string();
-    const json* const instances = one.find("instances");
-    if (!instances) {
-      scene.objects.push_back(std::move(object));
-      continue;
-    }
-    if (!instances->is_array() || instances->empty())
-      return refuse(fmt::format("{}: its instances must be a list", where));
-    // An instance has what the object states, but for what it states itself.
-    for (std::size_t k = 0; k < instances->size(); ++k) {
-      const json& each = (*instances)[k];
-      StatedObject instance = object;
-      if (!object.name.empty()) instance.name = fmt::format("{} {}", object.name, k + 1);
-      std::string problem = each.is_object() ? "" : fmt::format("is {}, not an object", each.type_name());
-      if (problem.empty()) {
-        Reader inside(each);
-        inside.refuseStrangers(kInstanceMembers);
-        readPlace(inside, instance);
-        problem = inside.problem();
-      }
-      if (!problem.empty()) return refuse(fmt::format("{}: instances[{}]: {}", where, k, problem));
-      scene.objects.push_back(std::move(instance));
-    }
+    const SceneJson& one = (*objects)[i];
+    std::string culprit = fmt::format("{}: objects[{}]", path, i);
+    if (!one.is_object()) return failure(ErrorCode::invalidData, "must be an object with a file", culprit);
+    if (const auto name = one.find("name"); name != one.end() && name->is_string())
+      culprit += fmt::format(" '{}'", name->get<std::string>());
+    ARETE_CHECK(addObjects({one, culprit}, folder, scene));
   }
-  ARETE_CHECK(nameAll(scene));
+  ARETE_CHECK(nameObjects(scene));
   return scene;
-}
-
-Result<SceneFile> readScene(const std::string& path) {
-  ARETE_TRY(const auto bytes, FileBytes::read(path));
-  return readSceneText(bytes.view(), path);
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

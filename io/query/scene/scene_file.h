@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,42 +14,57 @@
 
 namespace arete {
 
-/// Whether a path names a scene: its name ends in .json.
-bool isSceneFile(const std::string& path);
-
-/// One object of a scene as its file states it (docs/topics/scenes.md).
-struct StatedObject {
-  enum class Anchor { origin, base };
-
-  std::string name = {};              ///< stated, or that of the file; unlike in all objects
-  std::string file = {};              ///< path, as seen from where the program runs
-  Vec2 place = {};                    ///< in the scene's CRS, or longitude and latitude
-  bool hasPlace = false;              ///< a terrain has none
-  bool isLonLat = false;              ///< the place is longitude and latitude
-  std::optional<double> height = {};  ///< in the vertical unit of the terrain; nothing: on the ground
-  double above = 0;                   ///< over the ground, in the same unit
-  Turn turn = {};                     ///< its heading from the grid's north
-  double scale = 1;                   ///< metres of one unit of its file, > 0
-  std::string up = {};                ///< "y" or "z"; empty: as the file says
-  Anchor anchor = Anchor::origin;  ///< what of it stands at the place: the file's 0,0,0 or the middle below
-  double toleranceFactor = 1;      ///< > 0
-  std::optional<double> levelError = {};             ///< by hand, in the unit of its file
-  std::optional<std::uint32_t> levelTriangles = {};  ///< by hand
-  bool isShown = true;
+/// The detail of an object, set by hand: one of the two.
+struct SceneLevel {
+  std::optional<double> error;  ///< in the object's own unit
+  std::optional<std::uint64_t> triangles;
+  bool isStated() const { return error || triangles; }
+  bool operator==(const SceneLevel&) const = default;
 };
 
+/// Where an object stands.
+struct ScenePlace {
+  Vec2 xy;                ///< in the scene's CRS, or longitude and latitude in degrees
+  bool isLonLat = false;  ///< of WGS 84, where the scene is on the Earth
+  std::optional<double>
+      height;  ///< in the unit and above the zero of the terrain's heights; none: the ground
+};
+
+struct SceneObject {
+  enum class Anchor : std::uint8_t {
+    origin,  ///< 0,0,0 of the file stands at the place
+    base,    ///< the middle of the bottom of its box, once it is pitched and rolled, does
+  };
+  std::string name;  ///< unlike all others
+  std::string file;  ///< a path that can be opened
+  std::optional<ScenePlace> place;
+  double above = 0;  ///< metres above the place
+  Turn turn;         ///< its heading is from the grid north of the scene's CRS
+  double scale = 1;  ///< metres of a unit of the file
+  std::string up;    ///< "y", "z", or empty: as the file says, else z
+  Anchor anchor = Anchor::origin;
+  double tolerance = 1;  ///< factor of the tolerance of the whole scene
+  SceneLevel level;
+  bool isVisible = true;
+  bool statesPlacement = false;  ///< has a key that terrain cannot have
+};
+
+/// What a scene.json says (docs/topics/scenes.md, docs/topics/scene.schema.json).
 struct SceneFile {
   std::string path;
-  std::string crs = {};  ///< of the places; empty: the terrain's
-  std::vector<StatedObject> objects;
+  std::string crs;  ///< empty: that of the first terrain; without terrain plain metres
+  std::vector<SceneObject> objects;
 };
 
-/// Reads a scene. Files in it are found from the folder of the scene.
-///
-/// Errors: unreadable; corrupt: no JSON; invalidData: what is missing, unknown or out of range, naming the
-/// object and the member. O(objects).
+/// "scene.json: objects[3] 'mast': at", the culprit of an error; without a key the object alone.
+std::string sceneCulprit(const SceneFile& scene, std::size_t object, std::string_view key = {});
+
+/// Reads a scene. Opens no file but this one. Errors: as FileBytes::readText(); invalidData naming the object
+/// and the key: not JSON, an unknown, missing or repeated key, a value of another type or out of range, two
+/// objects of one name, no objects. O(size).
 Result<SceneFile> readScene(const std::string& path);
-/// The same of a text. @param path of the scene, for messages and its folder
-Result<SceneFile> readSceneText(std::string_view text, const std::string& path);
+
+/// Whether a path is a scene by its name: it ends in .json.
+bool isSceneFile(std::string_view path);
 
 }  // namespace arete

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "surface/builder/build.h"
 #include "engine/criteria/view_error.h"
 #include "engine/follow/incremental_cut.h"
+#include "surface/builder/build.h"
 #include "surface/families.h"
 #include "terrain/builder/build.h"
 #include "viewer/drawn_mesh.h"
@@ -181,7 +181,7 @@ TEST(SurfaceScene, ALevelByHandStaysWhateverTheCamera) {
   scene.put({1100, 1900, 130}, 20);
   auto view = scene.view();
   ASSERT_TRUE(view);
-  SceneObject& ball = view->scene().objects()[1];
+  ShownObject& ball = view->scene().objects()[1];
   ball.level = HandLevel{.triangles = 100};
   ASSERT_TRUE(view->draw(straightDown({1110, 1900, 0}, 220)));
   EXPECT_LE(ball.figures.triangles, 100u);
