@@ -66,8 +66,12 @@ struct AppearanceArguments {
   bool hasWireframe = false, isUnshaded = false, isCurved = false;
   bool isPlainPicture = false;  ///< without legend, scale bar, north arrow and graticule
   ColorArguments colors;
+  std::string hidden, sides;  ///< of a surface: what is not shown; which sides are alike
+  bool isFlat = false;
 
   void addTo(CLI::App& command, OptionKinds& kinds);
+  /// Of a surface. Errors: usage: a word of `hidden` is unknown.
+  Result<SurfaceLook> surfaceLook() const;
   /// Which bands of the drape to show. Errors: usage: not one or three band numbers, which count from 1.
   Result<DrapeOptions> drapeOptions() const;
   /// @param colorings of the model, the usual one first.

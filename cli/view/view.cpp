@@ -67,8 +67,6 @@ std::string buildCommandOf(const std::string& path) {
 }
 
 ModelKind kindOf(const Opened& opened) {
-  if (const auto* const scene = std::get_if<OpenScene>(&opened))
-    return scene->terrain ? ModelKind::terrain : ModelKind::surface;
   return std::holds_alternative<SurfaceModel>(opened) ? ModelKind::surface : ModelKind::terrain;
 }
 
@@ -79,6 +77,16 @@ Status refuseOtherKinds(const ViewArguments& a, ModelKind kind) {
       a.pictures.film.empty())
     return failure(ErrorCode::usage, "requires --frames, where the file is of a surface", "--round");
   return {};
+}
+
+/// Options of one model, where a scene states each object's own; and those of terrain, where it has none.
+Status refuseForScenes(const ViewArguments& a, const OpenScene& scene) {
+  for (const auto& [option, text] :
+       {std::pair{"--turn ", a.viewpoint.turn}, std::pair{"--up ", a.viewpoint.up}})
+    if (!text.empty())
+      return failure(ErrorCode::usage, "is of one surface; a scene states it for each of its objects",
+                     option + text);
+  return scene.terrain ? Status() : refuseOtherKinds(a, ModelKind::surface);
 }
 
 /// What was opened, and how.
@@ -131,7 +139,10 @@ Result<std::optional<Opened>> openModelOf(const ViewArguments& a, std::optional<
   if (opening->isBuilt && watch.seconds() > kSecondsWorthAFile)
     session.note(fmt::format("{} was built in {:.0f} s; '{}' keeps the model for the next time", name,
                              watch.seconds(), buildCommandOf(a.model)));
-  ARETE_CHECK(refuseOtherKinds(a, kindOf(opening->opened)));
+  if (const auto* const scene = std::get_if<OpenScene>(&opening->opened))
+    ARETE_CHECK(refuseForScenes(a, *scene));
+  else
+    ARETE_CHECK(refuseOtherKinds(a, kindOf(opening->opened)));
   return std::optional(std::move(opening->opened));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The models come first, then what is behind them, then the layers in space: they are blended over both.
+// The models come first, then what is behind them, then what of the models is seen through, then the layers
+// in space, which are blended over all.
 #include "viewer/gl/scene.h"
 
 #include <algorithm>
@@ -89,6 +90,7 @@ Status Scene::draw(const Camera& camera, const ViewSettings& settings) {
                             isGround ? std::span<const Layer>(layers.list()) : std::span<const Layer>()));
   }
   drawBackground(settings);
+  ARETE_CHECK(drawBlended(camera, settings));
   for (const Layer& layer : layers.list()) {
     const auto* space = std::get_if<SpaceVertices>(&layer.content);
     if (!space || !layer.isVisible) continue;
@@ -108,6 +110,20 @@ Result<FrameView> Scene::frameOf(const Camera& camera, const ViewSettings& setti
   frame.drawnNear = subject().nearPlane();
   frame.pixels = settings.pixels;
   return frame;
+}
+
+// The farthest object first, by the middle of its box.
+Status Scene::drawBlended(const Camera& camera, const ViewSettings& settings) {
+  ARETE_TRY(const View view, subject().viewOf(camera, settings));
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < drawables_.size(); ++i)
+    if (objects()[i].isShown)
+      order.push_back(
+          {-norm(subject().drawn(drawables_[i]->subject().box().centre(), settings) - view.eye), i});
+  std::ranges::sort(order);
+  for (const auto& [distance, i] : order)
+    ARETE_CHECK(drawables_[i]->drawBlended(camera, settingsOf(i, settings)));
+  return {};
 }
 
 // A terrain that is hidden has set no frame, so its sky is not drawn.

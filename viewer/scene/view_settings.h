@@ -22,6 +22,19 @@ struct Sun {
   double azimuthDegrees = 315, elevationDegrees = 40;
 };
 
+/// What of a surface is shown, each by itself.
+struct SurfaceLook {
+  bool hasTextures = true, hasMaterialColors = true, hasVertexColors = true;
+  bool isFlat = false;  ///< light goes by the drawn triangles, not by the normals of the source
+  /// Which sides of triangles are alike.
+  enum class Sides {
+    asStated,  ///< as materials say; the inside of the others is dark
+    both,
+    front,  ///< the inside is not drawn
+  } sides = Sides::asStated;
+  bool hasSun = true, hasSky = true, hasHeadlight = true;  ///< parts of the light
+};
+
 /// Colours and light.
 struct ViewLook {
   Coloring coloring = Coloring::height;
@@ -34,6 +47,7 @@ struct ViewLook {
   double heatError = 0;
   /// The colours of heights, slopes, aspects and errors of a terrain. Null: the table's, for its heights.
   SharedColors colors = {};
+  SurfaceLook surface = {};
 };
 
 /// A level of detail that is chosen by hand, whatever the camera sees: one of the two.

@@ -13,8 +13,6 @@
 #include "surface/displacement/displaced_places.h"
 
 namespace arete {
-namespace {}  // namespace
-
 std::uint32_t SurfaceDrawable::materialOf(std::uint32_t triangle) const {
   const auto none = static_cast<std::uint32_t>(assets_->materials.materials().size()) - 1;
   const std::vector<std::uint32_t>& of = model_->attributes.materialOf;
@@ -34,10 +32,17 @@ void SurfaceDrawable::upload() {
     if (begin[m + 1] > begin[m]) ranges_.push_back({m, begin[m], begin[m + 1] - begin[m]});
   std::vector<std::array<std::uint32_t, 3>> corners(front.size());
   std::vector<float> worst(front.size());
+  blended_.clear();
   for (const std::uint32_t t : front) {
     const std::uint32_t at = begin[materialOf(t)]++;
     corners[at] = model_->hasWedges() ? model_->wedgesOf[t] : mt.corners(TriangleId(t));
     worst[at] = static_cast<float>(mt.error(TriangleId(t)));
+    const std::uint32_t material = materialOf(t);
+    if (assets_->materials.materials()[material].alpha != DrawnMaterial::Alpha::blended) continue;
+    Vec3 middle;
+    for (const std::uint32_t v : mt.corners(TriangleId(t)))
+      middle = middle + subject_->upright().fromFile(mt.position(VertexId(v))) / 3;
+    blended_.push_back({material, corners[at], middle});
   }
   indices_ = makeBuffer(std::span<const std::array<std::uint32_t, 3>>(corners));
   errors_ = makeBuffer(std::span<const float>(worst));
@@ -128,11 +133,50 @@ Result<FrameView> SurfaceDrawable::frameOf(const Camera& camera, const ViewSetti
 Status SurfaceDrawable::draw(const Camera& camera, const ViewSettings& settings, std::span<const Layer>) {
   ARETE_TRY(const FrameView frame, frameOf(camera, settings));
   glBeginQuery(GL_ANY_SAMPLES_PASSED, anySample_);
-  const DrawnSurface front{indices_, errors_, displaced_, ranges_};
+  const DrawnSurface front{
+      .indices = indices_, .errors = errors_, .positions = displaced_, .ranges = ranges_};
   assets_->painter.draw(assets_->vertices, assets_->materials, front, frame, settings.look,
                         Similarity(subject_->placement().turn, 1, {}));
   glEndQuery(GL_ANY_SAMPLES_PASSED);
+  hasBlended_ = false;
   return {};
+}
+
+Status SurfaceDrawable::drawBlended(const Camera& camera, const ViewSettings& settings) {
+  if (blended_.empty()) return {};
+  ARETE_TRY(const FrameView frame, frameOf(camera, settings));
+  sortBlended(frame);
+  glBeginQuery(GL_ANY_SAMPLES_PASSED, anyBlended_);
+  const DrawnSurface front{
+      .positions = displaced_, .blendedIndices = blendedIndices_, .blended = blendedRanges_};
+  assets_->painter.drawBlended(assets_->vertices, assets_->materials, front, frame, settings.look,
+                               Similarity(subject_->placement().turn, 1, {}));
+  glEndQuery(GL_ANY_SAMPLES_PASSED);
+  hasBlended_ = true;
+  return {};
+}
+
+// A triangle counts by its middle. Equal depths keep the order of the front, so that a picture does not
+// depend on the sorting.
+void SurfaceDrawable::sortBlended(const FrameView& frame) {
+  blendedRanges_.clear();
+  if (blended_.empty()) return;
+  const Frustum frustum(frame.view);
+  std::vector<std::pair<double, std::uint32_t>> order;
+  order.reserve(blended_.size());
+  for (std::uint32_t i = 0; i < blended_.size(); ++i)
+    order.push_back({-frustum.toView(blended_[i].middle).z, i});
+  std::ranges::sort(order);
+  std::vector<std::array<std::uint32_t, 3>> corners;
+  corners.reserve(order.size());
+  for (const auto& [depth, i] : order) {
+    const Blended& triangle = blended_[i];
+    if (blendedRanges_.empty() || blendedRanges_.back().material != triangle.material)
+      blendedRanges_.push_back({triangle.material, static_cast<std::uint32_t>(corners.size()), 0});
+    ++blendedRanges_.back().count;
+    corners.push_back(triangle.corners);
+  }
+  blendedIndices_ = makeBuffer(std::span<const std::array<std::uint32_t, 3>>(corners));
 }
 
 void SurfaceDrawable::setTurn(const Turn& turn) {
@@ -144,6 +188,7 @@ void SurfaceDrawable::setTurn(const Turn& turn) {
 bool SurfaceDrawable::isShown() const {
   GLuint any = 0;
   glGetQueryObjectuiv(anySample_, GL_QUERY_RESULT, &any);
+  if (any == 0 && hasBlended_) glGetQueryObjectuiv(anyBlended_, GL_QUERY_RESULT, &any);
   return any != 0;
 }
 

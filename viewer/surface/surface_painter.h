@@ -24,7 +24,10 @@ struct DrawnSurface {
   GLuint errors = 0;   ///< a float a triangle; 0: none
   /// Positions of the drawn vertices instead of the surface's; 0: none.
   GLuint positions = 0;
-  std::span<const Range> ranges = {};
+  /// What materials blend, the farthest first, as runs of one material in indices of their own. They take the
+  /// place of the ranges of these materials where materials are shown.
+  GLuint blendedIndices = 0;
+  std::span<const Range> ranges = {}, blended = {};
 };
 
 /// Draws fronts of a surface and what is behind them into the framebuffer that is bound.
@@ -33,16 +36,20 @@ class SurfacePainter {
   /// Errors: unsupported, by the driver.
   static Result<SurfacePainter> create();
 
-  /// `frame`: of upright space. What is blended is drawn last, in the order of its triangles.
+  /// What hides what is behind it. `frame`: of upright space.
   ///
   /// @param turned how the surface is turned out of east, north and up, which the sun stands in.
   void draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials, const DrawnSurface& front,
             const FrameView& frame, const ViewLook& look, const Similarity& turned = {});
+  /// What is blended, in its order, over all that has been drawn.
+  void drawBlended(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials, const DrawnSurface& front,
+                   const FrameView& frame, const ViewLook& look, const Similarity& turned = {});
   void drawBackground();
 
  private:
   SurfacePainter() = default;
   struct Look;
+  class Pass;
   void drawRange(const DrawnSurface::Range& range, const Look& look);
 
   GlProgram surface_, background_;

@@ -147,6 +147,8 @@ void Panel::lookSection(ViewerSession& s) {
     const bool isTurned = slider("sun azimuth", sun.azimuthDegrees, 0, 360, "%.0f°");
     if (slider("sun height", sun.elevationDegrees, 0, 90, "%.0f°") || isTurned) look.sun = sun;
   }
+  const bool hasSurfaces = !s.tools || (s.objects && s.objects->count() > 1);
+  if (hasSurfaces) drawSurfaceLook(look.surface);
   if (!s.tools) return;
   if (!s.tools->model().georeference.crsWkt.empty()) ImGui::Checkbox("curved Earth", &s.settings.isCurved);
   slider("heights times", s.settings.stretch, 0.5, 10, "%.2f", true);

@@ -170,5 +170,121 @@ TEST(ShadingNormals, AreThoseOfTheSourceAndNoneOnSharpEdges) {
   for (const Vec3& n : shadingNormals(*sharp)) EXPECT_EQ(norm(n), 0);
 }
 
+/// Squares of 2 by 2 at heights 0, 1 and 2, each of a material.
+SurfaceMesh stackedSquares(const std::vector<Material>& materials, const std::vector<double>& heights) {
+  SurfaceMesh mesh;
+  for (std::uint32_t i = 0; i < heights.size(); ++i) {
+    for (const Vec2& p : {Vec2{-1, -1}, Vec2{1, -1}, Vec2{1, 1}, Vec2{-1, 1}})
+      mesh.positions.push_back({p.x, p.y, heights[i]});
+    mesh.triangles.push_back({4 * i, 4 * i + 1, 4 * i + 2});
+    mesh.triangles.push_back({4 * i, 4 * i + 2, 4 * i + 3});
+    mesh.materialOf.insert(mesh.materialOf.end(), {i, i});
+  }
+  mesh.materials = materials;
+  return mesh;
+}
+
+Material glass(const char* name, double r, double g, double b, double alpha) {
+  Material material{.name = name, .baseColor = {r, g, b, alpha}};
+  material.alphaMode = "BLEND";
+  material.isDoubleSided = true;
+  return material;
+}
+
+double linear(double srgb) {
+  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+}
+double encoded(double light) {
+  return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
+}
+
+TEST(SurfaceDrawable, WhatIsBlendedIsDrawnBackToFrontWhateverItsOrderInTheFile) {
+  ARETE_NEEDS_OPENGL(probe);
+  // The nearer, blue, covers half of the farther, red, which covers half of the opaque green.
+  const std::vector<Material> colors = {
+      glass("blue", 0, 0, 1, 0.5), glass("red", 1, 0, 0, 0.5),
+      Material{.name = "green", .baseColor = {0, 1, 0, 1}, .isDoubleSided = true}};
+  const Result<SurfaceModel> model = buildSurface(stackedSquares(colors, {2, 1, 0}));
+  ASSERT_TRUE(model);
+  auto view = viewOf(*model);
+  ASSERT_TRUE(view);
+  ASSERT_TRUE(view->draw(fromAbove(*model)));
+  const Rgb c = view->image().at(100, 80);
+  // Blended as written, in sRGB: blue over (red over green).
+  EXPECT_NEAR(c.b, 127.5, 2);
+  EXPECT_NEAR(c.r, 63.75, 2);
+  EXPECT_NEAR(c.g, 63.75, 2);
+  // From below green hides both.
+  Camera below = fromAbove(*model);
+  below.pitchDegrees = 90;
+  below.height = -below.height;
+  ASSERT_TRUE(view->draw(below));
+  EXPECT_EQ(view->image().at(100, 80), (Rgb{0, 255, 0}));
+}
+
+TEST(SurfaceDrawable, GlassIsSeenAgainstTheBackgroundToo) {
+  ARETE_NEEDS_OPENGL(probe);
+  const Result<SurfaceModel> model = buildSurface(stackedSquares({glass("red", 1, 0, 0, 0.5)}, {0}));
+  ASSERT_TRUE(model);
+  auto view = viewOf(*model);
+  ASSERT_TRUE(view);
+  const auto figures = view->draw(fromAbove(*model));
+  ASSERT_TRUE(figures);
+  EXPECT_TRUE(figures->isShown);
+  const Rgb glassy = view->image().at(100, 80), beside = view->image().at(2, 80);
+  EXPECT_NEAR(glassy.r, (255 + beside.r) / 2.0, 8);
+  EXPECT_NEAR(glassy.b, beside.b / 2.0, 8);
+}
+
+TEST(SurfaceDrawable, EachPartOfTheLookIsSwitchedByItself) {
+  ARETE_NEEDS_OPENGL(probe);
+  SurfaceMesh mesh = stackedSquares({Material{.name = "green", .baseColor = {0, 1, 0, 1}}}, {0});
+  mesh.vertexAttributes = {Attribute{.name = std::string(kColorName),
+                                     .meaning = AttributeMeaning::color,
+                                     .type = ScalarType::uint8,
+                                     .components = 3,
+                                     .isNormalized = true,
+                                     .colorSpace = ColorSpace::srgb}};
+  for (int v = 0; v < 4; ++v) mesh.vertexAttributes[0].append(std::vector<double>{255, 128, 255});
+  const Result<SurfaceModel> model = buildSurface(std::move(mesh));
+  ASSERT_TRUE(model);
+  const auto colorWith = [&](const SurfaceLook& look, bool isShaded = false, double pitch = -90) {
+    ViewSettings settings = byMaterial();
+    settings.look.surface = look;
+    settings.look.isShaded = isShaded;
+    auto view = viewOf(*model, settings);
+    EXPECT_TRUE(view);
+    Camera camera = fromAbove(*model);
+    if (pitch > 0) {
+      camera.pitchDegrees = pitch;
+      camera.height = -camera.height;
+    }
+    EXPECT_TRUE(view->draw(camera));
+    return view->image().at(100, 80);
+  };
+  EXPECT_NEAR(colorWith({}).g, 128, 2);
+  EXPECT_EQ(colorWith({}).r, 0);
+  EXPECT_NEAR(colorWith({.hasVertexColors = false}).g, 255, 1);
+  EXPECT_NEAR(colorWith({.hasMaterialColors = false}).r, 255, 1);
+  // The inside of a one-sided material is dark, like the outside, or not there.
+  EXPECT_LT(colorWith({}, false, 90).g, 120);
+  EXPECT_NEAR(colorWith({.sides = SurfaceLook::Sides::both}, false, 90).g, 128, 2);
+  EXPECT_GT(colorWith({.sides = SurfaceLook::Sides::front}, false, 90).r, 100) << "the background";
+  // Without any of the light's parts it is black; each adds its own.
+  SurfaceLook dark{.hasMaterialColors = false, .hasVertexColors = false};
+  dark.hasSun = dark.hasSky = dark.hasHeadlight = false;
+  EXPECT_EQ(colorWith(dark, true).g, 0);
+  double sum = 0;
+  for (bool SurfaceLook::*part : {&SurfaceLook::hasSun, &SurfaceLook::hasSky, &SurfaceLook::hasHeadlight}) {
+    SurfaceLook one = dark;
+    one.*part = true;
+    const double light = linear(colorWith(one, true).g / 255.0);
+    EXPECT_GT(light, 0.01);
+    sum += light;
+  }
+  SurfaceLook all{.hasMaterialColors = false, .hasVertexColors = false};
+  EXPECT_NEAR(colorWith(all, true).g, encoded(sum), 3);
+}
+
 }  // namespace
 }  // namespace arete
