@@ -17,6 +17,7 @@
 
 #include "datasets/crs_wkt.h"
 #include "io/geo/crs/ellipsoid_earth.h"
+#include "io/geo/crs/transform.h"
 #include "io/geo/dem/raster_writer.h"
 #include "io/query/sight/crossing.h"
 #include "io/written_amt.h"
@@ -223,6 +224,42 @@ TEST_F(SightThroughMeshes, ATowerBlocksUpToItsTopWhichTouchesAndIsSeenAtItsVerti
   EXPECT_TRUE(first(path({500501, 5200502}, 150, {500501, 5200502}, 101), *earth));
   EXPECT_FALSE(first(path({500501, 5200502}, 150, {500501, 5200502}, 130), *earth));
   EXPECT_FALSE(first(path({500511, 5200502}, 150, {500511, 5200502}, 101), *earth));
+}
+
+TEST_F(SightThroughMeshes, PlacesOfAnotherCrsStandAndHeadByThatCrs) {
+  put("tower.obj", kTower);
+  makeScene(R"(, {"file": "tower.obj", "at": [500500, 5200500]})");
+  const auto toLonLat = CrsTransform::between(kUtm32Wkt, "EPSG:4326");
+  ASSERT_TRUE(toLonLat);
+  const Vec2 lonLat = *(*toLonLat)({500500, 5200500});
+  const auto to33 = CrsTransform::between(kUtm32Wkt, "EPSG:32633");
+  ASSERT_TRUE(to33);
+  const Vec2 in33 = *(*to33)({500500, 5200500}), north = *(*to33)({500500, 5200600});
+  const Vec3 here = scene_->objects[1].placement({0, 0, 0});
+  const auto standsHere = [&](const std::string& crs, const std::string& place, double clockwise) {
+    const std::string text = fmt::format(
+        R"({{"crs": "{}", "objects": [{{"file": "dem.tif"}}, {{"file": "tower.obj", {}}}]}})", crs, place);
+    put("other.json", text);
+    auto file = readScene(folder_.file("other.json"));
+    ASSERT_TRUE(file) << file.error().describe();
+    const auto scene = openScene(*std::move(file));
+    ASSERT_TRUE(scene) << scene.error().describe();
+    const Vec3 there = scene->objects[1].placement({0, 0, 0});
+    EXPECT_LT(norm(there - here), 1e-3) << place;
+    const Vec3 front = scene->objects[1].placement.direction({0, 1, 0});
+    EXPECT_NEAR(std::atan2(front.x, front.y) * 180 / std::numbers::pi, clockwise, 1e-4) << crs;
+  };
+  // Zone 33 is to the east: its grid north leans to the west here, and the front with it, or against it.
+  const double lean = std::atan2(north.x - in33.x, north.y - in33.y) * 180 / std::numbers::pi;
+  EXPECT_GT(std::abs(lean), 3);
+  standsHere("EPSG:32633", fmt::format(R"("at": [{:.4f}, {:.4f}])", in33.x, in33.y), -lean);
+  // True north leans by the meridian's convergence.
+  const double convergence = (lonLat.x - 9) * std::sin(lonLat.y * std::numbers::pi / 180);
+  standsHere("EPSG:4326", fmt::format(R"("at": [{:.10f}, {:.10f}])", lonLat.x, lonLat.y), -convergence);
+  standsHere("EPSG:32632", fmt::format(R"("lonlat": [{:.10f}, {:.10f}])", lonLat.x, lonLat.y), 0);
+  standsHere("EPSG:32633",
+             fmt::format(R"("lonlat": [{:.10f}, {:.10f}], "turn": [90, 0, 0])", lonLat.x, lonLat.y),
+             90 - lean);
 }
 
 TEST_F(SightThroughMeshes, LinesThroughSharedEdgesAndVerticesDoNotLeak) {
