@@ -43,7 +43,7 @@ std::string placeText(const SceneObject& object) {
 Status sayAboutScene(const std::string& path, Session& session) {
   ARETE_TRY(auto file, readScene(path));
   ARETE_TRY(const OpenScene scene, openScene(std::move(file), session.context()));
-  session.warn(scene.warnings, {});
+  session.warn(scene.warnings, path);
   const std::size_t count = scene.objects.size();
   std::vector<std::uint64_t> uses(scene.models.size()), finest;
   for (const auto& model : scene.models) finest.push_back(finestTriangles(*model));

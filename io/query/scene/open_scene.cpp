@@ -247,7 +247,7 @@ void warnOfFarMeshes(OpenScene& scene) {
            fmt::format(
                "{}: its coordinates are {:.3g} units from 0,0,0, which stands at its place: it lies that far "
                "away; the anchor \"base\" puts the mesh itself there",
-               sceneCulprit(scene.file, i), away)});
+               sceneCulprit(scene.file, i).substr(scene.file.path.size() + 2), away)});
   }
 }
 

@@ -173,6 +173,7 @@ TEST_F(Scenes, AMeshOnAMapOfItsOwnIsRemarkedOn) {
   const auto far = open(R"({"file": "far.obj", "at": [1, 2]}, {"file": "mast.obj", "at": [1, 2]})");
   ASSERT_TRUE(far);
   ASSERT_EQ(far->warnings.size(), 1u);
+  EXPECT_EQ(far->warnings[0].sentence.find("objects[0]"), 0u);
   EXPECT_SAYS(far->warnings[0].sentence, "objects[0] 'far': its coordinates are 5.22e+06 units from 0,0,0");
   const auto based = open(R"({"file": "far.obj", "at": [1, 2], "anchor": "base"})");
   ASSERT_TRUE(based);
