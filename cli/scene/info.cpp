@@ -43,9 +43,10 @@ std::string placeText(const SceneObject& object) {
 Status sayAboutScene(const std::string& path, Session& session) {
   ARETE_TRY(auto file, readScene(path));
   ARETE_TRY(const OpenScene scene, openScene(std::move(file), session.context()));
-  session.warn(scene.warnings, {});
+  session.warn(scene.warnings, path);
   const std::size_t count = scene.objects.size();
-  std::vector<std::uint64_t> uses(scene.models.size());
+  std::vector<std::uint64_t> uses(scene.models.size()), finest;
+  for (const auto& model : scene.models) finest.push_back(finestTriangles(*model));
   std::uint64_t shown = 0;
   Json files = Json::array(), objects = Json::array();
   std::string lines;
@@ -55,7 +56,7 @@ Status sayAboutScene(const std::string& path, Session& session) {
   for (std::size_t i = 0; i < count; ++i) {
     const SceneObject& object = scene.file.objects[i];
     const PlacedObject& placed = scene.objects[i];
-    const std::uint64_t triangles = finestTriangles(*scene.models[placed.model]);
+    const std::uint64_t triangles = finest[placed.model];
     ++uses[placed.model];
     shown += object.isVisible ? triangles : 0;
     if (i < kMostLines)
@@ -73,8 +74,7 @@ Status sayAboutScene(const std::string& path, Session& session) {
     objects.push_back(std::move(json));
   }
   for (std::size_t m = 0; m < scene.models.size(); ++m)
-    files.push_back(
-        {{"file", scene.paths[m]}, {"objects", uses[m]}, {"triangles", finestTriangles(*scene.models[m])}});
+    files.push_back({{"file", scene.paths[m]}, {"objects", uses[m]}, {"triangles", finest[m]}});
   session.say(fmt::format("{}: {} of {}, {} shown at the finest\n  {:<{}}  {:>12}  place\n{}", path,
                           grouped(count, "object", "objects"), grouped(scene.models.size(), "file", "files"),
                           grouped(shown, "triangle", "triangles"), "name", widest, "triangles", lines));

@@ -322,7 +322,7 @@ Status runLosOfScene(const LosArguments& a, Session& session) {
   for (const SceneObject& object : file.objects) inputs.push_back(object.file);
   ARETE_CHECK(checkOutputOf(a, inputs));
   ARETE_TRY(const OpenScene scene, openScene(std::move(file), session.context()));
-  session.warn(scene.warnings, {});
+  session.warn(scene.warnings, a.model);
   // Without terrain lines lead through the scene's space, and nothing else is known to be below them.
   TerrainModel nothing;
   nothing.isRaster = false;

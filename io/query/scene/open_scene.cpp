@@ -232,6 +232,25 @@ class ScenePlacer {
   std::map<std::tuple<std::size_t, bool, double, double>, Vec3> bases_;
 };
 
+/// Warns, once a model, where a file's own coordinates lead far away from the place: it may be on a map.
+void warnOfFarMeshes(OpenScene& scene) {
+  std::vector<std::uint8_t> isKnown(scene.models.size(), 0);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const SurfaceModel* surface = scene.surfaceOf(i);
+    if (!surface || surface->mt.vertexCount() == 0 || isKnown[scene.objects[i].model] != 0) continue;
+    if (scene.file.objects[i].anchor == SceneObject::Anchor::base) continue;
+    isKnown[scene.objects[i].model] = 1;
+    const double away = norm(surface->mt.position(VertexId(0)));
+    if (away > 100 * surface->diagonal)
+      scene.warnings.push_back(
+          {WarningCode::position,
+           fmt::format(
+               "{}: its coordinates are {:.3g} units from 0,0,0, which stands at its place: it lies that far "
+               "away; the anchor \"base\" puts the mesh itself there",
+               sceneCulprit(scene.file, i).substr(scene.file.path.size() + 2), away)});
+  }
+}
+
 }  // namespace
 
 Result<OpenScene> openScene(SceneFile file, const RunContext& context) try {
@@ -255,6 +274,7 @@ Result<OpenScene> openScene(SceneFile file, const RunContext& context) try {
                             : Vec3{};
     scene.objects[i].placement = Similarity(turn, stated.scale, stand.at - anchor);
   }
+  warnOfFarMeshes(scene);
   return scene;
 } catch (...) {
   return caughtFailure();

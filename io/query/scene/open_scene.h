@@ -40,7 +40,7 @@ struct OpenScene {
   std::vector<PlacedObject> objects;                 ///< by object of the file
   std::optional<std::size_t> terrain;                ///< the first terrain's object
   bool isMirrored = false;                           ///< the first terrain's metric space is left-handed
-  Warnings warnings;
+  Warnings warnings;                                 ///< each names the file or the object
 
   const TerrainModel* terrainModel() const {
     return terrain ? std::get_if<TerrainModel>(models[objects[*terrain].model].get()) : nullptr;

@@ -12,8 +12,8 @@
 #include <filesystem>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include "engine/base/caught_failure.h"
@@ -28,23 +28,48 @@ Status wrongValue(const std::string& culprit, std::string message) {
   return failure(ErrorCode::invalidData, std::move(message), culprit);
 }
 
-/// Parses; a key that an object has twice is an error, of which the parser would keep one in silence.
-Result<SceneJson> parsedScene(std::string_view text, const std::string& path) {
-  std::vector<std::unordered_set<std::string>> keys;
+/// Looks for a key that one object states twice, of which the parser would keep one in silence. (A callback
+/// of the parser would see them too, in a time that grows with the square of a list's length.)
+class RepeatedKeys : public nlohmann::json_sax<SceneJson> {
+ public:
   std::string repeated;
-  const auto watch = [&](int, SceneJson::parse_event_t event, SceneJson& value) {
-    if (event == SceneJson::parse_event_t::object_start) keys.emplace_back();
-    if (event == SceneJson::parse_event_t::object_end) keys.pop_back();
-    if (event == SceneJson::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second &&
-        repeated.empty())
-      repeated = value.get<std::string>();
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(std::size_t) override {
+    keys_.emplace_back();
     return true;
-  };
+  }
+  bool key(string_t& key) override {
+    const auto [known, isNew] = keys_.back().insert(key);
+    if (!isNew) repeated = key;
+    return isNew;
+  }
+  bool end_object() override {
+    keys_.pop_back();
+    return true;
+  }
+  bool start_array(std::size_t) override { return true; }
+  bool end_array() override { return true; }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
+    return false;  // which the parser reports
+  }
+
+ private:
+  std::vector<std::set<std::string>> keys_;
+};
+
+Result<SceneJson> parsedScene(std::string_view text, const std::string& path) {
   try {
-    SceneJson json = SceneJson::parse(text.begin(), text.end(), watch);
-    if (!repeated.empty())
-      return failure(ErrorCode::invalidData, fmt::format("states the key '{}' twice", repeated), path);
-    return json;
+    RepeatedKeys keys;
+    if (!SceneJson::sax_parse(text.begin(), text.end(), &keys) && !keys.repeated.empty())
+      return failure(ErrorCode::invalidData, fmt::format("states the key '{}' twice", keys.repeated), path);
+    return SceneJson::parse(text.begin(), text.end());
   } catch (const SceneJson::exception& error) {
     // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
     std::string what = error.what();

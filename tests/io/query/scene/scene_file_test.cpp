@@ -196,6 +196,18 @@ TEST_F(Scenes, ObjectsStandOnTheGroundOrAtTheirHeightAndTurnClockwise) {
   expectStands(at(4, {0, 2, 0}), there(1020, 1980, 2));
 }
 
+TEST_F(Scenes, AMeshOnAMapOfItsOwnIsRemarkedOn) {
+  putScene(folder_.file("far.obj"), "v 500000 5200000 0\nv 500001 5200000 0\nv 500000 5200001 3\nf 1 2 3\n");
+  const auto far = open(R"({"file": "far.obj", "at": [1, 2]}, {"file": "mast.obj", "at": [1, 2]})");
+  ASSERT_TRUE(far);
+  ASSERT_EQ(far->warnings.size(), 1u);
+  EXPECT_EQ(far->warnings[0].sentence.find("objects[0]"), 0u);
+  EXPECT_SAYS(far->warnings[0].sentence, "objects[0] 'far': its coordinates are 5.22e+06 units from 0,0,0");
+  const auto based = open(R"({"file": "far.obj", "at": [1, 2], "anchor": "base"})");
+  ASSERT_TRUE(based);
+  EXPECT_TRUE(based->warnings.empty());
+}
+
 TEST_F(Scenes, ThousandsOfInstancesShareOneModel) {
   std::string objects;
   for (int i = 0; i < 20000; ++i)

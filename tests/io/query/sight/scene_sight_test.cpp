@@ -13,10 +13,12 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "datasets/crs_wkt.h"
 #include "io/geo/crs/ellipsoid_earth.h"
+#include "io/geo/crs/transform.h"
 #include "io/geo/dem/raster_writer.h"
 #include "io/query/sight/crossing.h"
 #include "io/written_amt.h"
@@ -74,7 +76,7 @@ class SightThroughMeshes : public testing::Test {
   /// A plain at height 100 from 500000,5200000 on, a kilometre wide.
   void makeScene(const std::string& objects) {
     Georeference georeference;
-    georeference.geoTransform = {500000, 10, 0, 5201000, 0, -10};
+    georeference.geoTransform = {500000, pixel_, 0, 5200000 + 100 * pixel_, 0, -pixel_};
     georeference.hasGeoTransform = true;
     georeference.crsWkt = kUtm32Wkt;
     georeference.verticalUnit = std::string("m");
@@ -151,6 +153,7 @@ class SightThroughMeshes : public testing::Test {
     return {stand.x + o.scale * p.x, stand.y + o.scale * p.y, stand.z + o.above + o.scale * p.z};
   }
 
+  double pixel_ = 10;  ///< metres
   TemporaryFolder folder_;
   std::optional<OpenScene> scene_;
 };
@@ -223,6 +226,121 @@ TEST_F(SightThroughMeshes, ATowerBlocksUpToItsTopWhichTouchesAndIsSeenAtItsVerti
   EXPECT_TRUE(first(path({500501, 5200502}, 150, {500501, 5200502}, 101), *earth));
   EXPECT_FALSE(first(path({500501, 5200502}, 150, {500501, 5200502}, 130), *earth));
   EXPECT_FALSE(first(path({500511, 5200502}, 150, {500511, 5200502}, 101), *earth));
+}
+
+TEST_F(SightThroughMeshes, TheLineOfACurvedEarthSagsTowardsObjects) {
+  put("tower.obj", kTower);
+  pixel_ = 300;
+  // Over 28 km the line sags by some 13 m: between heights of 150 it is at 136.8 above the middle.
+  for (const auto& [above, isPlane, isBlocked] : {std::tuple{6.0, false, false},
+                                                  {7.5, false, true},
+                                                  {7.5, true, false},
+                                                  {19.9, true, false},
+                                                  {20.1, true, true}}) {
+    makeScene(fmt::format(R"(, {{"file": "tower.obj", "at": [515000, 5215000], "above": {}}})", above));
+    const TerrainModel& model = *scene_->terrainModel();
+    const auto plane = makePlaneEarth(model);
+    const auto curved = makeEllipsoidEarth(model);
+    ASSERT_TRUE(curved);
+    const auto met = first(path({501000, 5215000}, 150, {529000, 5215000}, 150), isPlane ? *plane : **curved);
+    EXPECT_EQ(met.has_value(), isBlocked) << above << " " << isPlane;
+    if (met) {
+      EXPECT_NEAR(met->height, isPlane ? 150 : 136.8, 0.2);
+      EXPECT_NEAR(met->distance, 13995, 5.5 * 4);
+    }
+  }
+}
+
+TEST_F(SightThroughMeshes, TinyObjectsAndSteepLinesAreSeenExactly) {
+  put("tower.obj", kTower);
+  // A post of 1 cm, whose middle is at 500500.5,5200500.
+  makeScene(R"(, {"file": "tower.obj", "at": [500500.5, 5200500], "scale": 0.001})");
+  const auto earth = makePlaneEarth(*scene_->terrainModel());
+  const auto at = [&](double y, double z) {
+    return first(path({500300, y}, z, {500800, y}, z), *earth).has_value();
+  };
+  EXPECT_TRUE(at(5200500.0049, 100.02));
+  EXPECT_FALSE(at(5200500.0051, 100.02));
+  EXPECT_TRUE(at(5200500.003, 100.0299));
+  EXPECT_FALSE(at(5200500.003, 100.0301));
+  // From a satellite down to the plain behind the post, and beside it.
+  const auto down = [&](double y) {
+    return first(path({500500.5, y}, 500000, {500500.5 + 1e-7, y}, 99), *earth).has_value();
+  };
+  EXPECT_TRUE(down(5200500.004));
+  EXPECT_FALSE(down(5200500.006));
+}
+
+TEST_F(SightThroughMeshes, OnADemInDegreesObjectsHaveTheirMetres) {
+  put("tower.obj", kTower);
+  Georeference georeference;
+  georeference.geoTransform = {9, 0.0001, 0, 47.01, 0, -0.0001};
+  georeference.hasGeoTransform = true;
+  georeference.crsWkt = kWgs84Wkt;
+  georeference.isGeographic = true;
+  georeference.verticalUnit = std::string("m");
+  const std::vector<double> heights(101 * 101, 100.0);
+  ASSERT_TRUE(writeGeoTiff(folder_.file("degrees.tif"), 101, 101, heights, georeference));
+  put("degrees.json",
+      R"({"objects": [{"file": "degrees.tif"}, {"file": "tower.obj", "lonlat": [9.005, 47.005]}]})");
+  auto file = readScene(folder_.file("degrees.json"));
+  ASSERT_TRUE(file);
+  auto opened = openScene(*std::move(file));
+  ASSERT_TRUE(opened) << opened.error().describe();
+  scene_.emplace(*std::move(opened));
+  const auto earth = makeEllipsoidEarth(*scene_->terrainModel());
+  ASSERT_TRUE(earth);
+  constexpr double kNorth = 1 / 111180.0, kEast = 1 / 76080.0;  // degrees of a metre at 47 degrees
+  const auto eastwards = [&](double metres) {
+    const double y = 47.005 + metres * kNorth;
+    return first(path({9.002, y}, 110, {9.008, y}, 110), **earth).has_value();
+  };
+  const auto northwards = [&](double metres) {
+    const double x = 9.005 + metres * kEast;
+    return first(path({x, 47.002}, 110, {x, 47.008}, 110), **earth).has_value();
+  };
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_TRUE(eastwards(4.95 * side));
+    EXPECT_FALSE(eastwards(5.05 * side));
+    EXPECT_TRUE(northwards(4.95 * side));
+    EXPECT_FALSE(northwards(5.05 * side));
+  }
+}
+
+TEST_F(SightThroughMeshes, PlacesOfAnotherCrsStandAndHeadByThatCrs) {
+  put("tower.obj", kTower);
+  makeScene(R"(, {"file": "tower.obj", "at": [500500, 5200500]})");
+  const auto toLonLat = CrsTransform::between(kUtm32Wkt, "EPSG:4326");
+  ASSERT_TRUE(toLonLat);
+  const Vec2 lonLat = *(*toLonLat)({500500, 5200500});
+  const auto to33 = CrsTransform::between(kUtm32Wkt, "EPSG:32633");
+  ASSERT_TRUE(to33);
+  const Vec2 in33 = *(*to33)({500500, 5200500}), north = *(*to33)({500500, 5200600});
+  const Vec3 here = scene_->objects[1].placement({0, 0, 0});
+  const auto standsHere = [&](const std::string& crs, const std::string& place, double clockwise) {
+    const std::string text = fmt::format(
+        R"({{"crs": "{}", "objects": [{{"file": "dem.tif"}}, {{"file": "tower.obj", {}}}]}})", crs, place);
+    put("other.json", text);
+    auto file = readScene(folder_.file("other.json"));
+    ASSERT_TRUE(file) << file.error().describe();
+    const auto scene = openScene(*std::move(file));
+    ASSERT_TRUE(scene) << scene.error().describe();
+    const Vec3 there = scene->objects[1].placement({0, 0, 0});
+    EXPECT_LT(norm(there - here), 1e-3) << place;
+    const Vec3 front = scene->objects[1].placement.direction({0, 1, 0});
+    EXPECT_NEAR(std::atan2(front.x, front.y) * 180 / std::numbers::pi, clockwise, 1e-4) << crs;
+  };
+  // Zone 33 is to the east: its grid north leans to the west here, and the front with it, or against it.
+  const double lean = std::atan2(north.x - in33.x, north.y - in33.y) * 180 / std::numbers::pi;
+  EXPECT_GT(std::abs(lean), 3);
+  standsHere("EPSG:32633", fmt::format(R"("at": [{:.4f}, {:.4f}])", in33.x, in33.y), -lean);
+  // True north leans by the meridian's convergence.
+  const double convergence = (lonLat.x - 9) * std::sin(lonLat.y * std::numbers::pi / 180);
+  standsHere("EPSG:4326", fmt::format(R"("at": [{:.10f}, {:.10f}])", lonLat.x, lonLat.y), -convergence);
+  standsHere("EPSG:32632", fmt::format(R"("lonlat": [{:.10f}, {:.10f}])", lonLat.x, lonLat.y), 0);
+  standsHere("EPSG:32633",
+             fmt::format(R"("lonlat": [{:.10f}, {:.10f}], "turn": [90, 0, 0])", lonLat.x, lonLat.y),
+             90 - lean);
 }
 
 TEST_F(SightThroughMeshes, LinesThroughSharedEdgesAndVerticesDoNotLeak) {
