@@ -338,6 +338,7 @@ void PictureArguments::addTo(CLI::App& command) {
   // Hidden: pictures of the window itself.
   command.add_option("--window-screenshot", windowScreenshot)->group("");
   command.add_option("--window-frames", windowFrames)->group("");
+  command.add_option("--window-script", windowScript)->group("");
 }
 
 Result<std::pair<int, int>> PictureArguments::size() const {

@@ -89,6 +89,7 @@ struct PictureArguments {
   int samples = 4;
   std::string windowScreenshot;  ///< for tests: the last picture of the window
   int windowFrames = 0;          ///< for tests: the window closes after this many frames; 0 = never
+  std::string windowScript;      ///< for tests: lines that window_script.h reads
 
   void addTo(CLI::App& command);
   /// @return width and height in pixels; 1280 x 720 where no size is given. Errors: usage.

@@ -18,6 +18,7 @@
 #include "cli/view/arguments.h"
 #include "cli/view/pictures.h"
 #include "cli/view/viewed.h"
+#include "cli/view/window_script.h"
 #include "engine/base/stopwatch.h"
 #include "io/files/shell_text.h"
 #include "io/geo/crs/data_unit.h"
@@ -146,6 +147,79 @@ Result<std::optional<Opened>> openModelOf(const ViewArguments& a, std::optional<
   return std::optional(std::move(opening->opened));
 }
 
+/// The program that runs, for commands of its own; empty where that cannot be told.
+std::string thisProgram() {
+  std::error_code failed;
+  const auto path = std::filesystem::read_symlink("/proc/self/exe", failed);
+  return failed ? std::string() : path.string();
+}
+
+/// A file that is shown instead of another, with what it needs.
+struct OtherFile {
+  ViewArguments arguments;
+  std::optional<Viewed> viewed = {};
+  WindowOptions window = {};
+};
+
+/// A dropped file, as `view FILE` opens it; what was stated for the first file is not for it. Nothing: the
+/// window was closed.
+Result<bool> openOther(const std::string& path, OtherFile& other, GlfwWindow& shown, Session& session) {
+  ViewArguments& a = other.arguments;
+  a.model = path;
+  std::optional<AmtContainer> file;
+  if (isModelFile(path)) {
+    ARETE_TRY(file, openModelFile(path));
+  }
+  ARETE_TRY(std::optional<Opened> model, openModelOf(a, std::move(file), &shown, session));
+  if (!model) return false;
+  ARETE_TRY(other.viewed, viewedOf(a, std::move(*model), session));
+  ARETE_CHECK(a.detail.findBudget(other.viewed->finestTriangles));
+  const Subject& subject = *other.viewed->subject;
+  ARETE_TRY(other.window.start.settings, a.settings(subject.colorings()));
+  other.window.start.settings.look.colors = other.viewed->colors;
+  ARETE_CHECK(subject.check(other.window.start.settings));
+  other.window.heightsOfContours = other.viewed->heightsOfContours;
+  return true;
+}
+
+/// Shows a model, and then what is dropped on the window or made in it, until it is closed. A file that
+/// cannot be opened is said in the window, which goes on with what it had.
+Status showThenOthers(const ViewArguments& a, GlfwWindow& shown, const Viewed& first, WindowOptions window,
+                      Session& session) {
+  std::optional<WindowScript> script;
+  if (!a.pictures.windowScript.empty()) {
+    ARETE_TRY(script, WindowScript::read(a.pictures.windowScript));
+    window.onFrame = [&](ViewerSession& s, int) { return script->step(s); };
+  }
+  const Viewed* viewed = &first;
+  std::unique_ptr<OtherFile> other;
+  while (true) {
+    ARETE_TRY(const WindowEnd end, showIn(shown, viewed->addModel, window, session.context()));
+    if (end.next.empty()) return {};
+    auto next = std::make_unique<OtherFile>();
+    const Result<bool> isOpen = openOther(end.next, *next, shown, session);
+    if (isOpen && !*isOpen) return {};
+    if (!isOpen) {
+      if (isOpen.error().code == ErrorCode::interrupted) return tl::unexpected(isOpen.error());
+      window.message = isOpen.error().describe();
+      session.note(window.message);
+      window.start.camera = end.camera;
+      continue;
+    }
+    session.note("opened " + end.next);
+    next->window.samples = window.samples;
+    next->window.lastPicture = window.lastPicture;
+    next->window.frames = window.frames;
+    next->window.onFrame = window.onFrame;
+    next->window.desk = {window.desk.program, next->viewed->files, window.desk.log};
+    shown.setTitle(fmt::format("arete - {}", end.next));
+    // What is shown is kept until the next is there.
+    other = std::move(next);
+    viewed = &*other->viewed;
+    window = other->window;
+  }
+}
+
 Status runView(ViewArguments a, Session& session) {
   ARETE_CHECK(a.completePictures());
   std::optional<AmtContainer> file;
@@ -208,7 +282,8 @@ Status runView(ViewArguments a, Session& session) {
     window.lastPicture = a.pictures.windowScreenshot;
     window.frames = a.pictures.windowFrames;
     window.heightsOfContours = viewed.heightsOfContours;
-    return runWindow(std::move(*shown), viewed.addModel, window, session.context());
+    window.desk = {thisProgram(), viewed.files, [&session](const std::string& done) { session.note(done); }};
+    return showThenOthers(a, *shown, viewed, std::move(window), session);
   }
 
   ARETE_TRY(HeadlessView view,

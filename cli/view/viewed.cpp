@@ -101,6 +101,7 @@ Result<Viewed> viewedSurface(const ViewArguments& a, SurfaceModel opened) {
   const auto subject = std::make_shared<SurfaceSubject>(form, turn);
   Viewed viewed{.subject = subject,
                 .finestTriangles = model->mt.finestTriangleCount(),
+                .files = {a.model},
                 .addModel = [model, subject](Scene& scene) -> Status {
                   ARETE_TRY(SurfaceDrawable made, SurfaceDrawable::create(*model, subject));
                   return scene.add(std::make_unique<SurfaceDrawable>(std::move(made)));
@@ -175,6 +176,8 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
   parts->forms.resize(scene.models.size());
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const PlacedObject& object = scene.objects[i];
+    const bool isSurface = parts->surface(object.model) != nullptr;
+    viewed.files.push_back(isSurface ? scene.files[object.model] : std::string());
     if (const SurfaceModel* const surface = parts->surface(object.model)) {
       auto& form = parts->forms[object.model];
       if (!form)

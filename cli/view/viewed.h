@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "cli/session/session.h"
 #include "cli/view/arguments.h"
@@ -28,6 +29,7 @@ struct Viewed {
   LongitudeTurns turns = {};
   std::optional<Camera> camera = {};                 ///< that is stated
   std::string source = {};                           ///< that is not to be overwritten
+  std::vector<std::string> files = {};               ///< by object; empty of a terrain
   std::shared_ptr<const TerrainColors> colors = {};  ///< that are stated
   std::shared_ptr<const StatedLayers> layers = {};   ///< over a terrain
   FillScene addModel;                                ///< keeps the model

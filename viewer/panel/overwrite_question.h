@@ -13,6 +13,7 @@ namespace arete {
 enum class Saving {
   flight,  ///< a file
   frames,  ///< a folder of frame_00000.png and so on
+  mesh,    ///< a file that a command writes
 };
 
 /// What would be lost by writing, as a sentence with its path; empty where nothing would: "flight.json

@@ -66,6 +66,8 @@ class SurfaceSubject final : public Subject {
   bool isPlaced() const override { return isPlaced_; }
   const SurfaceModel& model() const { return form_->model; }
   const Placement& placement() const { return placement_; }
+  /// In upright space.
+  const MetricBox& uprightBox() const { return form_->shape.box; }
   /// Moves it, while it is shown.
   void place(const Placement& placement);
   /// From upright space to where it is drawn.

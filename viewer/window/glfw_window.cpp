@@ -71,6 +71,7 @@ struct GlfwWindow::Held {
   GLFWwindow* window = nullptr;
   std::string description;
   std::vector<std::pair<int, int>> keys;  // pressed, and with which modifiers
+  std::vector<std::string> dropped;
   double wheel = 0, lastTime = 0;
   Vec2 mouse, pressed;
   bool isPressed = false, isDragged = false, wasInWindow = false;
@@ -108,6 +109,10 @@ Result<GlfwWindow> GlfwWindow::open(const std::string& title, int width, int hei
   glfwSetKeyCallback(held->window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
     if (action == GLFW_PRESS)
       static_cast<Held*>(glfwGetWindowUserPointer(w))->keys.emplace_back(key, modifiers);
+  });
+  glfwSetDropCallback(held->window, [](GLFWwindow* w, int count, const char** paths) {
+    auto& dropped = static_cast<Held*>(glfwGetWindowUserPointer(w))->dropped;
+    dropped.assign(paths, paths + count);
   });
   // A click between two slow frames is one all the same.
   glfwSetInputMode(held->window, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
@@ -157,6 +162,10 @@ float GlfwWindow::contentScale() const {
   return std::max(1.0f, y / float(pixelsPerUnit()));
 }
 
+void GlfwWindow::setTitle(const std::string& title) {
+  glfwSetWindowTitle(held_->window, title.c_str());
+}
+
 void GlfwWindow::show() {
   glfwShowWindow(held_->window);
 }
@@ -170,6 +179,7 @@ GlfwWindow::Events GlfwWindow::poll(bool isMouseTaken, bool areKeysTaken) {
   glfwPollEvents();
   Events events;
   InputState& in = events.input;
+  events.dropped = std::exchange(h.dropped, {});
   const double now = glfwGetTime();
   // A window that was hidden, or a machine that slept, does not fly on.
   in.seconds = std::min(now - h.lastTime, 0.25);

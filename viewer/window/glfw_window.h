@@ -39,12 +39,14 @@ class GlfwWindow {
     InputState input;
     std::vector<Action> actions;
     std::optional<Vec2> click;  ///< left, without dragging; pixels from the top left
+    std::vector<std::string> dropped;  ///< files that were dropped on the window
   };
   /// The input since the last call. `isMouseTaken`, `areKeysTaken`: by the panel.
   Events poll(bool isMouseTaken, bool areKeysTaken);
   /// Waits for input, at most this long.
   void wait(double seconds);
   void show();
+  void setTitle(const std::string& title);
 
  private:
   struct Held;

@@ -13,6 +13,7 @@
 
 #include "viewer/objects/objects_section.h"
 #include "viewer/panel/widgets.h"
+#include "viewer/tools/desk_section.h"
 
 namespace arete {
 
@@ -31,6 +32,7 @@ using widget::tip;
 
 void Panel::draw(ViewerSession& s, double scale) {
   drawMarks(s, scale);
+  if (s.desk) drawBoxHandles(*s.desk, s.subject, s.rig.camera(), s.settings, scale);
   if (s.shows.help) drawHelp(s);
   CoveredEdges covered;
   if (s.shows.panel) {
@@ -47,6 +49,9 @@ void Panel::draw(ViewerSession& s, double scale) {
       pickSection(s, *s.tools);
     else if (s.objects)
       drawDistanceSection(s.distance, *s.objects, s.subject.heightUnit());
+    if (s.desk)
+      drawDeskSection(*s.desk, s.frozen.value_or(s.rig.camera()), s.settings,
+                      [&](std::string sentence) { s.say(std::move(sentence)); });
     flightSection(s);
     covered.right = endColumn();
   }

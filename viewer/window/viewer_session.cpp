@@ -14,6 +14,8 @@ namespace arete {
 namespace {
 
 constexpr double kMessageSeconds = 8;
+/// How near to a handle of a box the mouse takes it.
+constexpr double kHandlePixels = 14;
 /// A camera that stays so long is at rest; from then on the time of a frame doubles every second.
 constexpr double kRestSeconds = 0.5;
 bool isSamePlace(const Camera& a, const Camera& b) {
@@ -63,7 +65,11 @@ void ViewerSession::say(std::string sentence) {
 void ViewerSession::step(const InputState& input) {
   messageSeconds_ -= input.seconds;
   if (messageSeconds_ <= 0) message_.clear();
-  moveCamera(input);
+  moveCamera(withoutBoxDrag(input));
+  if (desk) {
+    say(desk->step());
+    if (auto opened = desk->takeOpened()) files.next = std::move(*opened);
+  }
   // A CRS without an ellipsoid leaves the map flat, and that is said once.
   if (const Status can = subject.check(settings); !can && settings.isCurved) {
     settings.isCurved = false;
@@ -97,6 +103,21 @@ ToleranceControl::Wanted ViewerSession::wantedNow(const InputState& input) {
   ToleranceControl::Wanted now = wanted;
   if (restSeconds_ > kRestSeconds) now.frameMilliseconds *= std::exp2(restSeconds_ - kRestSeconds);
   return now;
+}
+
+// A face of the box that the mouse holds takes the drag from the camera.
+InputState ViewerSession::withoutBoxDrag(const InputState& input) {
+  InputState rest = input;
+  const bool isPressed = input.leftButton && !std::exchange(wasLeftButton_, input.leftButton);
+  if (!desk || !desk->box()) return rest;
+  CropBox& box = *desk->box();
+  if (!input.leftButton) box.release();
+  if (isPressed && input.isOverPicture) box.grab(rig.camera(), input.mouse, settings, kHandlePixels);
+  if (!box.held()) return rest;
+  box.drag(rig.camera(), input.mouse, settings);
+  rest.leftButton = false;
+  rest.mouseMoved = {};
+  return rest;
 }
 
 ViewerSession::Home ViewerSession::homeNow(HomeView view) const {
@@ -261,6 +282,7 @@ void ViewerSession::answer(bool isYes) {
   const auto wish = question.yes();
   if (!wish) return;
   if (wish->saving == Saving::flight) return saveFlight(wish->path);
+  if (wish->saving == Saving::mesh) return desk ? say(desk->confirmed()) : void();
   files.framesFolder = wish->path;
   files.wantsFrames = true;
 }

@@ -13,6 +13,7 @@
 #include "viewer/scene/layer.h"
 #include "viewer/scene/subject.h"
 #include "viewer/scene/tolerance_control.h"
+#include "viewer/tools/surface_desk.h"
 #include "viewer/window/camera_rig.h"
 #include "viewer/window/cursor.h"
 #include "viewer/window/flight_deck.h"
@@ -61,7 +62,8 @@ class ViewerSession {
   const std::string& message() const { return message_; }
 
   /// The layers that this window lays for its own hand, which no film has.
-  static constexpr std::array kMarks = {"line of sight", "flight", "frozen camera", DistancePicks::kLayer};
+  static constexpr std::array kMarks = {"line of sight", "flight", "frozen camera", DistancePicks::kLayer,
+                                        CropBox::kLayer};
 
   const Subject& subject;
   Layers& layers;
@@ -71,7 +73,8 @@ class ViewerSession {
   DistancePicks distance;             ///< where there is no terrain
   std::optional<ObjectList> objects;  ///< of the scene; nothing in a session without one
   Cursor cursor{subject, tools};
-  OverwriteQuestion question;  ///< waits for answer() before a file is overwritten
+  OverwriteQuestion question;        ///< waits for answer() before a file is overwritten
+  std::optional<SurfaceDesk> desk;   ///< of the surface that is selected; nothing without objects
   /// What the panel covers of the picture. A home view fills the rest, and again when that changes.
   CoveredEdges covered;
 
@@ -95,15 +98,18 @@ class ViewerSession {
     std::filesystem::path flight, framesFolder = "frames";
     bool wantsScreenshot = false;  ///< the window writes one and resets this
     bool wantsFrames = false;      ///< the window renders the flight into the folder
+    std::string next = {};         ///< a file to show instead; empty: none
   } files;
 
  private:
   void layMarks();
   void saveFlight(const std::filesystem::path& path);
   void moveCamera(const InputState& input);
+  InputState withoutBoxDrag(const InputState& input);
   void readCursor(const InputState& input);
   Georeference georeference() const;
 
+  bool wasLeftButton_ = false;
   std::string message_;
   double messageSeconds_ = 0;
   std::size_t nextHome_ = 0;

@@ -75,27 +75,30 @@ ViewerSession::Start startOf(const WindowOptions& options, const GlfwWindow& win
   return start;
 }
 
-/// The loop of the window. The window owns the context of OpenGL and is destroyed after what uses it.
+/// The loop of the window, which has the context of OpenGL and outlives it.
 class WindowLoop {
  public:
-  WindowLoop(const WindowOptions& options, GlfwWindow window, Scene scene)
+  WindowLoop(const WindowOptions& options, GlfwWindow& window, Scene scene)
       : options_(options),
-        window_(std::move(window)),
+        window_(window),
         panelContext_(window_.handle(), window_.contentScale()),
         scene_(std::move(scene)),
         heights_(options.heightsOfContours),
         session_(scene_.subject(), scene_.layers, startOf(options, window_)) {
     session_.objects.emplace(scene_);
+    session_.desk.emplace(options.desk, *session_.objects, session_.layers, session_.question);
     session_.device.renderer = window_.description();
     session_.device.refusal = scene_.deviceRefusal();
     if (!session_.device.refusal.empty()) session_.settings.path = CutPath::processor;
     if (session_.tools) glGetIntegerv(GL_MAX_TEXTURE_SIZE, &session_.tools->mostOverlayPixels);
-    session_.say("drag: turn   wheel: nearer and farther   H: the whole model   F1: all keys");
+    session_.say(options.message.empty()
+                     ? "drag: turn   wheel: nearer and farther   H: the whole model   F1: all keys"
+                     : options.message);
     for (const Warning& warning : scene_.warnings()) session_.say(warning);
   }
 
   // A window of no size, as one that is minimized, is not drawn; the loop sleeps instead of spinning.
-  Status run(const RunContext& context) {
+  Result<WindowEnd> run(const RunContext& context) {
     ARETE_TRY(DecorationOverlay overlay, DecorationOverlay::create(scene_));
     overlay_.emplace(std::move(overlay));
     window_.show();
@@ -108,9 +111,12 @@ class WindowLoop {
         continue;
       }
       ARETE_CHECK(drawFrame(context));
+      if (!session_.files.next.empty()) break;
     }
-    if (options_.lastPicture.empty() || shown_.width == 0) return {};
-    return savePng(shown_, options_.lastPicture);
+    WindowEnd end{session_.files.next, session_.rig.camera()};
+    if (end.next.empty() && !options_.lastPicture.empty() && shown_.width > 0)
+      ARETE_CHECK(savePng(shown_, options_.lastPicture));
+    return end;
   }
 
  private:
@@ -128,6 +134,7 @@ class WindowLoop {
     session_.rig.setPicture(width, height);
     for (const Action action : events.actions) session_.apply(action);
     if (events.click) session_.click(*events.click);
+    if (!events.dropped.empty()) session_.files.next = events.dropped.front();
     session_.step(events.input);
     placeFrameFile();
 
@@ -258,7 +265,7 @@ class WindowLoop {
   }
 
   const WindowOptions& options_;
-  GlfwWindow window_;
+  GlfwWindow& window_;
   PanelContext panelContext_;
   Scene scene_;
   HeightsOfContours heights_;
@@ -282,14 +289,15 @@ class WindowLoop {
 Status runWindow(const FillScene& fill, const WindowOptions& options, const RunContext& context) {
   ARETE_TRY(GlfwWindow window,
             GlfwWindow::open(options.title, options.width, options.height, options.waitsForScreen));
-  return runWindow(std::move(window), fill, options, context);
+  ARETE_TRY([[maybe_unused]] const WindowEnd end, showIn(window, fill, options, context));
+  return {};
 }
 
-Status runWindow(GlfwWindow window, const FillScene& fill, const WindowOptions& options,
-                 const RunContext& context) {
+Result<WindowEnd> showIn(GlfwWindow& window, const FillScene& fill, const WindowOptions& options,
+                         const RunContext& context) {
   ARETE_TRY(Scene scene, Scene::create());
   ARETE_CHECK(fill(scene));
-  WindowLoop loop(options, std::move(window), std::move(scene));
+  WindowLoop loop(options, window, std::move(scene));
   return loop.run(context);
 }
 

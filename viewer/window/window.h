@@ -21,6 +21,9 @@ struct WindowOptions {
   int samples = 4;                 ///< per pixel, to smooth edges
   bool waitsForScreen = true;      ///< vertical synchronisation
 
+  SurfaceDesk::Start desk = {};  ///< of the surfaces that are shown
+  std::string message = {};     ///< said at first; empty: how to move
+
   /// Of the contours that are shown; empty: none are written.
   WriteHeights heightsOfContours = {};
   /// Before every frame, counted from 0; false ends. May be empty.
@@ -36,8 +39,13 @@ struct WindowOptions {
 /// On the thread of main(); one window at a time. Errors: unsupported (no display; OpenGL below 4.5, naming
 /// what was found), interrupted, those of `fill` and of saving.
 Status runWindow(const FillScene& fill, const WindowOptions& options, const RunContext& context = {});
-/// The same in a window that is open, whose size and title stay.
-Status runWindow(GlfwWindow window, const FillScene& fill, const WindowOptions& options,
-                 const RunContext& context = {});
+/// How showing a scene ended.
+struct WindowEnd {
+  std::string next;  ///< a file that is to be shown next: dropped, or just made; empty: the user has closed it
+  Camera camera;     ///< of the last frame
+};
+/// The same in a window that is open, whose size and title stay; it is open afterwards too.
+Result<WindowEnd> showIn(GlfwWindow& window, const FillScene& fill, const WindowOptions& options,
+                         const RunContext& context = {});
 
 }  // namespace arete
