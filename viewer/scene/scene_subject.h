@@ -11,7 +11,7 @@
 namespace arete {
 
 /// Several models as one that a camera looks at. Where one is a terrain, the scene has the metric space of
-/// the first, its ground, and its places on the map; else that of a camera's own, in the unit of the objects.
+/// the first, its ground, and its places on the map; else a camera's own, in the unit of the objects.
 class SceneSubject final : public Subject {
  public:
   /// Precondition: at least one; they outlive this, and may move.

@@ -84,7 +84,7 @@ class Subject {
   virtual double leastRadius() const = 0;
   /// Depth of the plane that clips what is near, in metric units, > 0.
   virtual double nearPlane() const = 0;
-  /// The terrain, or that of the scene; null where there is none.
+  /// The terrain itself, or the scene's; null where there is none.
   virtual const TerrainSubject* terrain() const { return nullptr; }
   /// The ground that cameras follow; null where there is none.
   virtual const GroundHeights* heights() const { return nullptr; }

@@ -167,6 +167,10 @@ const std::map<std::string, Tried>& triedCommands() {
          {"--path", {"--path flight.json", "", "--path turn.json"}},
          {"--round", {"--round"}},
          {"--up", {"--up y"}},
+         {"--turn", {"--turn 30,20,10"}},
+         {"--hide", {"--hide sun"}},
+         {"--flat", {"--flat"}},
+         {"--sides", {"--sides front"}},
          {"--pixel-error", {"--pixel-error 20"}},
          {"--max-triangles", {"--max-triangles 60%", "--pixel-error 0.001"}},
          {"--cut", {"--cut processor"}},
@@ -199,6 +203,7 @@ const std::map<std::string, Tried>& triedCommands() {
          {"--film", {"--film $.mp4", "--round --frames $"}},
          {"--figures", {"--figures $.json", "--round --frames $"}}},
         {{"--round", "it asks for frames"},
+         {"--sides", "of a closed ball no inside is seen"},
          {"--frames", "view_test.cpp draws flights, which take seconds"},
          {"--fps", "the same"},
          {"--film", "the same"},
@@ -214,8 +219,8 @@ const std::map<std::string, std::string> kOfTerrainAlone = {
     {"profile", "profile ball.amt --along 0,0:1,1"},
     {"viewshed", "viewshed ball.amt --observer 0,0,1 -o $.tif"}};
 /// Commands that take no model.
-const std::set<std::string> kWithoutModel = {"",          "mesh",          "mesh info", "mesh repair",
-                                             "mesh crop", "mesh decimate", "demo",      "manual"};
+const std::set<std::string> kWithoutModel = {
+    "", "mesh", "mesh info", "mesh repair", "mesh crop", "mesh decimate", "mesh place", "demo", "manual"};
 
 /// The kind that the help of an option begins with.
 std::optional<ModelKind> kindInHelp(const CLI::Option& option) {
