@@ -18,8 +18,8 @@ namespace {
 /// Verbs, and how many words follow.
 const std::map<std::string, std::size_t, std::less<>>& verbs() {
   static const std::map<std::string, std::size_t, std::less<>> all = {
-      {"halve", 0},    {"error", 1}, {"triangles", 1}, {"save", 1},  {"box", 1},    {"crop", 1},
-      {"decimate", 3}, {"drag", 1},  {"click", 1},     {"open", 1},  {"yes", 0},    {"no", 0},
+      {"halve", 0},    {"error", 1}, {"triangles", 1}, {"save", 1},   {"box", 1},        {"crop", 1},
+      {"decimate", 3}, {"drag", 1},  {"click", 1},     {"open", 1},   {"yes", 0},        {"no", 0},
       {"key", 0},      {"play", 0},  {"around", 0},    {"frames", 1}, {"screenshot", 0}, {"free", 0}};
   return all;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viewer/objects/distance_picks.h"
 
+#include <fmt/format.h>
+
 namespace arete {
 namespace {
 
@@ -27,6 +29,21 @@ void DistancePicks::clear() {
 Vec3 DistancePicks::way() const {
   const Pick &a = picks_[0], &b = picks_[1];
   return a.object == b.object ? b.inObject - a.inObject : b.metric - a.metric;
+}
+
+std::string DistancePicks::text(const std::string& unit) const {
+  std::string text;
+  for (std::size_t i = 0; i < picks_.size(); ++i) {
+    const Pick& pick = picks_[i];
+    text += fmt::format("{} {},{},{}", i == 0 ? "A" : "B", pick.inObject.x, pick.inObject.y, pick.inObject.z);
+    if (!pick.material.empty()) text += " material " + pick.material;
+    if (!pick.parts.empty()) text += " " + pick.parts;
+    text += "\n";
+  }
+  if (picks_.size() < 2) return text;
+  const Vec3 by = way();
+  return text + fmt::format("distance {}{}{}, dx {}, dy {}, dz {}\n", norm(by), unit.empty() ? "" : " ", unit,
+                            by.x, by.y, by.z);
 }
 
 }  // namespace arete

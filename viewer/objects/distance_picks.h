@@ -26,6 +26,9 @@ class DistancePicks {
   /// From the first to the second, in the coordinates of the file if both are of one object, else of the
   /// scene. Precondition: two picks.
   Vec3 way() const;
+  /// All of it, a line each: "A 1.5,2,3 material brick", "distance 4.2 m, dx 1, dy 2, dz 3", in the fewest
+  /// digits that read back to the same numbers.
+  std::string text(const std::string& unit) const;
 
  private:
   Layers& layers_;

@@ -124,13 +124,16 @@ void drawDistanceSection(DistancePicks& distance, const ObjectList& objects, con
     row(i == 0 ? "A" : "B", fmt::format("{:.7g}, {:.7g}, {:.7g}", p.x, p.y, p.z));
     if (objects.count() > 1) row("", objects.nameOf(pick.object));
     if (!pick.material.empty()) row("", pick.material);
+    if (!pick.parts.empty()) row("", pick.parts);
   }
   if (distance.picks().size() == 2) {
     const Vec3 way = distance.way();
     row("distance", fmt::format("{:.7g}{}", norm(way), unit.empty() ? "" : " " + unit));
     row("", fmt::format("{:+.6g}, {:+.6g}, {:+.6g}", way.x, way.y, way.z));
   }
-  if (ImGui::Button("clear")) distance.clear();
+  if (ImGui::Button("clear")) return distance.clear();
+  ImGui::SameLine();
+  if (ImGui::Button("copy")) ImGui::SetClipboardText(distance.text(unit).c_str());
 }
 
 }  // namespace arete

@@ -28,6 +28,8 @@ class SurfacePicker {
   std::optional<SurfacePick> along(const Vec3& eye, const Vec3& direction) const;
   /// The name of the material of a triangle of the finest front; empty where it has none.
   std::string materialOf(TriangleId triangle) const;
+  /// What its face belongs to and carries, as "object wall, group north, class 6"; empty: nothing.
+  std::string partsOf(TriangleId triangle) const;
 
  private:
   const SurfaceModel& model_;

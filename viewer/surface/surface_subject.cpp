@@ -137,6 +137,7 @@ std::optional<Pick> SurfaceSubject::pick(const Camera& camera, Vec2 pixel,
   pick.metric = metric;
   pick.metres = found->length * pose.scale();
   pick.material = form_->picker.materialOf(found->triangle);
+  pick.parts = form_->picker.partsOf(found->triangle);
   pick.inObject = inFile;
   if (isPlaced_) {
     pick.xy = space_.xy(metric);

@@ -8,8 +8,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
@@ -78,7 +78,8 @@ std::string sentenceOf(const std::string& err, const CommandWords& command, int 
     begin = end + 1;
   }
   if (!sentence.empty()) return sentence;
-  if (WIFSIGNALED(status)) return textOf(command) + " was ended by signal " + std::to_string(WTERMSIG(status));
+  if (WIFSIGNALED(status))
+    return textOf(command) + " was ended by signal " + std::to_string(WTERMSIG(status));
   return textOf(command) + " failed with exit code " + std::to_string(WEXITSTATUS(status));
 }
 
@@ -94,8 +95,7 @@ void readMore(int& end, std::string& text) {
 Result<std::string> runOne(const std::string& program, const CommandWords& command,
                            const RunContext& context) {
   PipeEnds out, err;
-  if (out.at[0] < 0 || err.at[0] < 0)
-    return failure(ErrorCode::unsupported, std::strerror(errno), program);
+  if (out.at[0] < 0 || err.at[0] < 0) return failure(ErrorCode::unsupported, std::strerror(errno), program);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -107,8 +107,18 @@ Result<std::string> runOne(const std::string& program, const CommandWords& comma
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
+  // A group of its own, so that what the command starts is ended with it.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t defaults;
+  sigemptyset(&defaults);
+  sigaddset(&defaults, SIGINT);
+  posix_spawnattr_setsigdefault(&attributes, &defaults);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
   pid_t child = 0;
-  const int error = posix_spawn(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
+  const int error = posix_spawn(&child, program.c_str(), &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) return failure(ErrorCode::unsupported, std::strerror(error), program);
   PipeEnds::closeEnd(out.at[1]);
@@ -116,7 +126,7 @@ Result<std::string> runOne(const std::string& program, const CommandWords& comma
   Said said;
   bool isInterrupted = false;
   while (out.at[0] >= 0 || err.at[0] >= 0) {
-    if (context.cancelled() && !std::exchange(isInterrupted, true)) ::kill(child, SIGINT);
+    if (context.cancelled() && !std::exchange(isInterrupted, true)) ::kill(-child, SIGINT);
     std::array<pollfd, 2> ends{pollfd{out.at[0], POLLIN, 0}, pollfd{err.at[0], POLLIN, 0}};
     if (::poll(ends.data(), ends.size(), kPollMilliseconds) <= 0) continue;
     if (ends[0].revents != 0) readMore(out.at[0], said.out);

@@ -78,6 +78,9 @@ void drawDeskSection(SurfaceDesk& desk, const Camera& camera, const ViewSettings
   drawDecimation(desk, say);
   ImGui::Checkbox("show the result", &desk.fields.opens);
   tip("What is saved is opened in this window.");
+  if (desk.lastCommand().empty()) return;
+  if (ImGui::Button("copy the command")) ImGui::SetClipboardText(desk.lastCommand().c_str());
+  tip(desk.lastCommand().c_str());
 }
 
 void drawBoxHandles(const SurfaceDesk& desk, const Subject& subject, const Camera& camera,

@@ -162,8 +162,8 @@ std::string SurfaceDesk::crop() {
   Order order;
   const std::string mesh = meshFor(order);
   const Box3& b = box_->box;
-  CommandWords command = {"mesh", "crop", mesh, "-o", fields.cropped,
-                          "--box=" + numbered(b.low) + "," + numbered(b.high)};
+  CommandWords command = {"mesh", "crop",         mesh,
+                          "-o",   fields.cropped, "--box=" + numbered(b.low) + "," + numbered(b.high)};
   if (fields.keepsWhole) command.push_back("--whole");
   order.commands.push_back(command);
   order.output = fields.cropped;
@@ -191,6 +191,11 @@ std::string SurfaceDesk::decimate() {
 std::string SurfaceDesk::begin(Order order) {
   if (isRunning()) return "something is being made already: stop it first";
   if (order.output.empty()) return "type a name for the file first";
+  // A command may read what was made of the file, and so would not know that it writes over it.
+  std::error_code absent;
+  for (const std::string& shown : start_.files)
+    if (!shown.empty() && fs::equivalent(shown, order.output, absent))
+      return order.output + " is the file that is shown: choose another name";
   waiting_ = std::move(order);
   if (!question_.mayDo(Saving::mesh, waiting_->output)) return {};
   return run();
@@ -219,6 +224,7 @@ std::string SurfaceDesk::step() {
   auto done = job_.take();
   if (!done) return {};
   const Order order = *std::exchange(running_, std::nullopt);
+  lastCommand_ = order.told;
   const std::string said = *done ? firstLine(**done) + "\n" + order.told : done->error().describe();
   if (start_.log) start_.log(*done ? order.told : order.told + ": " + said);
   if (*done && fields.opens) opened_ = order.output;

@@ -63,6 +63,9 @@ class SurfaceDesk {
   /// Takes in what is done, and lays the box.
   std::string step();
 
+  /// The line of the last command that has ended; empty: none has.
+  const std::string& lastCommand() const { return lastCommand_; }
+
   /// Shows the box of the selected surface, or takes it away.
   void toggleBox();
   std::optional<CropBox>& box() { return box_; }
@@ -94,6 +97,7 @@ class SurfaceDesk {
   std::optional<CropBox> box_;
   std::size_t boxOf_ = 0;
   std::optional<std::string> opened_;
+  std::string lastCommand_;
   std::filesystem::path folder_;  // of what is made in between; empty: there is none yet
 };
 

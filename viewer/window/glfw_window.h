@@ -38,7 +38,7 @@ class GlfwWindow {
   struct Events {
     InputState input;
     std::vector<Action> actions;
-    std::optional<Vec2> click;  ///< left, without dragging; pixels from the top left
+    std::optional<Vec2> click;         ///< left, without dragging; pixels from the top left
     std::vector<std::string> dropped;  ///< files that were dropped on the window
   };
   /// The input since the last call. `isMouseTaken`, `areKeysTaken`: by the panel.

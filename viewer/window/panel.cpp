@@ -97,11 +97,12 @@ void Panel::detailSection(ViewerSession& s) {
   if (!section("Detail", false)) return;
   slider("tolerance", s.wanted.pixels, 0.25, 32, "%.2f px", true);
   tip("How far anything drawn may be from the model at full resolution, on the screen.");
-  // The slider counts thousands of triangles; 0 stands for any number.
-  int triangles = int(s.wanted.maxTriangles / 1000);
-  if (ImGui::SliderInt("most triangles", &triangles, 0, 4000, triangles == 0 ? "any number" : "%d 000",
-                       ImGuiSliderFlags_Logarithmic))
-    s.wanted.maxTriangles = s.settings.maxTriangles = std::uint32_t(std::max(triangles, 0)) * 1000;
+  // 0 stands for any number.
+  double triangles = s.wanted.maxTriangles;
+  const double finest = std::min(double(s.subject.facts().triangles), 4e9);
+  if (slider("most triangles", triangles, 0, std::max({finest, triangles, 1000.0}),
+             triangles <= 0 ? "any number" : "%.0f", true))
+    s.wanted.maxTriangles = s.settings.maxTriangles = std::uint32_t(std::max(std::lround(triangles), 0L));
   slider("frame time", s.wanted.frameMilliseconds, 0, 100,
          s.wanted.frameMilliseconds <= 0 ? "any" : "%.0f ms");
   tip("The tolerance is made coarser, up to 64 pixels, until frames take no longer; longer and longer while "

@@ -25,8 +25,7 @@ void drawMarks(const ViewerSession& s, double scale) {
     if (!pixel) return std::nullopt;
     return ImVec2(float(pixel->x / scale), float(pixel->y / scale));
   };
-  if (!s.tools) return;
-  if (s.tools->sight) {
+  if (s.tools && s.tools->sight) {
     const SightPicture& sight = *s.tools->sight;
     for (const SightPiece& piece : piecesOf(sight)) {
       const auto a = at(piece.from), b = at(piece.to);
@@ -40,14 +39,16 @@ void drawMarks(const ViewerSession& s, double scale) {
       list.AddLine({cross->x - r, cross->y + r}, {cross->x + r, cross->y - r}, kBlocked, 0.2f * em);
     }
   }
-  const std::vector<Pick>& picks = s.tools->picks;
+  const std::vector<Pick>& picks = s.tools ? s.tools->picks : s.distance.picks();
   for (std::size_t i = 0; i < picks.size(); ++i) {
     const auto foot = at(picks[i].metric);
     if (!foot) continue;
     list.AddCircleFilled(*foot, 0.36f * em, IM_COL32(255, 255, 255, 230));
     list.AddCircleFilled(*foot, 0.25f * em, i == 0 ? IM_COL32(200, 30, 40, 255) : IM_COL32(30, 80, 200, 255));
-    const std::string text =
-        fmt::format("{}  {}", i == 0 ? "A" : "B", s.tools->places.height(picks[i].height));
+    std::string text = i == 0 ? "A" : "B";
+    if (s.tools) text += "  " + s.tools->places.height(picks[i].height);
+    if (!s.tools && i == 1)
+      text += fmt::format("  {:.6g} {}", norm(s.distance.way()), s.subject.heightUnit());
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     // A dark plate keeps the text readable on any terrain.
     const ImVec2 corner{foot->x + 0.7f * em, foot->y - 1.6f * em};

@@ -73,8 +73,8 @@ class ViewerSession {
   DistancePicks distance;             ///< where there is no terrain
   std::optional<ObjectList> objects;  ///< of the scene; nothing in a session without one
   Cursor cursor{subject, tools};
-  OverwriteQuestion question;        ///< waits for answer() before a file is overwritten
-  std::optional<SurfaceDesk> desk;   ///< of the surface that is selected; nothing without objects
+  OverwriteQuestion question;       ///< waits for answer() before a file is overwritten
+  std::optional<SurfaceDesk> desk;  ///< of the surface that is selected; nothing without objects
   /// What the panel covers of the picture. A home view fills the rest, and again when that changes.
   CoveredEdges covered;
 

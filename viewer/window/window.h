@@ -22,7 +22,7 @@ struct WindowOptions {
   bool waitsForScreen = true;      ///< vertical synchronisation
 
   SurfaceDesk::Start desk = {};  ///< of the surfaces that are shown
-  std::string message = {};     ///< said at first; empty: how to move
+  std::string message = {};      ///< said at first; empty: how to move
 
   /// Of the contours that are shown; empty: none are written.
   WriteHeights heightsOfContours = {};
@@ -41,8 +41,9 @@ struct WindowOptions {
 Status runWindow(const FillScene& fill, const WindowOptions& options, const RunContext& context = {});
 /// How showing a scene ended.
 struct WindowEnd {
-  std::string next;  ///< a file that is to be shown next: dropped, or just made; empty: the user has closed it
-  Camera camera;     ///< of the last frame
+  std::string
+      next;       ///< a file that is to be shown next: dropped, or just made; empty: the user has closed it
+  Camera camera;  ///< of the last frame
 };
 /// The same in a window that is open, whose size and title stay; it is open afterwards too.
 Result<WindowEnd> showIn(GlfwWindow& window, const FillScene& fill, const WindowOptions& options,

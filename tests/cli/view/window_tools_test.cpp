@@ -95,14 +95,14 @@ TEST_F(WindowTools, ADroppedFileIsShownNextAndABadOneLeavesWhatIsThere) {
   makeRaster("dem.tif", "fractal", 20, 20);
   write("bad.obj", "f 1 2 3\n");
   fs::copy_file(path("scan.obj"), path("ümlaut.obj"));
-  const Outcome window = inWindow(
-      "scan.obj", "open bad.obj\nopen dem.tif\nopen ümlaut.obj\ntriangles 900\nsave after.ply\n",
-      "--log log.jsonl");
+  const Outcome window =
+      inWindow("scan.obj", "open bad.obj\nopen dem.tif\nopen ümlaut.obj\ntriangles 900\nsave after.ply\n",
+               "--log log.jsonl");
   ASSERT_EQ(window.code, 0) << window.out;
   EXPECT_TRUE(exists("after.ply")) << window.out;
   EXPECT_NE(window.out.find("bad.obj"), std::string::npos) << window.out;
   const std::string log = read("log.jsonl");
-  for (const char* said : {"opened dem.tif", "opened ümlaut.obj", "arete extract ümlaut.amt -o after.ply"})
+  for (const char* said : {"opened dem.tif", "opened ümlaut.obj", "arete extract 'ümlaut.amt' -o after.ply"})
     EXPECT_NE(log.find(said), std::string::npos) << said << "\n" << log;
 }
 

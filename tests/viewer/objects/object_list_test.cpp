@@ -139,6 +139,7 @@ TEST(DistancePicks, AreThoseOfTheFileWithinAnObjectAndOfTheSceneBetweenTwo) {
   EXPECT_EQ(layers.find(DistancePicks::kLayer), nullptr);
   distance.add(at({30, 40, 0}, {4, 5, 1}, 1));
   EXPECT_EQ(distance.way(), (Vec3{3, 4, 0}));
+  EXPECT_EQ(distance.text("m"), "A 1,1,1\nB 4,5,1\ndistance 5 m, dx 3, dy 4, dz 0\n");
   EXPECT_NE(layers.find(DistancePicks::kLayer), nullptr);
   distance.add(at({0, 0, 0}, {1, 1, 1}, 1));
   EXPECT_EQ(distance.picks().size(), 1u);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include <cmath>
 #include <numbers>
 
@@ -78,13 +80,17 @@ TEST(SurfacePicker, MeetsTheNearestOfAllTrianglesFromOutsideAndInside) {
       }
 }
 
-TEST(SurfacePicker, NamesTheMaterialThatTheFaceHas) {
+TEST(SurfacePicker, NamesTheMaterialTheGroupAndTheLabelsThatTheFaceHas) {
   SurfaceMesh mesh(shapes::sheet(9, 9));
   mesh.materials = {Material{.name = "red"}, Material{.name = "green"}};
+  mesh.groups = {"west", "east"};
+  mesh.triangleAttributes = {Attribute{.name = "class", .type = ScalarType::uint8}};
   for (const auto& t : mesh.triangles) {
     double x = 0;
     for (const std::uint32_t v : t) x += mesh.positions[v].x / 3;
     mesh.materialOf.push_back(x < 4 ? 0 : 1);
+    mesh.groupOf.push_back(x < 4 ? 0 : 1);
+    mesh.triangleAttributes[0].append(std::array{x < 4 ? 2.0 : 6.0});
   }
   auto model = buildSurface(std::move(mesh), {});
   ASSERT_TRUE(model) << model.error().describe();
@@ -94,6 +100,7 @@ TEST(SurfacePicker, NamesTheMaterialThatTheFaceHas) {
     const auto pick = picker.along(upright.fromFile({x, 3.3, 50}), {0, 0, -1});
     ASSERT_TRUE(pick);
     EXPECT_EQ(picker.materialOf(pick->triangle), x < 4 ? "red" : "green") << x;
+    EXPECT_EQ(picker.partsOf(pick->triangle), x < 4 ? "group west, class 2" : "group east, class 6") << x;
     const Vec3 place = upright.toFile(pick->place);
     EXPECT_NEAR(place.x, x, 1e-9);
     EXPECT_NEAR(place.y, 3.3, 1e-9);

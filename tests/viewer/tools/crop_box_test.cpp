@@ -16,11 +16,10 @@
 namespace arete {
 namespace {
 
-/// A globe with a middle of its own, which is y-up or not.
-SurfaceModel globeAt(const Vec3& middle, bool isYUp) {
+/// A globe with a middle of its own.
+SurfaceModel globeAt(const Vec3& middle) {
   SurfaceMesh mesh(shapes::globe(24, 16));
   for (Vec3& p : mesh.positions) p = p + middle;
-  mesh.up = isYUp ? "y" : "z";
   return std::move(*buildSurface(std::move(mesh)));
 }
 
@@ -33,8 +32,8 @@ std::array<double, 6> boundsOf(const CropBox& box) {
 TEST(CropBox, StandsAroundTheSurfaceInTheFilesNumbers) {
   for (const bool isYUp : {false, true}) {
     const Vec3 middle{2'600'000.25, 1'200'000.5, 450};
-    const SurfaceModel model = globeAt(middle, isYUp);
-    const SurfaceSubject subject(model, ZUpFrame(model));
+    const SurfaceModel model = globeAt(middle);
+    const SurfaceSubject subject(model, ZUpFrame(model, isYUp ? "y" : "z"));
     const CropBox box(subject);
     const std::array<double, 6> wanted = {middle.x - 1, middle.y - 1, middle.z - 1,
                                           middle.x + 1, middle.y + 1, middle.z + 1};
@@ -48,8 +47,9 @@ TEST(CropBox, AFaceFollowsTheMouseAlongItsAxisAlone) {
   for (const bool isYUp : {false, true}) {
     for (const Turn& turn : {Turn{}, Turn{30, 20, 0}}) {
       SCOPED_TRACE(testing::Message() << isYUp << " " << turn.heading);
-      const SurfaceModel model = globeAt({2'600'000, 1'200'000, 450}, isYUp);
-      const SurfaceSubject subject(std::make_shared<const SurfaceForm>(model, ZUpFrame(model)), turn);
+      const SurfaceModel model = globeAt({2'600'000, 1'200'000, 450});
+      const SurfaceSubject subject(
+          std::make_shared<const SurfaceForm>(model, ZUpFrame(model, isYUp ? "y" : "z")), turn);
       const Camera camera = subject.home(HomeView::overview, {.widthPixels = 800, .heightPixels = 600});
       for (std::size_t face = 0; face < 6; ++face) {
         CropBox box(subject);
@@ -77,7 +77,7 @@ TEST(CropBox, AFaceFollowsTheMouseAlongItsAxisAlone) {
 }
 
 TEST(CropBox, AFaceStaysBeforeTheOtherAndNothingIsTakenFarFromAHandle) {
-  const SurfaceModel model = globeAt({}, false);
+  const SurfaceModel model = globeAt({});
   const SurfaceSubject subject(model, ZUpFrame(model));
   CropBox box(subject);
   box.setBound(0, 50);
