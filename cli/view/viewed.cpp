@@ -177,7 +177,7 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const PlacedObject& object = scene.objects[i];
     const bool isSurface = parts->surface(object.model) != nullptr;
-    viewed.files.push_back(isSurface ? scene.files[object.model] : std::string());
+    viewed.files.push_back(isSurface ? scene.paths[object.model] : std::string());
     if (const SurfaceModel* const surface = parts->surface(object.model)) {
       auto& form = parts->forms[object.model];
       if (!form)

@@ -142,8 +142,10 @@ std::optional<Pick> TerrainSubject::pickOf(const Vec3& hit, const Vec3& inside, 
     const auto ground = profiles_.heights().at(xy);
     if (!ground) continue;
     const Vec3 metric = space_.position(xy, ground->height);
-    return Pick{model_.toPlan(xy),           xy, ground->height, metric, norm(metric - eye), {},
-                {xy.x, xy.y, ground->height}};
+    Pick pick{.plan = model_.toPlan(xy), .xy = xy, .height = ground->height, .metric = metric};
+    pick.metres = norm(metric - eye);
+    pick.inObject = {xy.x, xy.y, ground->height};
+    return pick;
   }
   return std::nullopt;
 }

@@ -122,7 +122,7 @@ std::string SurfaceDesk::meshFor(Order& order) {
 std::string SurfaceDesk::saveCut(const Camera& camera, const ViewSettings& settings) {
   const SurfaceSubject* const shown = surface();
   if (!shown) return "a cut is saved of a surface with a file";
-  const SceneObject& object = objects_.object();
+  const ShownObject& object = objects_.object();
   CommandWords request;
   if (object.level && object.level->triangles > 0) {
     // A budget below the coarsest cut shows that one.
