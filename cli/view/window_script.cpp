@@ -18,9 +18,10 @@ namespace {
 /// Verbs, and how many words follow.
 const std::map<std::string, std::size_t, std::less<>>& verbs() {
   static const std::map<std::string, std::size_t, std::less<>> all = {
-      {"halve", 0},    {"error", 1}, {"triangles", 1}, {"save", 1},   {"box", 1},        {"crop", 1},
-      {"decimate", 3}, {"drag", 1},  {"click", 1},     {"open", 1},   {"yes", 0},        {"no", 0},
-      {"key", 0},      {"play", 0},  {"around", 0},    {"frames", 1}, {"screenshot", 0}, {"free", 0}};
+      {"halve", 0}, {"error", 1},    {"triangles", 1}, {"save", 1},       {"box", 1},
+      {"crop", 1},  {"decimate", 3}, {"drag", 1},      {"click", 1},      {"open", 1},
+      {"yes", 0},   {"no", 0},       {"drawn", 0},     {"select", 1},     {"key", 0},
+      {"play", 0},  {"around", 0},   {"frames", 1},    {"screenshot", 0}, {"free", 0}};
   return all;
 }
 
@@ -29,7 +30,7 @@ std::size_t numbersOf(std::string_view verb) {
   if (verb == "box") return 6;
   if (verb == "drag") return 4;
   if (verb == "click") return 2;
-  return verb == "error" || verb == "triangles" || verb == "frames" ? 1 : 0;
+  return verb == "error" || verb == "triangles" || verb == "frames" || verb == "select" ? 1 : 0;
 }
 
 std::vector<double> numbersIn(const std::string& word) {
@@ -112,6 +113,8 @@ void WindowScript::act(const std::string& verb, const std::vector<std::string>& 
   if (verb == "click") s.click({n[0], n[1]});
   if (verb == "open") s.files.next = words[1];
   if (verb == "yes" || verb == "no") s.answer(verb == "yes");
+  if (verb == "select") s.say(s.objects->select(std::size_t(n[0])));
+  if (verb == "drawn") s.say(fmt::format("drawn: {} triangles", s.figures.triangles));
   if (verb == "key") s.apply(Action::setKeyFrame);
   if (verb == "play") s.apply(Action::playFlight);
   if (verb == "free") s.apply(Action::toggleMode);

@@ -24,6 +24,8 @@ namespace arete {
 ///     open FILE                as a file that is dropped on the window
 ///     yes | no                 answers a question
 ///     key, play, around, free  of the flight, and of the camera
+///     select N                 an object of a scene, from 0
+///     drawn                    says how many triangles are drawn
 ///     frames N                 waits
 ///     screenshot
 ///

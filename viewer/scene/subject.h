@@ -28,9 +28,9 @@ struct Pick {
   Vec3 metric;                ///< heights as they are, not exaggerated
   double metres = 0;          ///< from the eye, in a straight line
   std::string material = {};  ///< of a surface; empty: none
-  std::string parts = {};     ///< of a surface: its object, group and labels in the file; empty: none
   Vec3 inObject = {};         ///< coordinates of its own file; of a terrain: xy and height
   std::size_t object = 0;     ///< of a scene: which
+  std::string parts = {};     ///< of a surface: its object, group and labels in the file; empty: none
 };
 
 /// What a model is made of, at full resolution.

@@ -28,7 +28,7 @@ void drawBox(SurfaceDesk& desk, const std::function<void(std::string)>& say) {
   if (ImGui::SmallButton("all of it")) box.box = box.whole();
   for (std::size_t face = 0; face < 6; ++face) {
     double value = box.bound(face);
-    if (ImGui::InputDouble(kFaces[face], &value, 0, 0, "%.9g", ImGuiInputTextFlags_EnterReturnsTrue))
+    if (ImGui::InputDouble(kFaces[face], &value, 0, 0, "%.10g", ImGuiInputTextFlags_EnterReturnsTrue))
       box.setBound(face, value);
   }
   ImGui::InputText("##cropped", &desk.fields.cropped);
@@ -60,7 +60,7 @@ void drawDecimation(SurfaceDesk& desk, const std::function<void(std::string)>& s
 
 void drawDeskSection(SurfaceDesk& desk, const Camera& camera, const ViewSettings& settings,
                      const std::function<void(std::string)>& say) {
-  if (!desk.surface() || !widget::section("Save, crop, decimate", false)) return;
+  if (!desk.surface() || !widget::section("Save, crop, decimate", !widget::isNarrow())) return;
   if (desk.isRunning()) {
     const auto progress = desk.progress();
     ImGui::ProgressBar(float(progress.fraction), {12 * em(), 0}, progress.stage.c_str());

@@ -140,10 +140,15 @@ std::string SurfaceDesk::saveCut(const Camera& camera, const ViewSettings& setti
                                double(camera.widthPixels), double(camera.heightPixels)};
     if (!isUpright(*shown, stated, *view))
       return "no command can state what is up for this camera: turn it, or choose a level by hand";
+    // A cut that a budget has ended is asked for anew as it was asked for.
+    const bool isKept = object.figures.pixels > 0 && object.figures.isComplete;
+    const double pixels = isKept ? object.figures.pixels : settings.pixels * object.toleranceFactor;
     request = {"--camera=" + numbered(stated.eye) + "," + numbered(stated.target) +
                    fmt::format(",{}", camera.verticalFieldOfViewDegrees),
                "--viewport", fmt::format("{}x{}", camera.widthPixels, camera.heightPixels), "--pixel-error",
-               fmt::format("{}", object.figures.pixels > 0 ? object.figures.pixels : settings.pixels)};
+               fmt::format("{}", pixels)};
+    if (settings.maxTriangles > 0)
+      request.insert(request.end(), {"--max-triangles", std::to_string(settings.maxTriangles)});
   }
   Order order;
   const std::string model = modelFor(order);

@@ -26,6 +26,8 @@ class WindowTools : public Cli {
       }
     write("scan.obj", obj);
   }
+  /// Saves a cut by the camera.
+  void check(const std::string& more);
   /// What the window has said, on stdout and stderr; its exit code.
   Outcome inWindow(const std::string& file, const std::string& script, const std::string& more = {}) {
     write("script.txt", script);
@@ -63,8 +65,15 @@ TEST_F(WindowTools, AnObjIsHalvedSavedCroppedAndDecimatedWithTheBytesOfTheComman
 }
 
 TEST_F(WindowTools, ACutByTheCameraIsThatOfTheCommandThatTheWindowSays) {
+  for (const std::string more : {"--pixel-error 6", "--pixel-error 6 --max-triangles 700"}) {
+    SCOPED_TRACE(more);
+    check(more);
+  }
+}
+
+void WindowTools::check(const std::string& more) {
   ASSERT_EQ(run({"build", "scan.obj", "-o", "scan.amt"}).code, 0);
-  const Outcome window = inWindow("scan.amt", "save seen.ply\n", "--pixel-error 6");
+  const Outcome window = inWindow("scan.amt", "frames 150\ndrawn\nsave seen.ply\nyes\n", more);
   ASSERT_EQ(window.code, 0) << window.out;
   const std::size_t at = window.out.find("arete extract scan.amt -o seen.ply --camera=");
   ASSERT_NE(at, std::string::npos) << window.out;
@@ -75,9 +84,40 @@ TEST_F(WindowTools, ACutByTheCameraIsThatOfTheCommandThatTheWindowSays) {
   std::istringstream stream(line);
   for (std::string word; stream >> word;) words.push_back(word);
   fs::remove(path("seen.ply"));
+  words.push_back("--json");
   const Outcome done = run(words);
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(bytes, read("seen.ply"));
+  const std::string triangles = done.json()["exports"][0]["triangles"].dump();
+  EXPECT_NE(window.out.find("drawn: " + triangles + " triangles"), std::string::npos)
+      << triangles << window.out;
+}
+
+TEST_F(WindowTools, OfASceneTheSelectedObjectIsSavedAtItsLevelInItsFilesCoordinates) {
+  write("scene.json",
+        R"({"objects": [{"name": "left", "file": "scan.obj", "turn": [30, 0, 0], "level": {"triangles": 500}},
+                       {"name": "right", "file": "scan.obj", "at": [600100, 200000]}]})");
+  const Outcome window = inWindow("scene.json", "save left.ply\nselect 1\nsave right.ply\n");
+  ASSERT_EQ(window.code, 0) << window.out;
+  EXPECT_FALSE(exists("right.ply")) << "a camera of the scene is none of the file";
+  EXPECT_NE(window.out.find("level by hand"), std::string::npos) << window.out;
+  ASSERT_TRUE(exists("left.ply")) << window.out;
+  const std::string bytes = read("left.ply");
+  ASSERT_EQ(run({"build", "scan.obj", "-o", "scan.amt"}).code, 0);
+  ASSERT_EQ(run({"extract", "scan.amt", "-o", "left.ply", "--max-triangles", "500"}).code, 0);
+  EXPECT_EQ(bytes, read("left.ply"));
+}
+
+TEST_F(WindowTools, OfAModelACropIsOfItsFinestMesh) {
+  ASSERT_EQ(run({"build", "scan.obj", "-o", "scan.amt"}).code, 0);
+  const Outcome window = inWindow("scan.amt", "box 600005,200005.5,-1,600030,200020,9\ncrop part.ply\n");
+  ASSERT_TRUE(exists("part.ply")) << window.out;
+  const std::string bytes = read("part.ply");
+  ASSERT_EQ(run({"extract", "scan.amt", "-o", "scan.ply", "--max-error", "0"}).code, 0);
+  ASSERT_EQ(
+      run({"mesh", "crop", "scan.ply", "-o", "part.ply", "--box", "600005,200005.5,-1,600030,200020,9"}).code,
+      0);
+  EXPECT_EQ(bytes, read("part.ply"));
 }
 
 TEST_F(WindowTools, NothingIsOverwrittenUnaskedAndTheInputNever) {
