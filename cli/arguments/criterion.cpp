@@ -156,10 +156,20 @@ void CriterionArguments::addTo(CLI::App& command, OptionKinds& kinds) {
           ->needs(camera)
           ->type_name("AZIMUTH,PITCH")
           ->group(where));
-  command.add_option("--fov", fieldOfView_, "Vertical field of view of the camera in degrees (default 60)")
-      ->check(finiteBetween(0.01, 179))
+  CLI::Option* const fieldOfView =
+      command
+          .add_option("--fov", fieldOfView_, "Vertical field of view of the camera in degrees (default 60)")
+          ->check(finiteBetween(0.01, 179))
+          ->needs(camera)
+          ->type_name("DEG")
+          ->group(where);
+  command
+      .add_option("--parallel-height", parallelHeight_,
+                  "The camera's picture is a parallel projection so high, in metres or the unit of a surface")
+      ->check(finiteBetween(1e-9, 1e12))
       ->needs(camera)
-      ->type_name("DEG")
+      ->excludes(fieldOfView)
+      ->type_name("H")
       ->group(where);
   command.add_option("--viewport", viewport_, "Size of the camera's picture in pixels (default 1920x1080)")
       ->needs(camera)
@@ -232,6 +242,7 @@ CriterionArguments::OfSurface CriterionArguments::ofSurface() const {
   asked.camera = camera_;
   asked.viewport = viewport_;
   if (!std::isnan(fieldOfView_)) asked.fieldOfView = fieldOfView_;
+  asked.parallelHeight = parallelHeight_;
   asked.focus = focus_;
   if (!std::isnan(growth_)) asked.errorGrowth = growth_;
   return asked;
@@ -298,7 +309,11 @@ Status CriterionArguments::placeCamera(const TerrainModel& model, CutRequest& c)
   }
   if (!std::isnan(fieldOfView_) && argument->statesFieldOfView)
     return failure(ErrorCode::usage, "cannot be combined with a field of view in --camera", "--fov");
+  if (parallelHeight_ > 0 && argument->statesFieldOfView)
+    return failure(ErrorCode::usage, "cannot be combined with a field of view in --camera",
+                   "--parallel-height");
   if (!std::isnan(fieldOfView_)) camera.verticalFieldOfViewDegrees = fieldOfView_;
+  camera.parallelHeight = parallelHeight_;
   if (const Result<View> view = viewOf(camera, model); !view)
     return failure(view.error().code, view.error().message, "--camera " + camera_);
   c.camera = camera;

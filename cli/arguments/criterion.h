@@ -65,7 +65,8 @@ struct CriterionArguments {
     std::string camera;        ///< --camera; empty: none
     std::string viewport;      ///< --viewport; empty: not stated
     std::optional<double> fieldOfView;
-    std::string focus;  ///< --focus; empty: none
+    double parallelHeight = 0;  ///< --parallel-height; 0: perspective
+    std::string focus;          ///< --focus; empty: none
     double errorGrowth = 0;
     CutRequest common;  ///< what stands in a request as it is stated
   };
@@ -101,7 +102,7 @@ struct CriterionArguments {
   std::string focus_;
   double growth_ = kUnstated;
   std::string camera_, look_, viewport_;
-  double fieldOfView_ = kUnstated;
+  double fieldOfView_ = kUnstated, parallelHeight_ = 0;
   bool isLonLat_ = false;
   CutRequest stated_;  // options that are fields of it write there
   std::string fit_ = "none";

@@ -57,7 +57,10 @@ std::string optionsOf(const CutRequest& c) {
     const Camera& camera = *c.camera;
     add("camera", shellQuoted(c.cameraText));
     add("look", fmt::format("{},{}", camera.azimuthDegrees, camera.pitchDegrees));
-    add("fov", camera.verticalFieldOfViewDegrees);
+    if (camera.parallelHeight > 0)
+      add("parallel-height", camera.parallelHeight);
+    else
+      add("fov", camera.verticalFieldOfViewDegrees);
     add("viewport", fmt::format("{}x{}", camera.widthPixels, camera.heightPixels));
     if (c.pixelError) add("pixel-error", *c.pixelError);
   }

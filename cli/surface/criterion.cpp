@@ -40,7 +40,11 @@ Result<SurfaceCamera> readStatedCamera(const CriterionArguments::OfSurface& aske
   if (stated.statesFieldOfView && asked.fieldOfView)
     return failure(ErrorCode::usage, "cannot be combined with a field of view in --camera", "--fov");
   SurfaceCamera camera = stated.camera;
+  if (stated.statesFieldOfView && asked.parallelHeight > 0)
+    return failure(ErrorCode::usage, "cannot be combined with a field of view in --camera",
+                   "--parallel-height");
   if (asked.fieldOfView) camera.verticalFieldOfViewDegrees = *asked.fieldOfView;
+  camera.parallelHeight = asked.parallelHeight;
   if (!asked.viewport.empty()) {
     ARETE_TRY(const auto viewport, twoNumbers("--viewport", asked.viewport, 'x'));
     camera.widthPixels = viewport.first;

@@ -50,6 +50,16 @@ void ViewpointArguments::addTo(CLI::App& command, OptionKinds& kinds) {
       ->excludes(place)
       ->type_name("NAME")
       ->group(group);
+  command
+      .add_flag("--parallel", isParallel,
+                "Parallel (orthographic) projection, in which nothing is smaller far away")
+      ->group(group);
+  command
+      .add_option("--parallel-height", parallelHeight,
+                  "The same, with a picture so high: metres, or the unit of a surface")
+      ->check(finiteBetween(1e-9, 1e12))
+      ->type_name("H")
+      ->group(group);
   CLI::Option* flight =
       command.add_option("--path", path, "Flight through the key frames of a file (docs/topics/flights.md)")
           ->type_name("FLIGHT.json")
@@ -389,6 +399,11 @@ Status ViewArguments::check() const {
     return failure(ErrorCode::usage, sentence, option);
   };
   const PictureArguments& p = pictures;
+  if (viewpoint.statesParallel() && viewpoint.hasFlight())
+    return refuse("is for a view without a flight; key frames state their own projection",
+                  viewpoint.isParallel ? "--parallel" : "--parallel-height");
+  if (viewpoint.statesParallel() && appearance.isCurved)
+    return refuse("is drawn in perspective only", "--curvature");
   if (detail.deadline > 0 && !detail.isCutByProcessor())
     return refuse("requires --cut processor", "--deadline");
   if (p.isHeadless && p.screenshot.empty() && p.frames.empty() && p.film.empty())

@@ -28,13 +28,15 @@ struct ViewpointArguments {
   std::string path;    ///< file of a flight; empty = none
   std::string up;      ///< of a surface: the axis that points up; empty: as the file says
   std::string turn;    ///< of a surface: "HEADING,PITCH,ROLL"; empty: as it is
-  bool isLonLat = false, isRound = false;
+  bool isLonLat = false, isRound = false, isParallel = false;
+  double parallelHeight = 0;  ///< of a parallel picture; 0: as the view of the whole, or what is ahead, takes
 
   void addTo(CLI::App& command, OptionKinds& kinds);
   bool statesCamera() const { return !camera.empty() || !home.empty(); }
   HomeView homeView() const;
   /// Errors: usage: not three numbers.
   Result<Turn> turnAngles() const;
+  bool statesParallel() const { return isParallel || parallelHeight > 0; }
   bool hasFlight() const { return !path.empty() || isRound; }
 };
 

@@ -25,20 +25,26 @@ namespace {
 
 /// As --camera takes it, and key frames of flights.
 Json jsonOf(const Camera& c, const Subject& subject) {
-  if (subject.isTerrain())
-    return {{"x", c.xy.x},
+  Json json;
+  if (subject.isTerrain()) {
+    json = {{"x", c.xy.x},
             {"y", c.xy.y},
             {"height", c.height},
             {"azimuth", c.azimuthDegrees},
             {"pitch", c.pitchDegrees},
             {"fov", c.verticalFieldOfViewDegrees}};
+    if (c.parallelHeight > 0) json["parallelHeight"] = c.parallelHeight;
+    return json;
+  }
   const Vec3 eye = subject.space().position(c),
              target = eye + subject.box().diagonal() * subject.space().forward(lookOf(c));
   const auto list = [&](const Vec3& p) {
     const Vec3 q = subject.inFile(p);
     return Json::array({q.x, q.y, q.z});
   };
-  return {{"eye", list(eye)}, {"target", list(target)}, {"fov", c.verticalFieldOfViewDegrees}};
+  json = {{"eye", list(eye)}, {"target", list(target)}, {"fov", c.verticalFieldOfViewDegrees}};
+  if (c.parallelHeight > 0) json["parallelHeight"] = c.parallelHeight;
+  return json;
 }
 
 Json jsonOf(const FrameFigures& f, const Subject& subject) {

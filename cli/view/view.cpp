@@ -5,6 +5,8 @@
 #include "cli/view/view.h"
 
 #include <fmt/format.h>
+#include <cmath>
+#include <numbers>
 
 #include <filesystem>
 #include <memory>
@@ -147,6 +149,16 @@ Result<std::optional<Opened>> openModelOf(const ViewArguments& a, std::optional<
   return std::optional(std::move(opening->opened));
 }
 
+/// The height of a parallel picture in which the middle of the model is as large as in perspective.
+double heightAhead(const Camera& camera, const Subject& subject) {
+  const CameraSpace& space = subject.space();
+  const MetricBox& box = subject.box();
+  const double ahead = dot(box.centre() - space.position(camera), space.forward(lookOf(camera)));
+  const double slope = std::tan(camera.verticalFieldOfViewDegrees * std::numbers::pi / 360);
+  const double height = ahead > 0 ? 2 * ahead * slope : box.diagonal();
+  return height > 0 ? height : 1;
+}
+
 /// The program that runs, for commands of its own; empty where that cannot be told.
 std::string thisProgram() {
   std::error_code failed;
@@ -249,7 +261,10 @@ Status runView(ViewArguments a, Session& session) {
   Camera camera = viewed.camera.value_or(Camera());
   camera.widthPixels = size.first;
   camera.heightPixels = size.second;
+  if (a.viewpoint.statesParallel()) camera.parallelHeight = heightAhead(camera, subject);
   if (!viewed.camera) camera = subject.home(a.viewpoint.homeView(), camera, settings);
+  if (a.viewpoint.parallelHeight > 0) camera.parallelHeight = a.viewpoint.parallelHeight;
+  if (const Result<View> seen = subject.viewOf(camera, settings); !seen) return tl::unexpected(seen.error());
   // A camera below the ground may be meant, so it is allowed.
   if (const auto ground = subject.heights() ? subject.heights()->at(camera.xy) : std::nullopt;
       ground && camera.height < ground->height)

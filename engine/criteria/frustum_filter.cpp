@@ -8,7 +8,8 @@
 // its distance d. The margins around the results allow for more: 1e-5 (d + r) for planes and depths; 2e-3 of
 // nearest * reached^2, where nearest = d - r is at least d / 1000 (for smaller ones only the bounds 0
 // and 1.1e-3 d are used) and the cosine at the frustum's corner is at least 1/20 (wider frusta are not
-// filtered). Balls whose squared distance leaves the range of floats are unsure.
+// filtered). Balls whose squared distance leaves the range of floats are unsure. In parallel projection the
+// reach is 1 without any error.
 #include "engine/criteria/frustum_filter.h"
 
 #include <algorithm>
@@ -51,6 +52,10 @@ FrustumFilter::FrustumFilter(const View& view, double errorPerReach, double outs
   forward_ = axis(p.forward);
   slopeX_ = static_cast<float>(p.slopeX);
   slopeY_ = static_cast<float>(p.slopeY);
+  halfX_ = static_cast<float>(p.halfX);
+  halfY_ = static_cast<float>(p.halfY);
+  isParallel_ = view.isParallel();
+  lengthens_ = isParallel_ ? 0 : 1;
   lengthX_ = static_cast<float>(p.lengthX);
   lengthY_ = static_cast<float>(p.lengthY);
   near_ = static_cast<float>(view.nearDistance);
@@ -64,8 +69,9 @@ FrustumFilter::FrustumFilter(const View& view, double errorPerReach, double outs
   isUsable_ = p.leastCosine >= 0.05 && std::abs(view.eye.x) < kMostCoordinate &&
               std::abs(view.eye.y) < kMostCoordinate && std::abs(view.eye.z) < kMostCoordinate &&
               errorPerReach > kLeast && errorPerReach < 1 / kLeast &&
-              (view.nearDistance == 0 || view.nearDistance > kLeast) && view.nearDistance < kMostCoordinate &&
-              view.farDistance > kLeast;
+              (view.nearDistance == 0 || std::abs(view.nearDistance) > kLeast) &&
+              view.nearDistance < kMostCoordinate && std::abs(view.farDistance) > kLeast &&
+              p.halfX < kMostCoordinate && p.halfY < kMostCoordinate;
 }
 
 /// Balls and errors by coordinate; unused lanes are 0.
@@ -127,16 +133,16 @@ struct FrustumFilter::Ball {
   b.reached = larger(cosine, leastCosine_);
   const float byAngle = b.nearest * b.reached * b.reached;
   const bool isClose = b.nearest <= 1e-3f * b.distance;
-  b.byAngleLow = isClose ? 0 : byAngle * 0.998f;
-  b.byAngleHigh = isClose ? 1.1e-3f * b.distance : byAngle * 1.002f;
+  b.byAngleLow = isParallel_ ? 1 : isClose ? 0 : byAngle * 0.998f;
+  b.byAngleHigh = isParallel_ ? 1 : isClose ? 1.1e-3f * b.distance : byAngle * 1.002f;
   // Bounds by its least depth.
   const float depth = pz - radius;
-  b.byDepthLow = larger(depth - b.slack, near_) * leastCosine_;
-  b.byDepthHigh = larger(depth + b.slack, near_) * leastCosine_;
+  b.byDepthLow = isParallel_ ? 1 : larger(depth - b.slack, near_) * leastCosine_;
+  b.byDepthHigh = isParallel_ ? 1 : larger(depth + b.slack, near_) * leastCosine_;
 
   // Distances of the ball beyond the planes.
-  b.beyondX = std::abs(px) - slopeX_ * pz - radius * lengthX_;
-  b.beyondY = std::abs(py) - slopeY_ * pz - radius * lengthY_;
+  b.beyondX = std::abs(px) - slopeX_ * pz - halfX_ - radius * lengthX_;
+  b.beyondY = std::abs(py) - slopeY_ * pz - halfY_ - radius * lengthY_;
   b.beyondNear = near_ - pz - radius;
   b.beyondFar = depth - far_;
   b.isInRange = (squared > 1e-30f) & (squared < 1e30f);
@@ -182,7 +188,8 @@ FrustumFilter::Verdicts FrustumFilter::test(std::span<const Sphere> balls,
 // nearest * cos^2(phi), has a gradient of less than 1.16 (1.1547 at r = 0 and sin^2 phi = 1/3), and a turn
 // alone changes it by nearest * (sin(2 phi) turn + turn^2) at most. The allowed error changes by a factor of
 // exp(scale), which is a part `scale` of the larger side. The verdict "in sight and too coarse" ends with the
-// first of the three, its opposite with the last.
+// first of the three, its opposite with the last. In parallel projection the reaches do not change, and a
+// picture that becomes larger moves its planes as travel does.
 ARETE_VECTOR_CLONES
 FrustumFilter::Verdicts FrustumFilter::testFor(std::span<const Sphere> balls, std::span<const float> errors,
                                                const Motion& rate, std::span<float> units) const {
@@ -214,11 +221,11 @@ FrustumFilter::Verdicts FrustumFilter::testFor(std::span<const Sphere> balls, st
 
       const float scaleOfDepth = scale * larger(needed, b.byDepthHigh),
                   scaleOfAngle = scale * larger(needed, b.byAngleHigh);
-      const float depthRate = leastCosine_ * (travel + b.fromAxis * turn) + scaleOfDepth,
-                  depthBend = 0.5f * leastCosine_ * b.distance * turn * turn;
+      const float depthRate = lengthens_ * leastCosine_ * (travel + b.fromAxis * turn) + scaleOfDepth,
+                  depthBend = lengthens_ * 0.5f * leastCosine_ * b.distance * turn * turn;
       const float sine2 = 2 * b.reached * std::sqrt(larger(1 - b.reached * b.reached, 0)) + 0.02f;
-      const float angleRate = 1.16f * travel + nearest * sine2 * turn + scaleOfAngle,
-                  angleBend = nearest * turn * turn;
+      const float angleRate = lengthens_ * (1.16f * travel + nearest * sine2 * turn) + scaleOfAngle,
+                  angleBend = lengthens_ * nearest * turn * turn;
       const float sightRate = travel + b.distance * turn;
 
       const float slack = b.slack + rounding_;

@@ -40,10 +40,11 @@ class FrustumFilter {
   struct Axis {
     float x, y, z;
   };
-  bool isUsable_;
+  bool isUsable_, isParallel_;
   Axis eyeHigh_, eyeLow_, right_, up_, forward_;
-  float slopeX_, slopeY_, lengthX_, lengthY_, near_, far_, leastCosine_, errorPerReach_, outsideError_,
-      rounding_;
+  float slopeX_, slopeY_, halfX_, halfY_, lengthX_, lengthY_, near_, far_, leastCosine_, errorPerReach_,
+      outsideError_, rounding_;
+  float lengthens_;  // 1 where the reach grows with the distance, 0 in parallel projection
 };
 
 }  // namespace arete

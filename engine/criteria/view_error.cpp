@@ -104,8 +104,9 @@ std::uint64_t ViewError::exceedingFor(std::span<const Sphere> balls, std::span<c
 
 std::optional<Motion> ViewError::motionSince(const KineticCriterion& before) const {
   const auto* old = dynamic_cast<const ViewError*>(&before);
-  if (old == nullptr || old->o_.view.nearDistance != o_.view.nearDistance ||
-      old->o_.view.farDistance != o_.view.farDistance || old->o_.outsideError != o_.outsideError)
+  if (old == nullptr || old->frustum_.isParallel() != frustum_.isParallel() ||
+      old->o_.view.nearDistance != o_.view.nearDistance || old->o_.view.farDistance != o_.view.farDistance ||
+      old->o_.outsideError != o_.outsideError)
     return {};
   const Frustum::Planes a = old->frustum_.planes(), b = frustum_.planes();
   const auto squared = [](const Vec3& p, const Vec3& q) {
@@ -118,7 +119,8 @@ std::optional<Motion> ViewError::motionSince(const KineticCriterion& before) con
   const double planes = std::max(std::abs(std::atan(a.slopeX) - std::atan(b.slopeX)),
                                  std::abs(std::atan(a.slopeY) - std::atan(b.slopeY)));
   constexpr double kWiden = 1 + 1e-9;
-  return Motion{.travel = kWiden * std::sqrt(squared(old->o_.view.eye, o_.view.eye)),
+  const double halves = std::max(std::abs(a.halfX - b.halfX), std::abs(a.halfY - b.halfY));
+  return Motion{.travel = kWiden * (std::sqrt(squared(old->o_.view.eye, o_.view.eye)) + halves),
                 .turn = kWiden * (2 * std::asin(std::min(1.0, axes / (2 * std::numbers::sqrt2))) + planes),
                 // The allowed error grows at most with the square of the cosine at the corner.
                 .scale = kWiden * (std::abs(std::log(errorPerReach_ / old->errorPerReach_)) +

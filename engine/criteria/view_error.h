@@ -38,8 +38,8 @@ class ViewError final : public KineticCriterion {
   std::unique_ptr<const KineticCriterion> clone() const override {
     return std::make_unique<ViewError>(*this);
   }
-  /// Known between any two views, whatever their fields of view, picture sizes and tolerances, unless the
-  /// near distance, the far distance or the error allowed out of sight differ.
+  /// Known between any two views of one kind of projection, whatever their fields of view, picture sizes and
+  /// tolerances, unless the near distance, the far distance or the error allowed out of sight differ.
   std::optional<Motion> motionSince(const KineticCriterion& before) const override;
   std::uint64_t exceedingFor(std::span<const Sphere> balls, std::span<const float> errors, const Motion& rate,
                              std::span<float> units) const override;

@@ -8,7 +8,8 @@
 // sqrt(3). So along a path of length L from p the reach is at least reach(p) - L 2 / sqrt(3), and what takes
 // x pixels by the scale at p takes at most x / (1 - x b), b = 2 / (sqrt(3) f), in all. To guarantee t pixels,
 // t / (1 + t b) at the scale of p are used: 0.1 % less for a pixel of a usual screen. The bound holds
-// wherever the path leads, also out of the ball or the frustum.
+// wherever the path leads, also out of the ball or the frustum. In parallel projection the reach does not
+// change.
 #include "engine/morph/geomorph.h"
 
 #include <algorithm>
@@ -77,9 +78,10 @@ std::vector<MorphNode> makeMorphNodes(const MultiTriangulation& mt, const RunCon
 MorphCamera::MorphCamera(const Options& options, const MetricFrame& metric)
     : frustum_(options.view),
       pixelsPerReach_(frustum_.pixelsPerUnit() * std::abs(metric.scale.z)),
+      bend_(frustum_.isParallel() ? 0 : kBend),
       moves_(options.moves) {
   // The cut and the vertices on their way share one tolerance.
-  const double whole = options.pixels / (1 + options.pixels * kBend / frustum_.pixelsPerUnit());
+  const double whole = options.pixels / (1 + options.pixels * bend_ / frustum_.pixelsPerUnit());
   tolerance_.cut = moves_ ? options.cutShare * whole : whole;
   tolerance_.offset = whole - tolerance_.cut;
 }
@@ -125,6 +127,7 @@ void MorphCamera::pixelsPerHeight(std::span<const Sphere> balls, std::span<doubl
   const Frustum::Planes p = frustum_.planes();
   const Vec3 eye = frustum_.eye();
   const double near = frustum_.nearDistance(), far = frustum_.farDistance(), scale = pixelsPerReach_;
+  const bool isParallel = frustum_.isParallel();
   const std::size_t count = balls.size();
   for (std::size_t i = 0; i < count; ++i) {
     const double radius = balls[i].radius;
@@ -133,8 +136,8 @@ void MorphCamera::pixelsPerHeight(std::span<const Sphere> balls, std::span<doubl
                  y = dx * p.up.x + dy * p.up.y + dz * p.up.z,
                  z = dx * p.forward.x + dy * p.forward.y + dz * p.forward.z;
     // All four always compared, so that the loop has no branch.
-    const int isBetweenX = std::abs(x) - p.slopeX * z <= radius * p.lengthX,
-              isBetweenY = std::abs(y) - p.slopeY * z <= radius * p.lengthY,
+    const int isBetweenX = std::abs(x) - p.slopeX * z - p.halfX <= radius * p.lengthX,
+              isBetweenY = std::abs(y) - p.slopeY * z - p.halfY <= radius * p.lengthY,
               isBeyondNear = z + radius >= near, isBeforeFar = z - radius <= far;
     const bool isSeen = (isBetweenX & isBetweenY & isBeyondNear & isBeforeFar) != 0;
     const double distance = std::sqrt(x * x + y * y + z * z), nearest = distance - radius;
@@ -145,7 +148,9 @@ void MorphCamera::pixelsPerHeight(std::span<const Sphere> balls, std::span<doubl
         cosine * std::sqrt(ballCosine2 > 0 ? ballCosine2 : 0) - std::sqrt(sine2 > 0 ? sine2 : 0) * ballSine;
     const double reached = angle > p.leastCosine ? angle : p.leastCosine;
     const double byAngle = nearest * reached * reached;
-    const double reach = byAngle > byDepth ? byAngle : byDepth;  // around the eye the first is negative
+    const double inPerspective =
+        byAngle > byDepth ? byAngle : byDepth;  // around the eye the first is negative
+    const double reach = isParallel ? 1 : inPerspective;
     results[i] = isSeen ? scale / (reach > 0 ? reach : 0) : 0;
   }
 }
@@ -155,7 +160,7 @@ double MorphCamera::pixelsOf(double height, double pixelsPerHeight) const {
 }
 
 double MorphCamera::pixelsOf(double pixelsThere) const {
-  const double left = 1 - pixelsThere * kBend / frustum_.pixelsPerUnit();
+  const double left = 1 - pixelsThere * bend_ / frustum_.pixelsPerUnit();
   return left > 0 ? pixelsThere / left : kInfinity;
 }
 

@@ -98,6 +98,7 @@ class MorphCamera {
  private:
   Frustum frustum_;
   double pixelsPerReach_;  // of a unit of height
+  double bend_;            // how fast the reach may change along a displacement
   MorphTolerance tolerance_;
   bool moves_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface/model/camera.h"
 
+#include <limits>
 #include <numbers>
 
 namespace arete {
@@ -18,6 +19,8 @@ Result<View> viewOf(const SurfaceCamera& camera, const SurfaceModel& model) {
   view.verticalFieldOfView = camera.verticalFieldOfViewDegrees / 180 * std::numbers::pi;
   view.widthPixels = camera.widthPixels;
   view.heightPixels = camera.heightPixels;
+  view.parallelHeight = camera.parallelHeight;
+  if (view.isParallel()) view.nearDistance = -std::numeric_limits<double>::infinity();
   if (const Status valid = view.validate(); !valid)
     return failure(valid.error().code, valid.error().message, "camera");
   return view;

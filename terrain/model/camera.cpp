@@ -7,6 +7,7 @@
 #include "terrain/model/camera.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "engine/base/caught_failure.h"
@@ -47,6 +48,8 @@ Result<View> viewOf(const Camera& camera, const TerrainModel& model) try {
   view.verticalFieldOfView = camera.verticalFieldOfViewDegrees * kRadians;
   view.widthPixels = camera.widthPixels;
   view.heightPixels = camera.heightPixels;
+  view.parallelHeight = camera.parallelHeight;
+  if (view.isParallel()) view.nearDistance = -std::numeric_limits<double>::infinity();
   if (Status ok = view.validate(); !ok) return failure(ok.error().code, ok.error().message, "camera");
   return view;
 } catch (...) {

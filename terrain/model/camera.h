@@ -15,6 +15,9 @@ struct Camera {
   double pitchDegrees = 0;    ///< above the horizon; -90 looks straight down
   double verticalFieldOfViewDegrees = 60;
   double widthPixels = 1920, heightPixels = 1080;
+  /// Above 0: a parallel projection, whose picture is so many metric units high; all that is within the sides
+  /// of the picture is seen, behind the camera too. 0: perspective.
+  double parallelHeight = 0;
 };
 
 /// Transforms a camera to the metric space of the model's multitriangulation, as ViewError takes it. Lengths

@@ -7,6 +7,7 @@
 #include "viewer/camera/camera_space.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace arete {
@@ -105,6 +106,8 @@ Result<View> viewOf(const Camera& camera, const CameraSpace& space) {
   view.verticalFieldOfView = camera.verticalFieldOfViewDegrees * kRadians;
   view.widthPixels = camera.widthPixels;
   view.heightPixels = camera.heightPixels;
+  view.parallelHeight = camera.parallelHeight;
+  if (view.isParallel()) view.nearDistance = -std::numeric_limits<double>::infinity();
   if (const Status valid = view.validate(); !valid)
     return failure(valid.error().code, valid.error().message, "camera");
   return view;

@@ -35,10 +35,13 @@ double distance(const Vec3& a, const Vec3& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-/// How far two keys at one place are apart, in degrees.
+/// How far two keys at one place are apart, in degrees; twice the scale counts as about 20.
 double turnBetween(const Camera& a, const Camera& b) {
   return std::hypot(std::remainder(b.azimuthDegrees - a.azimuthDegrees, 360), b.pitchDegrees - a.pitchDegrees,
-                    b.verticalFieldOfViewDegrees - a.verticalFieldOfViewDegrees);
+                    b.verticalFieldOfViewDegrees - a.verticalFieldOfViewDegrees) +
+         (a.parallelHeight > 0 && b.parallelHeight > 0
+              ? 30 * std::abs(std::log(b.parallelHeight / a.parallelHeight))
+              : 0);
 }
 
 Status checkKey(const Camera& key, const Vec3& place, std::size_t index) {
@@ -53,6 +56,8 @@ Status checkKey(const Camera& key, const Vec3& place, std::size_t index) {
     return refuse("its pitch must lie between -90 and 90 degrees");
   if (!(key.verticalFieldOfViewDegrees > 0 && key.verticalFieldOfViewDegrees < 180))
     return refuse("its field of view must be above 0 and below 180 degrees");
+  if (!(key.parallelHeight >= 0 && isSane(key.parallelHeight)))
+    return refuse("the height of its parallel picture must be above 0 and finite");
   return {};
 }
 
@@ -112,6 +117,8 @@ Result<Flight> Flight::create(FlightPlan plan, const CameraSpace& space) {
   for (std::size_t i = 0; i < plan.keys.size(); ++i) {
     places.push_back(space.position(plan.keys[i]));
     ARETE_CHECK(checkKey(plan.keys[i], places[i], i));
+    if ((plan.keys[i].parallelHeight > 0) != (plan.keys[0].parallelHeight > 0))
+      return failure(ErrorCode::usage, "its projection is not that of the first key frame", keyName(i));
   }
   Vec3 low = places[0], high = places[0];
   for (const Vec3& p : places) {
@@ -171,13 +178,14 @@ void Flight::addRun(std::size_t first, std::size_t last, std::span<const Camera>
   Run run;
   run.isTurn = places[first] == places[first + 1];
   run.place = places[first];
-  std::vector<double> azimuths, pitches, fields;
+  std::vector<double> azimuths, pitches, fields, heights;
   for (std::size_t i = first; i <= last; ++i) {
     const double azimuth = keys[i].azimuthDegrees;
     azimuths.push_back(azimuths.empty() ? azimuth
                                         : azimuths.back() + std::remainder(azimuth - azimuths.back(), 360));
     pitches.push_back(keys[i].pitchDegrees);
     fields.push_back(keys[i].verticalFieldOfViewDegrees);
+    heights.push_back(keys[i].parallelHeight);
     if (run.isTurn)
       run.atKeys.push_back(i == first ? 0 : run.atKeys.back() + turnBetween(keys[i - 1], keys[i]));
   }
@@ -191,6 +199,7 @@ void Flight::addRun(std::size_t first, std::size_t last, std::span<const Camera>
   run.azimuth = MonotoneCurve(run.atKeys, azimuths, plan_.isClosed);
   run.pitch = MonotoneCurve(run.atKeys, pitches, plan_.isClosed);
   run.field = MonotoneCurve(run.atKeys, fields, plan_.isClosed);
+  run.parallelHeight = MonotoneCurve(run.atKeys, heights, plan_.isClosed);
   runs_.push_back(std::move(run));
 }
 
@@ -264,6 +273,7 @@ Camera Flight::at(double seconds) const {
   camera.azimuthDegrees = wrappedAzimuth(run.azimuth.at(progress));
   camera.pitchDegrees = run.pitch.at(progress);
   camera.verticalFieldOfViewDegrees = run.field.at(progress);
+  camera.parallelHeight = run.parallelHeight.at(progress);
   return camera;
 }
 

@@ -57,9 +57,10 @@ class Flight {
     PathCurve path;                       // empty for a turn
     Vec3 place;                           // of a turn
     MonotoneCurve azimuth, pitch, field;  // of metres, or of degrees turned
-    std::vector<double> atKeys;           // metres or degrees
-    double length = 0;                    // the last of them
-    double speed = 0, ease = 0;           // per second; seconds
+    MonotoneCurve parallelHeight;
+    std::vector<double> atKeys;  // metres or degrees
+    double length = 0;           // the last of them
+    double speed = 0, ease = 0;  // per second; seconds
     double start = 0, seconds = 0;
 
     double progressAt(double time) const;

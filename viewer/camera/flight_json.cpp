@@ -108,6 +108,7 @@ std::optional<std::string> findFrameProblem(const json& object, Camera& key) {
   numbers.take("azimuth", key.azimuthDegrees);
   numbers.take("pitch", key.pitchDegrees);
   numbers.takeIfThere("fov", key.verticalFieldOfViewDegrees);
+  numbers.takeIfThere("parallelHeight", key.parallelHeight);
   if (numbers.problem().empty()) return std::nullopt;
   return numbers.problem();
 }
@@ -178,13 +179,15 @@ std::string flightText(const FlightPlan& plan, const Georeference& dem) {
   object["closed"] = plan.isClosed;
   object["framesPerSecond"] = plan.framesPerSecond;
   object["frames"] = ordered_json::array();
-  for (const Camera& key : plan.keys)
+  for (const Camera& key : plan.keys) {
     object["frames"].push_back({{"x", key.xy.x},
                                 {"y", key.xy.y},
                                 {"height", key.height},
                                 {"azimuth", key.azimuthDegrees},
                                 {"pitch", key.pitchDegrees},
                                 {"fov", key.verticalFieldOfViewDegrees}});
+    if (key.parallelHeight > 0) object["frames"].back()["parallelHeight"] = key.parallelHeight;
+  }
   return object.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -256,6 +256,33 @@ Look filling(Look look, std::span<const Vec3> points, const std::function<Pictur
   return look;
 }
 
+namespace {
+
+/// In parallel projection: sets the height of the picture. The eye stands before all points.
+Vec3 parallelEyeOnAll(std::span<const Vec3> points, const PictureAxes& axes, Camera& picture,
+                      const CoveredEdges& covered) {
+  Vec3 least = inAxes(points.front(), axes), most = least;
+  for (const Vec3& p : points) {
+    const Vec3 there = inAxes(p, axes);
+    least = {std::min(least.x, there.x), std::min(least.y, there.y), std::min(least.z, there.z)};
+    most = {std::max(most.x, there.x), std::max(most.y, there.y), std::max(most.z, there.z)};
+  }
+  const Vec3 size = most - least;
+  const double freeAcross = (1 - covered.left - covered.right) * (1 - 2 * kFree),
+               freeUpwards = (1 - covered.bottom - covered.top) * (1 - 2 * kFree);
+  const double aspect = picture.widthPixels / picture.heightPixels;
+  double high = std::max(size.y / freeUpwards, size.x / (freeAcross * aspect));
+  if (!(high > 0)) high = size.z > 0 ? size.z : 1;
+  picture.parallelHeight = high;
+  // The middle of the points is in the middle of the free part.
+  const double x = (least.x + most.x) / 2 - (covered.left - covered.right) / 2 * high * aspect,
+               y = (least.y + most.y) / 2 - (covered.bottom - covered.top) / 2 * high,
+               z = least.z - std::max(high, size.z);
+  return x * axes.right + y * axes.up + z * axes.ahead;
+}
+
+}  // namespace
+
 // Coordinates are taken from the middle of the box, where they have most digits left.
 Camera cameraOnAll(const CameraSpace& space, const HomeShape& shape, Look look, const Camera& picture,
                    const CoveredEdges& covered) {
@@ -263,8 +290,11 @@ Camera cameraOnAll(const CameraSpace& space, const HomeShape& shape, Look look, 
   std::vector<Vec3> points;
   points.reserve(shape.points.size());
   for (const Vec3& p : shape.points) points.push_back(p - centre);
-  const Vec3 eye = eyeOnAll(points, axesOf(space, look), picture, covered);
-  Camera camera = space.at(picture, centre + eye);
+  const PictureAxes axes = axesOf(space, look);
+  Vec3 eye = eyeOnAll(points, axes, picture, covered);
+  Camera held = picture;
+  if (picture.parallelHeight > 0) eye = parallelEyeOnAll(points, axes, held, covered);
+  Camera camera = space.at(held, centre + eye);
   camera.azimuthDegrees = wrappedAzimuth(look.azimuthDegrees);
   camera.pitchDegrees = look.pitchDegrees;
   return camera;

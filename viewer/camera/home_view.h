@@ -87,7 +87,9 @@ Look filling(Look look, std::span<const Vec3> points, const std::function<Pictur
              const Camera& picture, const CoveredEdges& covered = {});
 
 /// The nearest camera of a direction that has all of the shape in its picture, as eyeOnAll() has it.
-/// `picture` gives field of view and size. Precondition: a field of view of 0 to below 180 degrees.
+/// `picture` gives field of view and size; where it is of a parallel projection, so is the camera, in the
+/// least height that has all of the shape in its free part. Precondition: a field of view of 0 to below 180
+/// degrees.
 Camera cameraOnAll(const CameraSpace& space, const HomeShape& shape, Look look, const Camera& picture = {},
                    const CoveredEdges& covered = {});
 

@@ -42,7 +42,9 @@ void OrbitCamera::turn(double azimuthDegrees, double zenithDegrees) {
 }
 
 void OrbitCamera::zoom(double factor) {
-  orbit_.radius = std::clamp(orbit_.radius * factor, leastRadius_, mostRadius_);
+  const double before = orbit_.radius;
+  orbit_.radius = std::clamp(before * factor, leastRadius_, mostRadius_);
+  picture_.parallelHeight *= orbit_.radius / before;
 }
 
 void OrbitCamera::zoomAbout(const Vec3& point, double factor) {

@@ -27,7 +27,7 @@ class OrbitCamera {
   /// Around the target, in degrees: the camera goes anticlockwise for `azimuth` > 0 and down for `zenith` >
   /// 0, from straight above to straight below.
   void turn(double azimuthDegrees, double zenithDegrees);
-  /// Multiplies the radius; it stays within the limits.
+  /// Multiplies the radius; it stays within the limits. The height of a parallel picture grows with it.
   void zoom(double factor);
   /// Zooms so that `point` (metric) stays at its place in the picture.
   void zoomAbout(const Vec3& point, double factor);

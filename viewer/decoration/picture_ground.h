@@ -30,6 +30,7 @@ class PictureGround {
     /// Of a source position on the level plane through the middle of the picture; empty: toPixel.
     Mapping toLevelPixel = {};
     bool isPerspective = false;  ///< the scale differs from place to place
+    bool statesPixel = false;    ///< the scale bar says what length a pixel has
     std::string unit = "units";  ///< of source coordinates without a CRS, after a number
     /// Lengths on the ground of one pixel at a pixel, across the picture, in metres (source units without a
     /// CRS); empty: of the ground at the pixels beside it.
@@ -49,6 +50,7 @@ class PictureGround {
 
   const Rect& frame() const { return parts_.frame; }
   bool isPerspective() const { return parts_.isPerspective; }
+  bool statesPixel() const { return parts_.statesPixel; }
   const Georeference& georeference() const { return parts_.georeference; }
   const std::string& unitName() const { return parts_.unit; }
   bool hasCrs() const { return !parts_.georeference.crsWkt.empty(); }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "viewer/picture/inks.h"
 #include "viewer/picture/ticks.h"
@@ -36,6 +37,8 @@ bool isSameEverywhere(const PictureGround& ground, double scale) {
   for (const double x : {0.02, 0.5, 0.98})
     for (const double y : {0.02, 0.5, 0.98}) {
       const auto other = ground.lengthPerPixel({frame.left + x * frame.width, frame.top + y * frame.height});
+      // A parallel picture has one scale wherever it has ground at all.
+      if (!other && ground.statesPixel()) continue;
       if (!other || *other > scale * kSameScale || *other * kSameScale < scale) return false;
     }
   return true;
@@ -67,6 +70,11 @@ std::optional<ScaleBar> scaleBarOf(const PictureGround& ground, double maxPixels
     bar.cross = *place;
   } else if (!isSameEverywhere(ground, scale)) {
     bar.where = "at the middle";
+  }
+  if (ground.statesPixel()) {
+    const double rounded = std::strtod(fmt::format("{:.2e}", scale).c_str(), nullptr);
+    bar.where = "1 pixel = " + lengthText(rounded, ground.hasCrs(), ground.unitName()) +
+                (bar.where.empty() ? "" : " " + bar.where);
   }
   return bar;
 }

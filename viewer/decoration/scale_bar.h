@@ -16,7 +16,7 @@ struct ScaleBar {
   double pixels = 1;
   std::string label;  ///< the length with its unit
   /// "at the middle" where the scale differs from place to place, "at the cross" where the middle shows no
-  /// ground; else empty.
+  /// ground; else empty. Of a parallel picture also the length of a pixel, before it.
   std::string where;
   std::optional<Vec2> cross;  ///< the pixel whose scale it is, where that is not the middle
 };

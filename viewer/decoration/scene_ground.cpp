@@ -31,19 +31,22 @@ class TerrainPicture {
         frustum_(view),
         depths_(std::move(depths)) {}
 
+  /// Whether something can be seen so far ahead.
+  bool isDepth(double depth) const { return depth > 0 || view_.isParallel(); }
+
   std::optional<double> depthAt(Vec2 pixel) const {
     if (!depths_) {
       const auto pick = subject_.pick(camera_, pixel, settings_);
       if (!pick) return {};
       const double depth = frustum_.toView(subject_.drawn(pick->metric, settings_)).z;
-      return depth > 0 ? std::optional(depth) : std::nullopt;
+      return isDepth(depth) ? std::optional(depth) : std::nullopt;
     }
     const double x = std::floor(pixel.x), y = std::floor(pixel.y);
     if (!(x >= 0 && y >= 0 && x <= depths_->width && y <= depths_->height)) return {};
     // The far ends of a picture belong to it.
     const auto column = std::min(int(x), depths_->width - 1), row = std::min(int(y), depths_->height - 1);
     const float depth = depths_->depths[std::size_t(row) * std::size_t(depths_->width) + std::size_t(column)];
-    return std::isfinite(depth) && depth > 0 ? std::optional<double>(depth) : std::nullopt;
+    return std::isfinite(depth) && isDepth(depth) ? std::optional<double>(depth) : std::nullopt;
   }
 
   std::optional<Vec3> metricAt(Vec2 pixel) const {
@@ -53,7 +56,9 @@ class TerrainPicture {
     }
     const auto depth = depthAt(pixel);
     if (!depth) return {};
-    Vec3 place = view_.eye + *depth * directionOfPixel(view_, subject_.space().isMirrored(), pixel);
+    const bool isMirrored = subject_.space().isMirrored();
+    Vec3 place =
+        originOfPixel(view_, isMirrored, pixel, 0) + *depth * directionOfPixel(view_, isMirrored, pixel);
     place.z /= settings_.stretch;
     return place;
   }
@@ -65,16 +70,14 @@ class TerrainPicture {
 
   std::optional<Vec2> pixelOfPlace(const Vec3& metric, bool mayBeHidden) const {
     const Vec3 p = frustum_.toView(subject_.drawn(metric, settings_));
-    if (!(p.z > 0)) return {};
-    const Frustum::Planes planes = frustum_.planes();
-    const double side = subject_.space().isMirrored() ? -1 : 1;
-    const Vec2 pixel = {(1 + side * p.x / (p.z * planes.slopeX)) / 2 * view_.widthPixels,
-                        (1 - p.y / (p.z * planes.slopeY)) / 2 * view_.heightPixels};
+    const auto found = pixelOfPoint(view_, subject_.space().isMirrored(), p);
+    if (!found) return {};
+    const Vec2 pixel = *found;
     const bool isInside =
         pixel.x >= 0 && pixel.y >= 0 && pixel.x < view_.widthPixels && pixel.y < view_.heightPixels;
     if (mayBeHidden && isInside && depths_) {
       const auto shown = depthAt(pixel);
-      if (!shown || *shown < p.z * (1 - kDepthSlack)) return {};
+      if (!shown || *shown < p.z - kDepthSlack * (view_.isParallel() ? view_.parallelHeight : p.z)) return {};
     }
     return pixel;
   }
@@ -111,7 +114,7 @@ class TerrainPicture {
   std::optional<double> lengthPerPixel(Vec2 pixel) const {
     const auto depth = depthAt(pixel);
     if (!depth) return {};
-    return *depth * 2 * frustum_.planes().slopeX / view_.widthPixels;
+    return 2 * frustum_.planes().halfWidth(*depth) / view_.widthPixels;
   }
 
   /// On a flat map, whose scale is not the ground's everywhere.
@@ -145,13 +148,16 @@ PictureGround groundInView(const Subject& subject, const Camera& camera, const V
   parts.lengthPerPixel = [](Vec2) { return std::optional<double>(); };
   const Result<View> view = subject.viewOf(camera, settings);
   if (!view) return PictureGround(std::move(parts));
+  parts.isPerspective = !view->isParallel();
+  parts.statesPixel = view->isParallel();
   if (!subject.heights()) {
     // A file without a CRS says no unit.
     const Frustum frustum(*view);
     const Vec3 middle = (subject.box().low + subject.box().high) * 0.5;
     const double depth = frustum.toView(subject.drawn(middle, settings)).z;
-    const double perPixel = depth * 2 * frustum.planes().slopeX / view->widthPixels;
-    if (depth > 0) parts.lengthPerPixel = [perPixel](Vec2) { return std::optional(perPixel); };
+    const double perPixel = 2 * frustum.planes().halfWidth(depth) / view->widthPixels;
+    if (depth > 0 || view->isParallel())
+      parts.lengthPerPixel = [perPixel](Vec2) { return std::optional(perPixel); };
     return PictureGround(std::move(parts));
   }
   parts.georeference = subject.heights()->model().georeference;

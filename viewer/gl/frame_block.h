@@ -11,10 +11,10 @@ namespace arete {
 /// shaders/frame.glsl, std140.
 struct FrameBlock {
   glm::vec4 eyeHigh{}, eyeLow{}, right{}, up{}, forward{}, lens{}, sides{}, reach{}, morph{}, earth{};
-  glm::dvec4 eyeExact{}, rightExact{}, upExact{}, forwardExact{}, sidesExact{}, reachExact{};
-  glm::vec4 metricOrigin{}, metricScale{}, eyeGround{};
+  glm::dvec4 eyeExact{}, rightExact{}, upExact{}, forwardExact{}, sidesExact{}, reachExact{}, halvesExact{};
+  glm::vec4 metricOrigin{}, metricScale{}, eyeGround{}, parallel{};
 };
-static_assert(sizeof(FrameBlock) == 10 * 16 + 6 * 32 + 3 * 16);
+static_assert(sizeof(FrameBlock) == 10 * 16 + 7 * 32 + 4 * 16);
 
 /// `metric`: of the flat space, in both cases. Precondition: the view validates.
 FrameBlock frameBlock(const FrameView& frame, const MetricFrame& metric);

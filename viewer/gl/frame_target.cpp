@@ -96,7 +96,7 @@ Image imageFromBottomUp(int width, int height, std::span<const std::uint8_t> rgb
   return image;
 }
 
-std::vector<float> FrameTarget::depths(double drawnNear) const {
+std::vector<float> FrameTarget::depths(double drawnNear, double parallelReach) const {
   const auto w = std::size_t(width_), h = std::size_t(height_);
   std::vector<float> read(w * h), depths(w * h);
   if (samples_ > 1)
@@ -108,7 +108,9 @@ std::vector<float> FrameTarget::depths(double drawnNear) const {
     for (std::size_t x = 0; x < w; ++x) {
       // The far plane is infinitely far: depth is near / distance, and 0 where nothing is drawn.
       const float d = read[(h - 1 - y) * w + x];
-      depths[y * w + x] = d > 0 ? float(drawnNear / double(d)) : std::numeric_limits<float>::infinity();
+      depths[y * w + x] =
+          d > 0 ? float(parallelReach > 0 ? (1 - 2 * double(d)) * parallelReach : drawnNear / double(d))
+                : std::numeric_limits<float>::infinity();
     }
   return depths;
 }

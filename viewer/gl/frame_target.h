@@ -23,7 +23,8 @@ class FrameTarget {
   Image image() const;
   /// Depths along forward in metric units, row by row from the top, infinity where nothing is drawn; of one
   /// of the samples of each pixel. `drawnNear`: of the frame that was drawn. Waits for the drawing.
-  std::vector<float> depths(double drawnNear) const;
+  /// `parallelReach`: that frame's depthReach, if it was of a parallel projection.
+  std::vector<float> depths(double drawnNear, double parallelReach = 0) const;
   /// Copies the colours into another framebuffer (0 = the window's), of the same size.
   void copyTo(GLuint framebuffer) const;
 

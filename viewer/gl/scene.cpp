@@ -48,6 +48,9 @@ ViewSettings Scene::settingsOf(std::size_t model, const ViewSettings& settings) 
   if (drawables_.size() == 1) return own;
   own.maxTriangles = 0;
   own.nearPlane = this->subject().nearPlane();
+  const Sphere all = ballAbout(this->subject(), settings);
+  own.contentsMiddle = {all.x, all.y, all.z};
+  own.contentsRadius = all.radius;
   const Subject& subject = drawables_[model]->subject();
   if (std::ranges::find(subject.colorings(), own.look.coloring) == subject.colorings().end())
     own.look.coloring = subject.colorings().front();
@@ -108,6 +111,7 @@ Result<FrameView> Scene::frameOf(const Camera& camera, const ViewSettings& setti
   FrameView frame;
   ARETE_TRY(frame.view, subject().viewOf(camera, settings));
   frame.drawnNear = subject().nearPlane();
+  frame.depthReach = depthReach(frame.view, subject(), settings);
   frame.pixels = settings.pixels;
   return frame;
 }

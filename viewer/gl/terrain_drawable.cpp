@@ -61,6 +61,7 @@ Result<FrameView> TerrainDrawable::frameOf(const Camera& camera, const ViewSetti
   frame.eyeGround = {ground.x, ground.y};
   frame.isMirrored = model().isFlipped();
   if (settings.nearPlane > 0) frame.drawnNear = settings.nearPlane;
+  frame.depthReach = depthReach(frame.view, *subject_, settings);
   frame.stretch = settings.stretch;
   // The tolerance holds for the exaggerated terrain, so heights have the exaggerated scale.
   MetricFrame exaggerated = model().mt.metric();

@@ -60,9 +60,9 @@ class PixelsOfFrame {
   std::optional<Vec2> operator()(Vec3 place) const {
     place.z *= stretch_;
     const Vec3 p = frustum_.toView(place);
-    if (!(p.z > 0)) return std::nullopt;
-    return Vec2{width_ * (0.5 + 0.5 * side_ * p.x / (p.z * planes_.slopeX)),
-                height_ * (0.5 - 0.5 * p.y / (p.z * planes_.slopeY))};
+    if (!(p.z > 0) && !frustum_.isParallel()) return std::nullopt;
+    return Vec2{width_ * (0.5 + 0.5 * side_ * p.x / planes_.halfWidth(p.z)),
+                height_ * (0.5 - 0.5 * p.y / planes_.halfHeight(p.z))};
   }
 
  private:

@@ -24,10 +24,12 @@ double drawnWithin(const Subject& subject, const Camera& cutFor, const ViewSetti
   const Vec3 place = frustum.toView(subject.drawn(pick.metric, settings));
   const Frustum::Planes planes = frustum.planes();
   constexpr double kEdge = 1 + 1e-9;
-  const bool isSeen = place.z > 0 && std::abs(place.x) <= planes.slopeX * place.z * kEdge &&
-                      std::abs(place.y) <= planes.slopeY * place.z * kEdge;
+  const bool isSeen = (place.z > 0 || frustum.isParallel()) &&
+                      std::abs(place.x) <= planes.halfWidth(place.z) * kEdge &&
+                      std::abs(place.y) <= planes.halfHeight(place.z) * kEdge;
   if (!isSeen || !std::isfinite(pixels)) return subject.boundAt(pick, kAny);
-  const double drawn = pixels * place.z * place.z / norm(place) / frustum.pixelsPerUnit();
+  const double reach = frustum.isParallel() ? 1 : place.z * place.z / norm(place);
+  const double drawn = pixels * reach / frustum.pixelsPerUnit();
   const double allowed = drawn / (settings.stretch * subject.space().metresPerHeight()) * kEdge;
   // Moving vertices have a part of the tolerance, and triangles the rest.
   const bool moves = settings.isGeomorphed && subject.isTerrain();

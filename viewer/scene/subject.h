@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/mt/multitriangulation.h"
 #include "terrain/locate/ground_height.h"
 #include "viewer/camera/camera_space.h"
 #include "viewer/camera/flight.h"
@@ -109,6 +110,15 @@ std::string_view toString(Coloring coloring);
 
 /// The direction, in the space of the view, of a pixel of its picture. `isMirrored`: as CameraSpace says.
 Vec3 directionOfPixel(const View& view, bool isMirrored, Vec2 pixel);
+/// Where the ray of a place in the picture begins: at the eye, in parallel projection beside it, and so many
+/// metric units behind it that the ray meets all that is seen.
+Vec3 originOfPixel(const View& view, bool isMirrored, Vec2 pixel, double behind);
+/// The place in a picture of a point in the eye's axes (Frustum::toView()); nothing behind a perspective eye.
+std::optional<Vec2> pixelOfPoint(const View& view, bool isMirrored, const Vec3& inView);
+/// A ball about a subject as it is drawn.
+Sphere ballAbout(const Subject& subject, const ViewSettings& settings);
+/// How far from the eye depths lie, before it or behind it, of all that is drawn.
+double depthReach(const View& view, const Subject& subject, const ViewSettings& settings);
 
 /// The pixel of a metric point in a camera's picture; nothing where it is not in front of it.
 std::optional<Vec2> pixelOf(const Subject& subject, const Camera& camera, const Vec3& metric,

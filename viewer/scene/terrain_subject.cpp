@@ -84,6 +84,8 @@ Status TerrainSubject::check(const ViewSettings& settings) const {
 // On a flat map the device multiplies heights when it draws, so only the eye is raised here.
 Result<View> TerrainSubject::viewOf(const Camera& camera, const ViewSettings& settings) const {
   if (settings.isCurved) {
+    if (camera.parallelHeight > 0)
+      return failure(ErrorCode::usage, "a curved Earth is drawn in perspective", "camera");
     ARETE_TRY(const CurvedGround* const ground, curvedGround());
     return ground->viewOf(camera, settings.stretch);
   }
@@ -191,6 +193,13 @@ std::optional<Pick> TerrainSubject::between(const Vec3& first, const Vec3& last,
   return std::nullopt;
 }
 
+// Heights as they are, not as they are drawn.
+Vec3 TerrainSubject::originOf(const View& view, Vec2 pixel, const ViewSettings& settings) const {
+  Vec3 origin = originOfPixel(view, space_.isMirrored(), pixel, depthReach(view, *this, settings));
+  origin.z /= settings.stretch;
+  return origin;
+}
+
 std::optional<Pick> TerrainSubject::pick(const Camera& camera, Vec2 pixel,
                                          const ViewSettings& settings) const {
   const Result<View> view = viewOf(camera, settings);
@@ -198,7 +207,9 @@ std::optional<Pick> TerrainSubject::pick(const Camera& camera, Vec2 pixel,
   if (settings.isCurved) return pickCurved(*view, pixel, camera, settings.stretch);
   Vec3 direction = directionOfPixel(*view, space_.isMirrored(), pixel);
   direction.z /= settings.stretch;
-  return along(space_.position(camera), direction);
+  auto found = along(originOf(*view, pixel, settings), direction);
+  if (found) found->metres = norm(found->metric - space_.position(camera));
+  return found;
 }
 
 // The triangle of a cut there is one of those over the place, from the coarsest that the error allows down to
@@ -219,7 +230,7 @@ bool TerrainSubject::isVoid(const Camera& camera, Vec2 pixel, const ViewSettings
   if (!view || settings.isCurved || pick(camera, pixel, settings)) return false;
   Vec3 direction = directionOfPixel(*view, space_.isMirrored(), pixel);
   direction.z /= settings.stretch;
-  const Vec3 eye = space_.position(camera);
+  const Vec3 eye = originOf(*view, pixel, settings);
   if (!(direction.z < 0) || eye.z < rayBox_.low.z) return false;
   const double down = (rayBox_.low.z - eye.z) / direction.z;
   const Vec3 at = eye + down * direction;

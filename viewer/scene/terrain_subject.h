@@ -51,6 +51,7 @@ class TerrainSubject final : public Subject {
   Result<const CurvedGround*> curvedGround() const;
   /// The pick of a ray from a point in a direction of any length but 0, in metric space. From above or from
   /// below the terrain.
+  Vec3 originOf(const View& view, Vec2 pixel, const ViewSettings& settings) const;
   std::optional<Pick> along(const Vec3& eye, const Vec3& direction) const;
 
  private:

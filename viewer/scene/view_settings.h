@@ -72,6 +72,9 @@ struct ViewSettings {
   ViewLook look = {};
   /// Depth of the plane that clips what is near, in metric units; 0: the model's own.
   double nearPlane = 0;
+  /// A ball about all that a scene draws, for depths in parallel projection; of radius 0: the model's own.
+  Vec3 contentsMiddle = {};
+  double contentsRadius = 0;
   std::optional<HandLevel> level = {};  ///< instead of the tolerance and the budget; of surfaces
 };
 
@@ -99,6 +102,7 @@ struct FrameView {
   Vec2 eyeGround;           ///< x and y of the eye in the flat metric space
   double earthRadius = 0;   ///< metres, on a CurvedGround, whose places are exaggerated already; 0 = flat
   double drawnNear = 0.1;   ///< depth of the near plane that clips what is drawn, metric units, > 0
+  double depthReach = 1;  ///< parallel projection draws depths up to this, before the eye and behind it, > 0
 };
 
 }  // namespace arete

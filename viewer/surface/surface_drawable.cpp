@@ -127,6 +127,7 @@ Result<FrameView> SurfaceDrawable::frameOf(const Camera& camera, const ViewSetti
   frame.view = viewedBy(pose, view);
   frame.pixels = pixels_;
   frame.drawnNear = (settings.nearPlane > 0 ? settings.nearPlane : subject_->nearPlane()) / pose.scale();
+  frame.depthReach = depthReach(view, *subject_, settings) / pose.scale();
   return frame;
 }
 

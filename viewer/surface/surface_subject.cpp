@@ -52,6 +52,7 @@ View viewedBy(const Similarity& placed, const View& view) {
   seen.up = back.direction(view.up);
   seen.nearDistance *= back.scale();
   seen.farDistance *= back.scale();
+  seen.parallelHeight *= back.scale();
   return seen;
 }
 
@@ -130,12 +131,13 @@ std::optional<Pick> SurfaceSubject::pick(const Camera& camera, Vec2 pixel,
   if (!view) return std::nullopt;
   const Similarity pose = this->pose(settings), back = pose.inverse();
   const Vec3 direction = directionOfPixel(*view, space_.isMirrored(), pixel);
-  const auto found = form_->picker.along(back(view->eye), back.direction(direction));
+  const Vec3 origin = originOfPixel(*view, space_.isMirrored(), pixel, depthReach(*view, *this, settings));
+  const auto found = form_->picker.along(back(origin), back.direction(direction));
   if (!found) return std::nullopt;
   const Vec3 inFile = upright().toFile(found->place), metric = placed(placement_, scene_)(found->place);
   Pick pick;
   pick.metric = metric;
-  pick.metres = found->length * pose.scale();
+  pick.metres = norm(origin + found->length * pose.scale() * unit(direction) - view->eye);
   pick.material = form_->picker.materialOf(found->triangle);
   pick.parts = form_->picker.partsOf(found->triangle);
   pick.inObject = inFile;

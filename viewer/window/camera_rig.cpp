@@ -48,6 +48,8 @@ double CameraRig::reach() const {
 }
 
 Camera CameraRig::aboveFloor(const Camera& camera) {
+  // A parallel picture is the same wherever along its axis the eye stands, and raising it would shift it.
+  if (camera.parallelHeight > 0) return camera;
   return ground_ && floorMetres_ > 0 ? ground_->aboveFloor(camera) : camera;
 }
 
@@ -103,6 +105,26 @@ void CameraRig::setFieldOfView(double degrees) {
   enter(camera_);
 }
 
+void CameraRig::setParallel(bool isParallel) {
+  if (isParallel == (camera_.parallelHeight > 0)) return;
+  const double slope = 2 * std::tan(camera_.verticalFieldOfViewDegrees * std::numbers::pi / 360);
+  if (isParallel) {
+    setParallelHeight(slope * orbit_.orbit().radius);
+    return;
+  }
+  // The eye goes to where perspective has the picture as high at the place that is orbited.
+  OrbitCamera there = orbit_;
+  there.zoom(camera_.parallelHeight / slope / orbit_.orbit().radius);
+  Camera camera = asIs(there.camera());
+  camera.parallelHeight = 0;
+  enter(aboveFloor(camera));
+}
+
+void CameraRig::setParallelHeight(double metres) {
+  camera_.parallelHeight = metres;
+  enter(camera_);
+}
+
 void CameraRig::setStretch(double stretch) {
   if (stretch == stretch_) return;
   // What is orbited stays in the middle, at its own height.
@@ -148,7 +170,9 @@ bool CameraRig::step(const InputState& input) {
       input,
       {.mode = mode_,
        .metresPerSecond = metresPerSecond_,
-       .metresPerPixel = 2 * orbit_.orbit().radius * slope / camera_.heightPixels,
+       .metresPerPixel =
+           (camera_.parallelHeight > 0 ? camera_.parallelHeight : 2 * orbit_.orbit().radius * slope) /
+           camera_.heightPixels,
        .degreesPerPixel =
            mode_ == CameraMode::orbit ? 0.3 : camera_.verticalFieldOfViewDegrees / camera_.heightPixels * 2});
   Camera there;

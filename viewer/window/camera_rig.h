@@ -40,6 +40,10 @@ class CameraRig {
 
   void setPicture(double widthPixels, double heightPixels);
   void setFieldOfView(double degrees);
+  /// To parallel projection and back; what is orbited stays as large in the picture.
+  void setParallel(bool isParallel);
+  /// The height of the parallel picture in metres. Precondition: above 0.
+  void setParallelHeight(double metres);
   void setStretch(double stretch);
 
   /// Keeps the height above the ground in free flight. Without ground: nothing.

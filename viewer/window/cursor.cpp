@@ -17,7 +17,8 @@ constexpr double kQuickMilliseconds = 5;
 bool isSame(const Camera& a, const Camera& b) {
   return a.xy.x == b.xy.x && a.xy.y == b.xy.y && a.height == b.height &&
          a.azimuthDegrees == b.azimuthDegrees && a.pitchDegrees == b.pitchDegrees &&
-         a.verticalFieldOfViewDegrees == b.verticalFieldOfViewDegrees && a.widthPixels == b.widthPixels &&
+         a.verticalFieldOfViewDegrees == b.verticalFieldOfViewDegrees &&
+         a.parallelHeight == b.parallelHeight && a.widthPixels == b.widthPixels &&
          a.heightPixels == b.heightPixels;
 }
 

@@ -156,7 +156,9 @@ void Panel::lookSection(ViewerSession& s) {
   const bool hasSurfaces = !s.tools || (s.objects && s.objects->count() > 1);
   if (hasSurfaces) drawSurfaceLook(look.surface);
   if (!s.tools) return;
-  if (!s.tools->model().georeference.crsWkt.empty()) ImGui::Checkbox("curved Earth", &s.settings.isCurved);
+  // The curved Earth is drawn in perspective only.
+  if (!s.tools->model().georeference.crsWkt.empty() && !(s.rig.camera().parallelHeight > 0))
+    ImGui::Checkbox("curved Earth", &s.settings.isCurved);
   slider("heights times", s.settings.stretch, 0.5, 10, "%.2f", true);
   slider("haze", look.hazeKilometres, 0, 200, look.hazeKilometres <= 0 ? "none" : "%.0f km", true);
 }
@@ -234,7 +236,16 @@ void Panel::cameraSection(ViewerSession& s) {
     tip("The camera stays so far above the terrain. 0: it may go anywhere, below it too.");
   }
   double field = camera.verticalFieldOfViewDegrees;
-  if (slider("field of view", field, 5, 120, "%.0f°")) s.rig.setFieldOfView(field);
+  bool isParallel = camera.parallelHeight > 0;
+  if (!s.settings.isCurved && ImGui::Checkbox("parallel", &isParallel)) s.rig.setParallel(isParallel);
+  double high = camera.parallelHeight;
+  const double largest = 10 * s.subject.box().diagonal();
+  if (isParallel) {
+    if (slider("picture high", high, 1e-6 * largest, largest, s.tools ? "%.4g m" : "%.4g", true))
+      s.rig.setParallelHeight(high);
+  } else if (slider("field of view", field, 5, 120, "%.0f°")) {
+    s.rig.setFieldOfView(field);
+  }
   for (const HomeView view : kHomeViews) {
     if (view != HomeView::overview) ImGui::SameLine(0, 3);
     const std::string name = view == HomeView::overview ? "home" : std::string(toString(view));

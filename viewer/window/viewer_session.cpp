@@ -21,7 +21,7 @@ constexpr double kRestSeconds = 0.5;
 bool isSamePlace(const Camera& a, const Camera& b) {
   return a.xy.x == b.xy.x && a.xy.y == b.xy.y && a.height == b.height &&
          a.azimuthDegrees == b.azimuthDegrees && a.pitchDegrees == b.pitchDegrees &&
-         a.verticalFieldOfViewDegrees == b.verticalFieldOfViewDegrees;
+         a.verticalFieldOfViewDegrees == b.verticalFieldOfViewDegrees && a.parallelHeight == b.parallelHeight;
 }
 
 bool isSameSize(const Camera& a, const Camera& b) {

@@ -16,21 +16,33 @@ Json vectorJson(const Vec3& v) {
   return {v.x, v.y, v.z};
 }
 
+/// With the height of a parallel picture, which has no field of view that counts.
+template <class AnyCamera>
+Json withProjection(Json view, const AnyCamera& camera) {
+  if (camera.parallelHeight > 0) {
+    view.erase("fieldOfView");
+    view["parallelHeight"] = camera.parallelHeight;
+  }
+  return view;
+}
+
 Json viewJson(const Camera& camera) {
-  return {{"x", camera.xy.x},
-          {"y", camera.xy.y},
-          {"height", camera.height},
-          {"azimuth", camera.azimuthDegrees},
-          {"pitch", camera.pitchDegrees},
-          {"fieldOfView", camera.verticalFieldOfViewDegrees},
-          {"viewport", {camera.widthPixels, camera.heightPixels}}};
+  Json view = {{"x", camera.xy.x},
+               {"y", camera.xy.y},
+               {"height", camera.height},
+               {"azimuth", camera.azimuthDegrees},
+               {"pitch", camera.pitchDegrees},
+               {"fieldOfView", camera.verticalFieldOfViewDegrees},
+               {"viewport", {camera.widthPixels, camera.heightPixels}}};
+  return withProjection(std::move(view), camera);
 }
 
 Json viewJson(const SurfaceCamera& camera) {
-  return {{"eye", vectorJson(camera.eye)},
-          {"target", vectorJson(camera.target)},
-          {"fieldOfView", camera.verticalFieldOfViewDegrees},
-          {"viewport", {camera.widthPixels, camera.heightPixels}}};
+  Json view = {{"eye", vectorJson(camera.eye)},
+               {"target", vectorJson(camera.target)},
+               {"fieldOfView", camera.verticalFieldOfViewDegrees},
+               {"viewport", {camera.widthPixels, camera.heightPixels}}};
+  return withProjection(std::move(view), camera);
 }
 
 }  // namespace

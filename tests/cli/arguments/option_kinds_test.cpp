@@ -106,6 +106,8 @@ const std::map<std::string, Tried>& triedCommands() {
          {"--camera", {"--camera PLACE,50agl", "--max-triangles 50%", "--camera 3,0,0,0,0,0"}},
          {"--look", {"--look 90,-5", "--camera PLACE,50agl", {}, "--camera 3,0,0,0,0,0"}},
          {"--fov", {"--fov 5", "--camera PLACE,50agl", {}, "--camera 3,0,0,0,0,0"}},
+         {"--parallel-height",
+          {"--parallel-height 1000", "--camera PLACE,50agl", {}, "--camera 3,0,0,0,0,0"}},
          {"--viewport", {"--viewport 40x30", "--camera PLACE,50agl", {}, "--camera 3,0,0,0,0,0"}},
          {"--pixel-error", {"--pixel-error 40", "--camera PLACE,50agl", {}, "--camera 3,0,0,0,0,0"}},
          {"--lonlat", {"--lonlat", "--camera PLACE,50agl", {}, "--camera 3,0,0,0,0,0"}},

@@ -9,10 +9,11 @@ bool exceedsExactly(vec4 ball, float error) {
   precise dvec3 p = dvec3(d.x * rightExact.x + d.y * rightExact.y + d.z * rightExact.z,
                           d.x * upExact.x + d.y * upExact.y + d.z * upExact.z,
                           d.x * forwardExact.x + d.y * forwardExact.y + d.z * forwardExact.z);
-  if (!(abs(p.x) - sidesExact.x * p.z <= radius * sidesExact.z &&
-        abs(p.y) - sidesExact.y * p.z <= radius * sidesExact.w && p.z + radius >= reachExact.x &&
+  if (!(abs(p.x) - sidesExact.x * p.z - halvesExact.x <= radius * sidesExact.z &&
+        abs(p.y) - sidesExact.y * p.z - halvesExact.y <= radius * sidesExact.w && p.z + radius >= reachExact.x &&
         p.z - radius <= reachExact.y))
     return false;
+  if (isParallel()) return double(error) > reachExact.w;
   precise double byDepth = max(p.z - radius, reachExact.x) * reachExact.z;
   precise double squared = p.x * p.x + p.y * p.y + p.z * p.z;
   precise double distance = sqrt(squared);
@@ -31,6 +32,7 @@ bool exceedsExactly(vec4 ball, float error) {
 
 /// z^2 / distance over the ball, at least about so much (to single precision).
 float reachOver(vec4 ball) {
+  if (isParallel()) return 1.0;
   vec3 d = (vec3(ball.xy, ball.z * lens.w) - eyeHigh.xyz) - eyeLow.xyz;
   float radius = ball.w * max(1.0, lens.w);
   vec3 p = vec3(dot(d, right.xyz), dot(d, up.xyz), dot(d, forward.xyz));
@@ -61,8 +63,9 @@ bool exceeds(vec4 ball, float error) {
   float low = max(isClose ? 0.0 : byAngle * 0.998, max(depth - slack, reach.x) * reach.z) * reach.w * 0.9999;
   float high = max(isClose ? 1.1e-3 * distance : byAngle * 1.002, max(depth + slack, reach.x) * reach.z) *
                reach.w * 1.0001;
+  if (isParallel()) low = reach.w * 0.9999, high = reach.w * 1.0001;
 
-  vec4 beyond = vec4(abs(p.x) - sides.x * p.z - radius * sides.z, abs(p.y) - sides.y * p.z - radius * sides.w,
+  vec4 beyond = vec4(abs(p.x) - sides.x * p.z - parallel.x - radius * sides.z, abs(p.y) - sides.y * p.z - parallel.y - radius * sides.w,
                      reach.x - p.z - radius, depth - reach.y);
   vec4 window = vec4(slack * (1.0 + sides.x), slack * (1.0 + sides.y), slack, slack);
   if (any(greaterThan(beyond, window)) || !(error > low)) return false;

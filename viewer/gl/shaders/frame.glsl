@@ -11,9 +11,36 @@ layout(std140, binding = 0) uniform Frame {
   dvec4 eyeExact;
   dvec4 rightExact, upExact, forwardExact;
   dvec4 sidesExact, reachExact;
+  dvec4 halvesExact;               // halfX, halfY
   vec4 metricOrigin, metricScale;  // of the flat space
   vec4 eyeGround;                  // x, y of the eye there, each as the sum of two floats
+  vec4 parallel;                   // halfX, halfY, 1 = parallel projection, 1 / length of the depths that are drawn
 };
+
+bool isParallel() { return parallel.z > 0.0; }
+
+vec3 inView(vec3 fromEye) {
+  return vec3(dot(fromEye, right.xyz), dot(fromEye, up.xyz), dot(fromEye, forward.xyz));
+}
+
+/// Where a place in the eye's axes is drawn, as if it were so many times nearer; in parallel projection a part of
+/// the picture's height nearer. Depth is near / depth: 1 at the near plane, 0 at infinity, as fine far away as floats
+/// are; in parallel projection it falls evenly over the depths that are drawn, 1/2 at the eye.
+vec4 clipOf(vec3 p, float nearer) {
+  return isParallel() ? vec4(p.xy * lens.xy, 0.5 - (p.z - (nearer - 1.0) * 2.0 * parallel.y) * parallel.w, 1.0)
+                      : vec4(p.xy * lens.xy, lens.z * nearer, p.z);
+}
+
+/// The unit vector to the eye.
+vec3 towardsEye(vec3 fromEye) {
+  return isParallel() ? -forward.xyz : -normalize(fromEye);
+}
+
+/// depth^2 / distance, by which a displacement is smaller in the picture; 1 in parallel projection.
+float reachAt(vec3 fromEye) {
+  float depth = dot(fromEye, forward.xyz);
+  return isParallel() ? 1.0 : depth * depth / max(length(fromEye), 1e-6);
+}
 
 /// Upwards at a position.
 vec3 upAt(vec3 position) {

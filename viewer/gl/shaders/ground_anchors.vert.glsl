@@ -4,5 +4,5 @@ flat out int index;
 void main() {
   index = gl_VertexID;
   vec3 p = inView(liftedFromEye(place));
-  gl_Position = vec4(p.xy * lens.xy, lens.z * nearer(1.0), p.z);
+  gl_Position = clipOf(p, nearer(1.0));
 }

@@ -7,7 +7,7 @@ layout(location = 0) uniform vec2 viewport;
 layout(location = 1) uniform float width;
 noperspective out float across;  // pixels from the middle
 
-vec2 onScreen(vec3 p) { return p.xy / p.z * lens.xy * 0.5 * viewport; }
+vec2 onScreen(vec3 p) { return p.xy / (isParallel() ? 1.0 : p.z) * lens.xy * 0.5 * viewport; }
 
 vec2 acrossOf(vec2 a, vec2 b) {
   vec2 d = b - a;
@@ -24,7 +24,7 @@ vec2 mitre(vec2 here, vec2 other) {
 
 void main() {
   vec3 a = inView(liftedFromEye(from.xyz)), b = inView(liftedFromEye(to.xyz));
-  float near = lens.z * 1.01;
+  float near = isParallel() ? -1e30 : lens.z * 1.01;
   gl_Position = vec4(0.0, 0.0, 0.0, -1.0);  // clipped
   across = 0.0;
   if (!(from.w > 0.0) || (a.z < near && b.z < near)) return;
@@ -47,5 +47,6 @@ void main() {
   across = (gl_VertexID & 1) == 0 ? half_ : -half_;
   vec3 p = isEnd ? b : a;
   vec2 s = (isEnd ? sb : sa) + across * offset;
-  gl_Position = vec4(s / (0.5 * viewport) * p.z, lens.z * nearer(half_), p.z);
+  gl_Position = clipOf(p, nearer(half_));
+  gl_Position.xy = s / (0.5 * viewport) * gl_Position.w;
 }

@@ -2,16 +2,12 @@
 // so much higher there.
 vec3 liftedFromEye(vec3 place) {
   vec3 d = (vec3(place.xy, place.z * lens.w) - eyeHigh.xyz) - eyeLow.xyz;
-  float depth = dot(d, forward.xyz);
   float pixelsPerUnit = morph.z / (abs(metricScale.z) * earth.x);
-  return d + upAt(place) * ((morph.x + morph.y) * depth * depth / (max(length(d), 1e-6) * pixelsPerUnit));
-}
-
-vec3 inView(vec3 fromEye) {
-  return vec3(dot(fromEye, right.xyz), dot(fromEye, up.xyz), dot(fromEye, forward.xyz));
+  return d + upAt(place) * ((morph.x + morph.y) * reachAt(d) / pixelsPerUnit);
 }
 
 /// How much nearer something of so many pixels is drawn than it is, so that a slope beside it does not cut it.
 float nearer(float pixels) {
-  return 1.0003 + 2.0 * pixels * abs(metricScale.z) * earth.x / morph.z;
+  float pixelsHigh = 2.0 * parallel.y * morph.z / (abs(metricScale.z) * earth.x);
+  return isParallel() ? 1.0003 + 2.0 * pixels / pixelsHigh : 1.0003 + 2.0 * pixels * abs(metricScale.z) * earth.x / morph.z;
 }

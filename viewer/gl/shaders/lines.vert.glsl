@@ -5,5 +5,5 @@ void main() {
   vec3 d = (vec3(position.xy, position.z * lens.w) - eyeHigh.xyz) - eyeLow.xyz;
   lineColor = ink;
   // A little nearer than it is, so that what lies on the ground is seen.
-  gl_Position = vec4(dot(d, right.xyz) * lens.x, dot(d, up.xyz) * lens.y, lens.z * 1.0005, dot(d, forward.xyz));
+  gl_Position = clipOf(inView(d), 1.0005);
 }

@@ -17,7 +17,7 @@ layout(std430, binding = 8) readonly buffer Errors { float error[]; };
 
 void main() {
   if (more.y > 0.0) { color = baseColor; return; }
-  vec3 toEye = -normalize(fromEye);
+  vec3 toEye = towardsEye(fromEye);
   vec3 flatNormal = cross(dFdx(fromEye), dFdy(fromEye));
   flatNormal = length(flatNormal) > 0.0 ? normalize(flatNormal) : toEye;
   if (dot(flatNormal, toEye) < 0.0) flatNormal = -flatNormal;
@@ -36,8 +36,7 @@ void main() {
     base = vec4(0.58, 0.58, 0.56, 1.0);
   } else {
     // As many pixels as the cut allows are the hottest colour.
-    float e = error[int(more.z) + gl_PrimitiveID], depth = dot(fromEye, forward.xyz);
-    e = e * morph.z * length(fromEye) / (depth * depth * morph.x);
+    float e = error[int(more.z) + gl_PrimitiveID] * morph.z / (reachAt(fromEye) * morph.x);
     base = vec4(linearOf(colorOf(errorColors, e).rgb), 1.0);
   }
   if (modes.z != 2.0) base.a = 1.0;

@@ -11,7 +11,5 @@ void main() {
   shadingNormal = normal;
   textureCoords = coords;
   vertexColor = ink;
-  // Depth is near / depth: 1 at the near plane, 0 at infinity.
-  gl_Position = vec4(dot(fromEye, right.xyz) * lens.x, dot(fromEye, up.xyz) * lens.y, lens.z,
-                     dot(fromEye, forward.xyz));
+  gl_Position = clipOf(inView(fromEye), 1.0);
 }

@@ -120,8 +120,7 @@ void main() {
     value = 360.0 * fract(atan(slopes.y, slopes.z) / 6.2831853);
   } else if (MODE == 4) {
     float e = errorOf(drawnId[drawFirst / 3u + uint(gl_PrimitiveID)]);
-    float depth = dot(fromEye, forward.xyz);
-    value = heat.x > 0.0 ? e / heat.x : e * morph.z * length(fromEye) / (depth * depth * morph.x);
+    value = heat.x > 0.0 ? e / heat.x : e * morph.z / (reachAt(fromEye) * morph.x);
   }
   vec3 base = vec3(0.78);
   if (MODE != 3) {

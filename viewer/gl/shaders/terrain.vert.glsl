@@ -11,7 +11,5 @@ void main() {
   vec3 there = earth.y > 0.0 ? vec3(position.xy, position.z + risen * earth.x) : vec3(place.xy, place.z * lens.w);
   fromEye = (there - eyeHigh.xyz) - eyeLow.xyz;
   overGround = (place.xy - eyeGround.xy) - eyeGround.zw;
-  // Depth is near / depth: 1 at the near plane, 0 at infinity, as fine far away as floats are.
-  gl_Position = vec4(dot(fromEye, right.xyz) * lens.x, dot(fromEye, up.xyz) * lens.y, lens.z,
-                     dot(fromEye, forward.xyz));
+  gl_Position = clipOf(inView(fromEye), 1.0);
 }
