@@ -222,6 +222,7 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
   kinds.ofTerrain(
       command.add_flag("--curvature", isCurved, "Draw the curvature of the Earth, by the CRS's ellipsoid")
           ->group(group));
+  surface.addTo(command, group, kinds);
   command.add_flag("--wireframe", hasWireframe, "Draw the edges of the triangles")->group(group);
   command.add_flag("--unshaded", isUnshaded, "Draw without sunlight")->group(group);
   command
@@ -252,6 +253,7 @@ Result<ViewLook> AppearanceArguments::look(std::span<const Coloring> colorings) 
   look.isShaded = !isUnshaded;
   look.hazeKilometres = hazeKilometres;
   look.hasWireframe = hasWireframe;
+  ARETE_TRY(look.surface, surface.look());
   if (sun.empty()) return look;
   ARETE_TRY(look.sun, readSun(sun));
   return look;
@@ -354,6 +356,7 @@ Status ViewArguments::check() const {
     return refuse("requires --screenshot; the frames of a flight have cameras of their own",
                   viewpoint.home.empty() ? "--camera " + viewpoint.camera : "--home " + viewpoint.home);
   if (!appearance.sun.empty()) ARETE_CHECK(readSun(appearance.sun));
+  ARETE_CHECK(appearance.surface.look());
   ARETE_CHECK(appearance.drapeOptions());
   if (p.film.empty()) return {};
   // Drawing may take hours: a film that cannot be made is refused first.

@@ -11,6 +11,7 @@
 #include "cli/arguments/option_kinds.h"
 #include "cli/session/session.h"
 #include "cli/view/colors.h"
+#include "cli/view/surface_look.h"
 #include "engine/base/result.h"
 #include "engine/base/similarity.h"
 #include "viewer/camera/home_view.h"
@@ -66,12 +67,13 @@ struct AppearanceArguments {
   bool hasWireframe = false, isUnshaded = false, isCurved = false;
   bool isPlainPicture = false;  ///< without legend, scale bar, north arrow and graticule
   ColorArguments colors;
+  SurfaceLookArguments surface;
 
   void addTo(CLI::App& command, OptionKinds& kinds);
   /// Which bands of the drape to show. Errors: usage: not one or three band numbers, which count from 1.
   Result<DrapeOptions> drapeOptions() const;
   /// @param colorings of the model, the usual one first.
-  /// Errors: usage: `sun` is not two angles.
+  /// Errors: usage: `sun` is not two angles; as SurfaceLookArguments::look().
   Result<ViewLook> look(std::span<const Coloring> colorings) const;
 };
 

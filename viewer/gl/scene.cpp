@@ -89,6 +89,7 @@ Status Scene::draw(const Camera& camera, const ViewSettings& settings) {
                             isGround ? std::span<const Layer>(layers.list()) : std::span<const Layer>()));
   }
   drawBackground(settings);
+  ARETE_CHECK(drawBlended(camera, settings));
   for (const Layer& layer : layers.list()) {
     const auto* space = std::get_if<SpaceVertices>(&layer.content);
     if (!space || !layer.isVisible) continue;
@@ -98,6 +99,25 @@ Status Scene::draw(const Camera& camera, const ViewSettings& settings) {
     painter_.draw(drawn, frame, layer.opacity);
   }
   return drawContents(camera, settings);
+}
+
+// The object whose middle is farther along the view is drawn first.
+Status Scene::drawBlended(const Camera& camera, const ViewSettings& settings) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < drawables_.size(); ++i) {
+    if (!objects()[i].isShown) continue;
+    double depth = 0;
+    if (drawables_.size() > 1) {
+      ARETE_TRY(const View view, subject().viewOf(camera, settings));
+      const MetricBox& box = drawables_[i]->subject().box();
+      depth = dot((box.low + box.high) / 2 - view.eye, Frustum(view).planes().forward);
+    }
+    order.push_back({-depth, i});
+  }
+  std::ranges::sort(order);
+  for (const auto& [depth, i] : order)
+    ARETE_CHECK(drawables_[i]->drawBlended(camera, settingsOf(i, settings)));
+  return {};
 }
 
 Result<FrameView> Scene::frameOf(const Camera& camera, const ViewSettings& settings) const {

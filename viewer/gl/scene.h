@@ -67,6 +67,7 @@ class Scene {
   /// What one model is drawn with.
   ViewSettings settingsOf(std::size_t model, const ViewSettings& settings) const;
   void drawBackground(const ViewSettings& settings);
+  Status drawBlended(const Camera& camera, const ViewSettings& settings);
   /// The layers that draw themselves.
   Status drawContents(const Camera& camera, const ViewSettings& settings);
   std::vector<std::unique_ptr<Drawable>> drawables_;

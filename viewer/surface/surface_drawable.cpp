@@ -13,8 +13,6 @@
 #include "surface/displacement/displaced_places.h"
 
 namespace arete {
-namespace {}  // namespace
-
 std::uint32_t SurfaceDrawable::materialOf(std::uint32_t triangle) const {
   const auto none = static_cast<std::uint32_t>(assets_->materials.materials().size()) - 1;
   const std::vector<std::uint32_t>& of = model_->attributes.materialOf;
@@ -34,10 +32,22 @@ void SurfaceDrawable::upload() {
     if (begin[m + 1] > begin[m]) ranges_.push_back({m, begin[m], begin[m + 1] - begin[m]});
   std::vector<std::array<std::uint32_t, 3>> corners(front.size());
   std::vector<float> worst(front.size());
+  std::vector<Vec3> middles(hasBlendedMaterials() ? front.size() : 0);
   for (const std::uint32_t t : front) {
     const std::uint32_t at = begin[materialOf(t)]++;
     corners[at] = model_->hasWedges() ? model_->wedgesOf[t] : mt.corners(TriangleId(t));
+    if (!middles.empty()) {
+      const auto places = mt.corners(TriangleId(t));
+      for (const std::uint32_t v : places)
+        middles[at] = middles[at] + subject_->upright().fromFile(mt.position(VertexId(v))) / 3;
+    }
     worst[at] = static_cast<float>(mt.error(TriangleId(t)));
+  }
+  blended_.clear();
+  for (const DrawnSurface::Range& range : ranges_) {
+    if (assets_->materials.materials()[range.material].alpha != DrawnMaterial::Alpha::blended) continue;
+    for (std::uint32_t t = range.first; t < range.first + range.count; ++t)
+      blended_.add({corners[t], range.material, middles[t]});
   }
   indices_ = makeBuffer(std::span<const std::array<std::uint32_t, 3>>(corners));
   errors_ = makeBuffer(std::span<const float>(worst));
@@ -125,13 +135,40 @@ Result<FrameView> SurfaceDrawable::frameOf(const Camera& camera, const ViewSetti
   return frame;
 }
 
+bool SurfaceDrawable::hasBlendedMaterials() const {
+  return std::ranges::any_of(assets_->materials.materials(), [](const DrawnMaterial& m) {
+    return m.alpha == DrawnMaterial::Alpha::blended;
+  });
+}
+
 Status SurfaceDrawable::draw(const Camera& camera, const ViewSettings& settings, std::span<const Layer>) {
   ARETE_TRY(const FrameView frame, frameOf(camera, settings));
+  std::vector<DrawnSurface::Range> solid;
+  for (const DrawnSurface::Range& range : ranges_)
+    if (!SurfacePainter::isBlended(assets_->materials.materials()[range.material], settings.look))
+      solid.push_back(range);
+  hasDrawnBlended_ = false;
   glBeginQuery(GL_ANY_SAMPLES_PASSED, anySample_);
-  const DrawnSurface front{indices_, errors_, displaced_, ranges_};
-  assets_->painter.draw(assets_->vertices, assets_->materials, front, frame, settings.look,
+  assets_->painter.draw(assets_->vertices, assets_->materials,
+                        DrawnSurface{indices_, errors_, displaced_, solid}, frame, settings.look,
                         Similarity(subject_->placement().turn, 1, {}));
   glEndQuery(GL_ANY_SAMPLES_PASSED);
+  return {};
+}
+
+Status SurfaceDrawable::drawBlended(const Camera& camera, const ViewSettings& settings) {
+  if (settings.look.coloring != Coloring::material || blended_.isEmpty()) return {};
+  ARETE_TRY(const FrameView frame, frameOf(camera, settings));
+  blended_.sort(frame.view.eye, Frustum(frame.view).planes().forward);
+  const auto corners = blended_.corners();
+  const GlBuffer indices = makeBuffer(std::span<const std::array<std::uint32_t, 3>>(corners));
+  std::vector<DrawnSurface::Range> runs;
+  for (const BlendedOrder::Run& run : blended_.runs()) runs.push_back({run.material, run.first, run.count});
+  glBeginQuery(GL_ANY_SAMPLES_PASSED, anyBlended_);
+  assets_->painter.draw(assets_->vertices, assets_->materials, DrawnSurface{indices, 0, displaced_, runs},
+                        frame, settings.look, Similarity(subject_->placement().turn, 1, {}), true);
+  glEndQuery(GL_ANY_SAMPLES_PASSED);
+  hasDrawnBlended_ = true;
   return {};
 }
 
@@ -144,6 +181,7 @@ void SurfaceDrawable::setTurn(const Turn& turn) {
 bool SurfaceDrawable::isShown() const {
   GLuint any = 0;
   glGetQueryObjectuiv(anySample_, GL_QUERY_RESULT, &any);
+  if (any == 0 && hasDrawnBlended_) glGetQueryObjectuiv(anyBlended_, GL_QUERY_RESULT, &any);
   return any != 0;
 }
 

@@ -10,6 +10,7 @@
 #include "engine/parallel/run_context.h"
 #include "surface/model/surface_model.h"
 #include "viewer/scene/drawable.h"
+#include "viewer/surface/blended_order.h"
 #include "viewer/surface/surface_painter.h"
 #include "viewer/surface/surface_subject.h"
 
@@ -39,6 +40,8 @@ class SurfaceDrawable final : public Drawable {
                            const RunContext& context = {}) override;
   Status draw(const Camera& camera, const ViewSettings& settings,
               std::span<const Layer> layers = {}) override;
+  /// Its triangles from back to front.
+  Status drawBlended(const Camera& camera, const ViewSettings& settings) override;
   void drawBackground(const ViewSettings&) override { assets_->painter.drawBackground(); }
   bool isShown() const override;
   std::optional<Turn> turn() const override { return subject_->placement().turn; }
@@ -57,7 +60,10 @@ class SurfaceDrawable final : public Drawable {
   std::shared_ptr<SurfaceSubject> subject_;
   IncrementalCut cut_;
   std::shared_ptr<SurfaceAssets> assets_;
-  GlQuery anySample_ = makeQuery(GL_ANY_SAMPLES_PASSED);
+  bool hasBlendedMaterials() const;
+  GlQuery anySample_ = makeQuery(GL_ANY_SAMPLES_PASSED), anyBlended_ = makeQuery(GL_ANY_SAMPLES_PASSED);
+  bool hasDrawnBlended_ = false;  // in the last picture
+  BlendedOrder blended_;          // of the last cut
   double pixels_ = 1;  // of the last cut
   bool isUploaded_ = false;
   GlBuffer indices_, errors_;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A draw call for each material of the front, and one for its wireframe. Light is added up in proportion to
+// A draw call for each material of the front, or for each run of triangles of one material, and as many for
+// its wireframe. Light is added up in proportion to
 // light and written as sRGB.
 #include "viewer/surface/surface_painter.h"
 
 #include <glm/vec4.hpp>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -16,7 +18,8 @@ namespace arete {
 
 /// shaders/surface.frag.glsl, std140.
 struct SurfacePainter::Look {
-  glm::vec4 baseColor{1, 1, 1, 1}, sun{}, modes{}, more{}, zenith{};
+  glm::vec4 baseColor{1, 1, 1, 1}, sun{}, modes{}, more{}, zenith{}, parts{}, finish{0, 1, 0, 1}, emission{};
+  std::array<glm::vec4, 2 * DrawnPicture::count> lookups{};
 };
 
 namespace {
@@ -58,6 +61,46 @@ Result<SurfacePainter> SurfacePainter::create() {
   return p;
 }
 
+// What is switched off leaves what it is multiplied by: without its picture a metal is none, and what glows in
+// places does not glow.
+SurfacePainter::Look SurfacePainter::lookOf(const DrawnMaterial& material, const SurfaceOnGpu& surface,
+                                            const ViewLook& look) {
+  const SurfaceLook& own = look.surface;
+  Look now;
+  const bool hasPictures = own.hasTextures && surface.textureCoords != 0;
+  const auto has = [&](DrawnPicture::Role role) { return hasPictures && material.pictures[role].texture != 0; };
+  const auto lacks = [&](DrawnPicture::Role role) {
+    return !hasPictures && material.pictures[role].texture != 0;
+  };
+  const bool hasColors = own.hasVertexColors && surface.colors != 0;
+  now.baseColor = material.baseColor;
+  if (!own.hasMaterialColors)
+    now.baseColor = hasColors || has(DrawnPicture::color) ? glm::vec4(1) : kUncolored;
+  else if (surface.colors != 0 && !hasColors && !has(DrawnPicture::color) && now.baseColor == glm::vec4(1))
+    now.baseColor = kUncolored;
+  for (std::size_t i = 0; i < material.pictures.size(); ++i) {
+    const PictureLookup& lookup = material.pictures[i].lookup;
+    const float set = has(DrawnPicture::Role(i)) ? float(1 + std::min(lookup.textureCoords, 1u)) : 0;
+    now.lookups[2 * i] = {lookup.u, set};
+    now.lookups[2 * i + 1] = {lookup.v, 0};
+  }
+  const MaterialFinish& finish = material.finish;
+  const bool hasFinish = look.coloring == Coloring::material;
+  if (hasFinish) {
+    now.finish = {lacks(DrawnPicture::metalAndRoughness) ? 0 : finish.metal, finish.roughness,
+                  finish.reflectance, finish.normalScale};
+    if (own.hasMaterialColors && !lacks(DrawnPicture::emission))
+      now.emission = {finish.emission, finish.occlusion};
+    now.emission.w = finish.occlusion;
+  }
+  now.sun.w = look.isShaded && !(hasFinish && finish.isWithoutLight) ? 1.0f : 0.0f;
+  now.modes = {coloringNumber(look.coloring), 0, float(material.alpha), material.alphaCutoff};
+  now.more.x = material.isDoubleSided || own.sides == SurfaceSides::both ? 1.0f : 0.0f;
+  now.more.w = own.shading == SurfaceShading::flat ? 1.0f : 0.0f;
+  now.parts = {own.hasSun, own.hasSky, own.hasHeadlight, own.hasHighlights};
+  return now;
+}
+
 // The look differs from range to range and is written before each draw call; OpenGL keeps the order.
 void SurfacePainter::drawRange(const DrawnSurface::Range& range, const Look& look) {
   glNamedBufferSubData(look_, 0, sizeof look, &look);
@@ -67,7 +110,7 @@ void SurfacePainter::drawRange(const DrawnSurface::Range& range, const Look& loo
 
 void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials,
                           const DrawnSurface& front, const FrameView& frame, const ViewLook& look,
-                          const Similarity& turned) {
+                          const Similarity& turned, bool isBlended) {
   const FrameBlock block = frameBlock(frame, MetricFrame{});
   glNamedBufferSubData(frame_, 0, sizeof block, &block);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
@@ -89,9 +132,10 @@ void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& mat
     glEnableVertexArrayAttrib(array, index);
   };
   attribute(0, front.positions != 0 ? front.positions : GLuint(surface.positions), 3, GL_FLOAT);
-  attribute(1, surface.normals, 3, GL_FLOAT);
+  const bool isSmooth = look.surface.shading == SurfaceShading::smooth && surface.smoothNormals != 0;
+  attribute(1, isSmooth ? surface.smoothNormals : surface.normals, 3, GL_FLOAT);
   attribute(2, surface.textureCoords, 4, GL_FLOAT);
-  attribute(3, surface.colors, 4, GL_UNSIGNED_BYTE);
+  attribute(3, look.surface.hasVertexColors ? GLuint(surface.colors) : 0, 4, GL_UNSIGNED_BYTE);
   glVertexArrayElementBuffer(array, front.indices);
   glBindVertexArray(array);
   glVertexAttrib4f(2, 0, 0, 0, 0);
@@ -100,33 +144,27 @@ void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& mat
   glDepthFunc(GL_GEQUAL);
 
   const Vec3 sun = towardsSun(frame, look, turned), up = turned.inverse().direction({0, 0, 1});
-  const bool hasMaterials = look.coloring == Coloring::material;
-  // Blended materials are drawn after the others, over them, and do not write depth, so that what lies behind
-  // them stays visible. Only the colouring by materials has any.
-  for (const bool isBlended : {false, true}) {
-    for (const DrawnSurface::Range& range : front.ranges) {
-      const DrawnMaterial& m = materials.materials()[range.material];
-      if ((hasMaterials && m.alpha == DrawnMaterial::Alpha::blended) != isBlended) continue;
-      Look now;
-      now.baseColor = m.baseColor;
-      now.sun = {float(sun.x), float(sun.y), float(sun.z), look.isShaded ? 1.0f : 0.0f};
-      const bool hasPicture = m.texture != 0 && surface.textureCoords != 0;
-      now.modes = {coloringNumber(look.coloring), hasPicture ? float(1 + m.textureCoords) : 0.0f,
-                   float(m.alpha), m.alphaCutoff};
-      now.zenith = {float(up.x), float(up.y), float(up.z), 0};
-      now.more = {m.isDoubleSided ? 1.0f : 0.0f, 0, float(range.first), 0};
-      glBindTextureUnit(0, m.texture);
-      if (isBlended) {
-        glEnable(GL_BLEND);
-        glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-        glDepthMask(GL_FALSE);
-      }
-      drawRange(range, now);
-      glDisable(GL_BLEND);
-      glDepthMask(GL_TRUE);
-    }
+  if (look.surface.sides == SurfaceSides::front) glEnable(GL_CULL_FACE);
+  if (isBlended) {
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
   }
-  if (!look.hasWireframe) return;
+  for (const DrawnSurface::Range& range : front.ranges) {
+    const DrawnMaterial& m = materials.materials()[range.material];
+    Look now = lookOf(m, surface, look);
+    now.sun = {float(sun.x), float(sun.y), float(sun.z), now.sun.w};
+    now.zenith = {float(up.x), float(up.y), float(up.z), 0};
+    now.more.z = float(range.first);
+    for (GLuint i = 0; i < m.pictures.size(); ++i) glBindTextureUnit(i, m.pictures[i].texture);
+    drawRange(range, now);
+  }
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  if (!look.hasWireframe) {
+    glDisable(GL_CULL_FACE);
+    return;
+  }
   Look lines;
   lines.baseColor = {0.05f, 0.07f, 0.10f, 1};
   lines.more.y = 1;
@@ -136,6 +174,7 @@ void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& mat
   for (const DrawnSurface::Range& range : front.ranges) drawRange(range, lines);
   glDisable(GL_POLYGON_OFFSET_LINE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  glDisable(GL_CULL_FACE);
 }
 
 void SurfacePainter::drawBackground() {

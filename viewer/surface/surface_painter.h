@@ -33,16 +33,24 @@ class SurfacePainter {
   /// Errors: unsupported, by the driver.
   static Result<SurfacePainter> create();
 
-  /// `frame`: of upright space. What is blended is drawn last, in the order of its triangles.
+  /// `frame`: of upright space. `isBlended`: whether the front is of triangles that let light through: they
+  /// are drawn in their order over what is there, and leave depths as they are.
   ///
   /// @param turned how the surface is turned out of east, north and up, which the sun stands in.
   void draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials, const DrawnSurface& front,
-            const FrameView& frame, const ViewLook& look, const Similarity& turned = {});
+            const FrameView& frame, const ViewLook& look, const Similarity& turned = {},
+            bool isBlended = false);
   void drawBackground();
+
+  /// Whether a material lets light through, by the colours that are shown.
+  static bool isBlended(const DrawnMaterial& material, const ViewLook& look) {
+    return look.coloring == Coloring::material && material.alpha == DrawnMaterial::Alpha::blended;
+  }
 
  private:
   SurfacePainter() = default;
   struct Look;
+  static Look lookOf(const DrawnMaterial& material, const SurfaceOnGpu& surface, const ViewLook& look);
   void drawRange(const DrawnSurface::Range& range, const Look& look);
 
   GlProgram surface_, background_;

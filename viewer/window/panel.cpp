@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/looks/surface_switches.h"
 #include "viewer/objects/objects_section.h"
 #include "viewer/panel/widgets.h"
 
@@ -147,6 +148,7 @@ void Panel::lookSection(ViewerSession& s) {
     const bool isTurned = slider("sun azimuth", sun.azimuthDegrees, 0, 360, "%.0f°");
     if (slider("sun height", sun.elevationDegrees, 0, 90, "%.0f°") || isTurned) look.sun = sun;
   }
+  if (!s.tools || (s.objects && s.objects->count() > 1)) drawSurfaceSwitches(look);
   if (!s.tools) return;
   if (!s.tools->model().georeference.crsWkt.empty()) ImGui::Checkbox("curved Earth", &s.settings.isCurved);
   slider("heights times", s.settings.stretch, 0.5, 10, "%.2f", true);

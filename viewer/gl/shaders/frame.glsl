@@ -19,3 +19,6 @@ layout(std140, binding = 0) uniform Frame {
 vec3 upAt(vec3 position) {
   return earth.y > 0.0 ? normalize(position + vec3(0.0, 0.0, earth.y)) : vec3(0.0, 0.0, 1.0);
 }
+
+/// The direction to the eye, of a place whose position from the eye is given.
+vec3 towardsEye(vec3 fromEye) { return -normalize(fromEye); }
