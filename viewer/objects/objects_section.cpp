@@ -99,21 +99,6 @@ void drawObjectsSection(ObjectList& objects, const std::function<void(std::strin
   drawTurn(objects);
 }
 
-void drawSurfaceLook(SurfaceLook& look) {
-  const auto pairOf = [](const char* left, bool& isLeft, const char* right, bool& isRight) {
-    ImGui::Checkbox(left, &isLeft);
-    ImGui::SameLine(9.5f * em());
-    ImGui::Checkbox(right, &isRight);
-  };
-  pairOf("textures", look.hasTextures, "flat", look.isFlat);
-  pairOf("material colours", look.hasMaterialColors, "sun", look.hasSun);
-  pairOf("vertex colours", look.hasVertexColors, "sky", look.hasSky);
-  ImGui::Checkbox("headlight", &look.hasHeadlight);
-  int sides = int(look.sides);
-  if (ImGui::Combo("sides", &sides, "as materials say\0both alike\0the front alone\0"))
-    look.sides = SurfaceLook::Sides(sides);
-}
-
 void drawDistanceSection(DistancePicks& distance, const ObjectList& objects, const std::string& unit) {
   if (!widget::section("Places and distance", !widget::isNarrow() || !distance.picks().empty())) return;
   if (distance.picks().empty())

@@ -15,9 +15,6 @@ namespace arete {
 /// @param say takes a sentence for the user
 void drawObjectsSection(ObjectList& objects, const std::function<void(std::string)>& say);
 
-/// Switches of what of surfaces is shown, in a section that is open.
-void drawSurfaceLook(SurfaceLook& look);
-
 /// The section of the places that were clicked on surfaces.
 void drawDistanceSection(DistancePicks& distance, const ObjectList& objects, const std::string& unit);
 

@@ -32,17 +32,22 @@ void SurfaceDrawable::upload() {
     if (begin[m + 1] > begin[m]) ranges_.push_back({m, begin[m], begin[m + 1] - begin[m]});
   std::vector<std::array<std::uint32_t, 3>> corners(front.size());
   std::vector<float> worst(front.size());
-  blended_.clear();
+  std::vector<Vec3> middles(hasBlendedMaterials() ? front.size() : 0);
   for (const std::uint32_t t : front) {
     const std::uint32_t at = begin[materialOf(t)]++;
     corners[at] = model_->hasWedges() ? model_->wedgesOf[t] : mt.corners(TriangleId(t));
+    if (!middles.empty()) {
+      const auto places = mt.corners(TriangleId(t));
+      for (const std::uint32_t v : places)
+        middles[at] = middles[at] + subject_->upright().fromFile(mt.position(VertexId(v))) / 3;
+    }
     worst[at] = static_cast<float>(mt.error(TriangleId(t)));
-    const std::uint32_t material = materialOf(t);
-    if (assets_->materials.materials()[material].alpha != DrawnMaterial::Alpha::blended) continue;
-    Vec3 middle;
-    for (const std::uint32_t v : mt.corners(TriangleId(t)))
-      middle = middle + subject_->upright().fromFile(mt.position(VertexId(v))) / 3;
-    blended_.push_back({material, corners[at], middle});
+  }
+  blended_.clear();
+  for (const DrawnSurface::Range& range : ranges_) {
+    if (assets_->materials.materials()[range.material].alpha != DrawnMaterial::Alpha::blended) continue;
+    for (std::uint32_t t = range.first; t < range.first + range.count; ++t)
+      blended_.add({corners[t], range.material, middles[t]});
   }
   indices_ = makeBuffer(std::span<const std::array<std::uint32_t, 3>>(corners));
   errors_ = makeBuffer(std::span<const float>(worst));
@@ -131,53 +136,40 @@ Result<FrameView> SurfaceDrawable::frameOf(const Camera& camera, const ViewSetti
   return frame;
 }
 
+bool SurfaceDrawable::hasBlendedMaterials() const {
+  return std::ranges::any_of(assets_->materials.materials(),
+                             [](const DrawnMaterial& m) { return m.alpha == DrawnMaterial::Alpha::blended; });
+}
+
 Status SurfaceDrawable::draw(const Camera& camera, const ViewSettings& settings, std::span<const Layer>) {
   ARETE_TRY(const FrameView frame, frameOf(camera, settings));
+  std::vector<DrawnSurface::Range> solid;
+  for (const DrawnSurface::Range& range : ranges_)
+    if (!SurfacePainter::isBlended(assets_->materials.materials()[range.material], settings.look))
+      solid.push_back(range);
+  hasDrawnBlended_ = false;
   glBeginQuery(GL_ANY_SAMPLES_PASSED, anySample_);
-  const DrawnSurface front{
-      .indices = indices_, .errors = errors_, .positions = displaced_, .ranges = ranges_};
-  assets_->painter.draw(assets_->vertices, assets_->materials, front, frame, settings.look,
+  assets_->painter.draw(assets_->vertices, assets_->materials,
+                        DrawnSurface{indices_, errors_, displaced_, solid}, frame, settings.look,
                         Similarity(subject_->placement().turn, 1, {}));
   glEndQuery(GL_ANY_SAMPLES_PASSED);
-  hasBlended_ = false;
   return {};
 }
 
 Status SurfaceDrawable::drawBlended(const Camera& camera, const ViewSettings& settings) {
-  if (blended_.empty()) return {};
+  if (settings.look.coloring != Coloring::material || blended_.isEmpty()) return {};
   ARETE_TRY(const FrameView frame, frameOf(camera, settings));
-  sortBlended(frame);
+  blended_.sort(frame.view.eye, Frustum(frame.view).planes().forward);
+  const auto corners = blended_.corners();
+  const GlBuffer indices = makeBuffer(std::span<const std::array<std::uint32_t, 3>>(corners));
+  std::vector<DrawnSurface::Range> runs;
+  for (const BlendedOrder::Run& run : blended_.runs()) runs.push_back({run.material, run.first, run.count});
   glBeginQuery(GL_ANY_SAMPLES_PASSED, anyBlended_);
-  const DrawnSurface front{
-      .positions = displaced_, .blendedIndices = blendedIndices_, .blended = blendedRanges_};
-  assets_->painter.drawBlended(assets_->vertices, assets_->materials, front, frame, settings.look,
-                               Similarity(subject_->placement().turn, 1, {}));
+  assets_->painter.draw(assets_->vertices, assets_->materials, DrawnSurface{indices, 0, displaced_, runs},
+                        frame, settings.look, Similarity(subject_->placement().turn, 1, {}), true);
   glEndQuery(GL_ANY_SAMPLES_PASSED);
-  hasBlended_ = true;
+  hasDrawnBlended_ = true;
   return {};
-}
-
-// A triangle counts by its middle. Equal depths keep the order of the front, so that a picture does not
-// depend on the sorting.
-void SurfaceDrawable::sortBlended(const FrameView& frame) {
-  blendedRanges_.clear();
-  if (blended_.empty()) return;
-  const Frustum frustum(frame.view);
-  std::vector<std::pair<double, std::uint32_t>> order;
-  order.reserve(blended_.size());
-  for (std::uint32_t i = 0; i < blended_.size(); ++i)
-    order.push_back({-frustum.toView(blended_[i].middle).z, i});
-  std::ranges::sort(order);
-  std::vector<std::array<std::uint32_t, 3>> corners;
-  corners.reserve(order.size());
-  for (const auto& [depth, i] : order) {
-    const Blended& triangle = blended_[i];
-    if (blendedRanges_.empty() || blendedRanges_.back().material != triangle.material)
-      blendedRanges_.push_back({triangle.material, static_cast<std::uint32_t>(corners.size()), 0});
-    ++blendedRanges_.back().count;
-    corners.push_back(triangle.corners);
-  }
-  blendedIndices_ = makeBuffer(std::span<const std::array<std::uint32_t, 3>>(corners));
 }
 
 void SurfaceDrawable::setTurn(const Turn& turn) {
@@ -189,7 +181,7 @@ void SurfaceDrawable::setTurn(const Turn& turn) {
 bool SurfaceDrawable::isShown() const {
   GLuint any = 0;
   glGetQueryObjectuiv(anySample_, GL_QUERY_RESULT, &any);
-  if (any == 0 && hasBlended_) glGetQueryObjectuiv(anyBlended_, GL_QUERY_RESULT, &any);
+  if (any == 0 && hasDrawnBlended_) glGetQueryObjectuiv(anyBlended_, GL_QUERY_RESULT, &any);
   return any != 0;
 }
 
