@@ -39,7 +39,6 @@ TEST(ParallelPictures, BothPathsDrawTheSameSurface) {
     const Camera camera = anyParallel(random, 1280, 720);
     ViewSettings settings;
     settings.pixels = random.between(0.5, 4);
-    settings.stretch = i % 3 == 0 ? 2.5 : 1;
     auto device = view->cut(camera, settings);
     ASSERT_TRUE(device);
     DrawnMesh a = test::readDrawn(*view);
@@ -82,7 +81,7 @@ TEST(ParallelPictures, FromStraightAboveAreTheResampledRaster) {
     camera.widthPixels = 240, camera.heightPixels = 160;
     camera.parallelHeight = random.between(800, 2400);
     ViewSettings settings;
-    settings.pixels = 0.05;
+    settings.pixels = 1e-6;  // the finest triangles
     settings.isGeomorphed = false;
     const double perPixel = camera.parallelHeight / 160;
     ASSERT_TRUE(view->cut(camera, settings));
@@ -93,8 +92,8 @@ TEST(ParallelPictures, FromStraightAboveAreTheResampledRaster) {
     const auto frame = view->frameOf(camera, settings);
     ASSERT_TRUE(frame);
     const std::vector<float> depths = target->depths(frame->drawnNear, frame->depthReach);
-    // What the depth buffer and the tolerance, on the ground from above, allow.
-    const double slack = 0.05 * perPixel + frame->depthReach * 2e-6;
+    // What the depth buffer and the positions, which are floats, allow.
+    const double slack = 1e-3 + frame->depthReach * 2e-6;
     std::size_t compared = 0;
     for (int y = 0; y < 160; ++y)
       for (int x = 0; x < 240; ++x) {
@@ -104,7 +103,12 @@ TEST(ParallelPictures, FromStraightAboveAreTheResampledRaster) {
         if (!there) continue;
         ++compared;
         ASSERT_TRUE(std::isfinite(depth)) << x << ", " << y;
-        ASSERT_NEAR(camera.height - double(depth), there->height, slack) << x << ", " << y;
+        // A rasteriser takes corners to 1/256 of a pixel, which tilts thin triangles a little more.
+        double off = slack;
+        for (const Vec2 step : {Vec2{1, 0}, Vec2{-1, 0}, Vec2{0, 1}, Vec2{0, -1}})
+          if (const auto beside = ground.at(place + (perPixel / 64) * step))
+            off = std::max(off, slack + std::abs(beside->height - there->height));
+        ASSERT_NEAR(camera.height - double(depth), there->height, off) << x << ", " << y;
         if (x % 40 != 7 || y % 40 != 9) continue;
         const auto pick = subject.pick(camera, {x + 0.5, y + 0.5}, settings);
         ASSERT_TRUE(pick);
