@@ -60,67 +60,6 @@ TEST(ParallelPictures, BothPathsDrawTheSameSurface) {
   EXPECT_GT(drawn, 1000u);
 }
 
-// The pixel in column x of a picture from straight above shows the easting of its middle, and the depth there
-// is the eye's height less the ground's.
-TEST(ParallelPictures, FromStraightAboveAreTheResampledRaster) {
-  ARETE_NEEDS_OPENGL(context);
-  const TerrainModel& model = mountains();
-  Result<TerrainDrawable> view = TerrainDrawable::create(model, {});
-  ASSERT_TRUE(view);
-  const GroundHeights ground(model);
-  const TerrainSubject subject(model);
-  Random random(5);
-  for (int i = 0; i < 4; ++i) {
-    SCOPED_TRACE("seed 5, picture " + std::to_string(i));
-    Camera camera;
-    camera.xy =
-        model.toSource({model.columns * random.between(0.3, 0.7), model.rows * random.between(0.3, 0.7)});
-    // Also below the ground, which the eye then has behind it.
-    camera.height = i % 2 ? test::highest(model) + 500 : -700;
-    camera.pitchDegrees = -90;
-    camera.widthPixels = 240, camera.heightPixels = 160;
-    camera.parallelHeight = random.between(800, 2400);
-    ViewSettings settings;
-    settings.pixels = 1e-6;  // the finest triangles
-    settings.isGeomorphed = false;
-    const double perPixel = camera.parallelHeight / 160;
-    ASSERT_TRUE(view->cut(camera, settings));
-    const auto target = FrameTarget::create(240, 160);
-    ASSERT_TRUE(target);
-    target->begin();
-    ASSERT_TRUE(view->draw(camera, settings));
-    const auto frame = view->frameOf(camera, settings);
-    ASSERT_TRUE(frame);
-    const std::vector<float> depths = target->depths(frame->drawnNear, frame->depthReach);
-    // What the depth buffer and the positions, which are floats, allow.
-    const double slack = 1e-3 + frame->depthReach * 2e-6;
-    std::size_t compared = 0;
-    for (int y = 0; y < 160; ++y)
-      for (int x = 0; x < 240; ++x) {
-        const Vec2 place{camera.xy.x + (x + 0.5 - 120) * perPixel, camera.xy.y - (y + 0.5 - 80) * perPixel};
-        const auto there = ground.at(place);
-        const float depth = depths[std::size_t(y) * 240 + std::size_t(x)];
-        if (!there) continue;
-        ++compared;
-        ASSERT_TRUE(std::isfinite(depth)) << x << ", " << y;
-        // A rasteriser takes corners to 1/256 of a pixel, which tilts thin triangles a little more.
-        double off = slack;
-        for (const Vec2 step : {Vec2{1, 0}, Vec2{-1, 0}, Vec2{0, 1}, Vec2{0, -1}})
-          if (const auto beside = ground.at(place + (perPixel / 64) * step))
-            off = std::max(off, slack + std::abs(beside->height - there->height));
-        ASSERT_NEAR(camera.height - double(depth), there->height, off) << x << ", " << y;
-        if (x % 40 != 7 || y % 40 != 9) continue;
-        const auto pick = subject.pick(camera, {x + 0.5, y + 0.5}, settings);
-        ASSERT_TRUE(pick);
-        EXPECT_NEAR(pick->xy.x, place.x, 1e-6);
-        EXPECT_NEAR(pick->xy.y, place.y, 1e-6);
-        EXPECT_NEAR(pick->height, there->height, 1e-6);
-        EXPECT_NEAR(pick->metres, norm(pick->metric - subject.space().position(camera)), 1e-6);
-      }
-    EXPECT_GT(compared, 10000u);
-  }
-}
-
 TEST(ParallelPictures, APickIsDrawnAtThePixelThatItWasTakenAt) {
   const TerrainModel& model = mountains();
   const TerrainSubject subject(model);
