@@ -25,7 +25,7 @@ const std::map<std::string, std::size_t, std::less<>>& verbs() {
   return all;
 }
 
-/// How many numbers the first word of a verb has; 0: it is no list of them.
+/// How many numbers the first word of a verb has; 0: it has no such list.
 std::size_t numbersOf(std::string_view verb) {
   if (verb == "box") return 6;
   if (verb == "drag") return 4;

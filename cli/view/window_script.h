@@ -33,7 +33,7 @@ namespace arete {
 /// alone. Sentences of the window go to stdout.
 class WindowScript {
  public:
-  /// Errors: notFound; usage: a line that is no action, with its number.
+  /// Errors: notFound; usage: a line without an action, with its number.
   static Result<WindowScript> read(const std::string& path);
 
   /// Before each frame. @return whether the window stays open: not behind the last line.

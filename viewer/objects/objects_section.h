@@ -10,7 +10,7 @@
 namespace arete {
 
 /// The section of a panel that lists the objects of a scene, with what the selected one is and has; changes
-/// them in place. Precondition: that of widgets.
+/// them in place. Precondition: a frame of ImGui has begun.
 ///
 /// @param say takes a sentence for the user
 void drawObjectsSection(ObjectList& objects, const std::function<void(std::string)>& say);

@@ -30,7 +30,7 @@ class BlendedOrder {
   void add(const Triangle& triangle) { triangles_.push_back(triangle); }
   bool isEmpty() const { return triangles_.empty(); }
 
-  /// Sorts them by the depth of their middles along `forward`; those of one depth stay as they were added.
+  /// Sorts them by the depth of their middles along `forward`; equal ones stay as they were added.
   /// Triangles that cut through each other, or are long beside their distances, may come out of order.
   /// O(n log n).
   void sort(Vec3 eye, Vec3 forward);

@@ -61,7 +61,7 @@ Result<SurfacePainter> SurfacePainter::create() {
   return p;
 }
 
-// What is switched off leaves what it is multiplied by: without its picture a metal is none, and what glows
+// What is switched off leaves what it is multiplied by: without its picture nothing is metal, and what glows
 // in places does not glow.
 SurfacePainter::Look SurfacePainter::lookOf(const DrawnMaterial& material, const SurfaceOnGpu& surface,
                                             const ViewLook& look) {

@@ -49,7 +49,7 @@ class SurfaceDesk {
   /// The surface that is selected, if it has a file.
   const SurfaceSubject* surface() const;
 
-  /// Writes what is drawn: the request of a level by hand; else that of the camera and the tolerance.
+  /// Writes what is drawn: the request of a level by hand; else of the camera and the tolerance.
   ///
   /// @param camera,settings of the cut that is shown
   std::string saveCut(const Camera& camera, const ViewSettings& settings);

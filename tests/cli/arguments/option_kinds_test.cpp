@@ -170,6 +170,8 @@ const std::map<std::string, Tried>& triedCommands() {
          {"--round", {"--round"}},
          {"--up", {"--up y"}},
          {"--turn", {"--turn 30,20,10"}},
+         {"--parallel", {"--parallel"}},
+         {"--parallel-height", {"--parallel-height 3"}},
          {"--without", {"--without materials"}},
          {"--shading", {"--shading flat"}},
          {"--light", {"--light sky"}},
