@@ -105,8 +105,10 @@ void drawDistanceSection(DistancePicks& distance, const ObjectList& objects, con
     return dim("Click on the surface: one place shows its coordinates, two their distance.");
   for (std::size_t i = 0; i < distance.picks().size(); ++i) {
     const Pick& pick = distance.picks()[i];
-    const Vec3& p = pick.inObject;
-    row(i == 0 ? "A" : "B", fmt::format("{:.7g}, {:.7g}, {:.7g}", p.x, p.y, p.z));
+    // One below the other: coordinates of a map have many digits.
+    row(i == 0 ? "A" : "B", fmt::format("x {:.11g}", pick.inObject.x));
+    row("", fmt::format("y {:.11g}", pick.inObject.y));
+    row("", fmt::format("z {:.11g}", pick.inObject.z));
     if (objects.count() > 1) row("", objects.nameOf(pick.object));
     if (!pick.material.empty()) row("", pick.material);
     if (!pick.parts.empty()) row("", pick.parts);
@@ -114,7 +116,9 @@ void drawDistanceSection(DistancePicks& distance, const ObjectList& objects, con
   if (distance.picks().size() == 2) {
     const Vec3 way = distance.way();
     row("distance", fmt::format("{:.7g}{}", norm(way), unit.empty() ? "" : " " + unit));
-    row("", fmt::format("{:+.6g}, {:+.6g}, {:+.6g}", way.x, way.y, way.z));
+    row("", fmt::format("dx {:+.9g}", way.x));
+    row("", fmt::format("dy {:+.9g}", way.y));
+    row("", fmt::format("dz {:+.9g}", way.z));
   }
   if (ImGui::Button("clear")) return distance.clear();
   ImGui::SameLine();

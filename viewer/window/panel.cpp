@@ -51,7 +51,7 @@ void Panel::draw(ViewerSession& s, double scale) {
     else if (s.objects)
       drawDistanceSection(s.distance, *s.objects, s.subject.heightUnit());
     if (s.desk)
-      drawDeskSection(*s.desk, s.frozen.value_or(s.rig.camera()), s.settings,
+      drawDeskSection(*s.desk, s.frozen.value_or(s.rig.camera()), s.cutSettings,
                       [&](std::string sentence) { s.say(std::move(sentence)); });
     flightSection(s);
     covered.right = endColumn();
