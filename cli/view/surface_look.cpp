@@ -58,12 +58,13 @@ void SurfaceLookArguments::addTo(CLI::App& command, const std::string& group, Op
                        ->check(oneOf({"material", "both", "front"}))
                        ->type_name("NAME")
                        ->group(group));
-  kinds.ofSurfaces(command
-                       .add_option("--light", light,
-                                   "Parts of the light, with commas: sun, sky, headlight, highlights (default: "
-                                   "all), or none. The sun goes with the eye unless --sun says where it stands")
-                       ->type_name("PART,...")
-                       ->group(group));
+  kinds.ofSurfaces(
+      command
+          .add_option("--light", light,
+                      "Parts of the light, with commas: sun, sky, headlight, highlights (default: "
+                      "all), or none. The sun goes with the eye unless --sun says where it stands")
+          ->type_name("PART,...")
+          ->group(group));
 }
 
 Result<SurfaceLook> SurfaceLookArguments::look() const {

@@ -12,7 +12,7 @@ namespace arete {
 
 /// What is shown of surfaces, and under what light.
 struct SurfaceLookArguments {
-  std::string without;  ///< "textures,materials,vertex-colors"; empty: with all of them
+  std::string without;                ///< "textures,materials,vertex-colors"; empty: with all of them
   std::string shading, sides, light;  ///< empty: as the file says, under all of the light
 
   void addTo(CLI::App& command, const std::string& group, OptionKinds& kinds);

@@ -123,8 +123,7 @@ MaterialFinish finishOf(const Material& material, bool isOfGltf) {
   finish.reflectance = float(std::pow((index - 1) / (index + 1), 2));
   if (const auto factor = numbersAt(json, "/emissiveFactor", 3))
     finish.emission = emissionFrom(
-        *factor,
-        numberAt(json, "/extensions/KHR_materials_emissive_strength/emissiveStrength", 1, 0, 1e6));
+        *factor, numberAt(json, "/extensions/KHR_materials_emissive_strength/emissiveStrength", 1, 0, 1e6));
   finish.normalScale = float(numberAt(keptJson(material, "gltf:normal"), "/scale", 1, -100, 100));
   finish.occlusion = float(numberAt(keptJson(material, "gltf:occlusion"), "/strength", 1, 0, 1));
   finish.isWithoutLight = json.contains(FinishJson::json_pointer("/extensions/KHR_materials_unlit"));

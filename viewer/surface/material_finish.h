@@ -14,10 +14,10 @@ namespace arete {
 /// How a material shines, as glTF's model of metal and roughness has it. Colours are linear.
 struct MaterialFinish {
   float metal = 0, roughness = 1;
-  float reflectance = 0;      ///< of light that falls straight on what is no metal; 0: it does not shine
-  glm::vec3 emission{0};      ///< light of its own
-  float normalScale = 1;      ///< of the slopes of its picture of normals
-  float occlusion = 1;        ///< 0 to 1: how much its picture of occlusion counts
+  float reflectance = 0;        ///< of light that falls straight on what is no metal; 0: it does not shine
+  glm::vec3 emission{0};        ///< light of its own
+  float normalScale = 1;        ///< of the slopes of its picture of normals
+  float occlusion = 1;          ///< 0 to 1: how much its picture of occlusion counts
   bool isWithoutLight = false;  ///< its colour is shown as it is (KHR_materials_unlit)
 
   bool operator==(const MaterialFinish&) const = default;
@@ -30,7 +30,8 @@ struct MaterialFinish {
 /// @param isOfGltf whether what is not stated is as glTF has it: metal and rough. O(its statements).
 MaterialFinish finishOf(const Material& material, bool isOfGltf);
 
-/// How a material takes a picture: (u, v), v from the upper side, is looked up at `u`·(u, v, 1), `v`·(u, v, 1).
+/// How a material takes a picture: (u, v), v from the upper side, is looked up at `u`·(u, v, 1), `v`·(u, v,
+/// 1).
 struct PictureLookup {
   glm::vec3 u{1, 0, 0}, v{0, 1, 0};
   std::uint32_t textureCoords = 0;  ///< set of coordinates

@@ -60,8 +60,7 @@ GLint wrapOf(PictureLookup::Wrap wrap) {
 /// @param isColor whether its numbers are sRGB.
 GlTexture textureOf(const PicturePixels& picture, bool isColor, const PictureLookup& lookup) {
   GlTexture texture = makeTexture(GL_TEXTURE_2D);
-  const auto levels =
-      lookup.hasLevels ? GLsizei(std::bit_width(std::max(picture.width, picture.height))) : 1;
+  const auto levels = lookup.hasLevels ? GLsizei(std::bit_width(std::max(picture.width, picture.height))) : 1;
   glTextureStorage2D(texture, levels, isColor ? GL_SRGB8_ALPHA8 : GL_RGBA8, GLsizei(picture.width),
                      GLsizei(picture.height));
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -91,7 +90,8 @@ bool isOfGltf(const SurfaceModel& model) {
 }
 
 bool hasGltfStatements(const Material& material) {
-  return std::ranges::any_of(material.verbatim, [](const auto& kept) { return kept.first.starts_with("gltf"); });
+  return std::ranges::any_of(material.verbatim,
+                             [](const auto& kept) { return kept.first.starts_with("gltf"); });
 }
 
 bool isBlack(const glm::vec4& color) {
@@ -149,8 +149,7 @@ MaterialsOnGpu MaterialsOnGpu::load(const SurfaceModel& model) {
       if (role.role == DrawnPicture::opacity && colors && colors->picture == use->picture) continue;
       DrawnPicture& picture = drawn.pictures[role.role];
       picture.lookup = lookupOf(material, *use);
-      const bool hasAlphaIn =
-          role.role == DrawnPicture::color && drawn.alpha != DrawnMaterial::Alpha::opaque;
+      const bool hasAlphaIn = role.role == DrawnPicture::color && drawn.alpha != DrawnMaterial::Alpha::opaque;
       picture.texture = textureFor(*use, role.isColor, hasAlphaIn, picture.lookup);
       if (picture.texture == 0 && role.role == DrawnPicture::emission) drawn.finish.emission = {};
     }

@@ -136,9 +136,8 @@ Result<FrameView> SurfaceDrawable::frameOf(const Camera& camera, const ViewSetti
 }
 
 bool SurfaceDrawable::hasBlendedMaterials() const {
-  return std::ranges::any_of(assets_->materials.materials(), [](const DrawnMaterial& m) {
-    return m.alpha == DrawnMaterial::Alpha::blended;
-  });
+  return std::ranges::any_of(assets_->materials.materials(),
+                             [](const DrawnMaterial& m) { return m.alpha == DrawnMaterial::Alpha::blended; });
 }
 
 Status SurfaceDrawable::draw(const Camera& camera, const ViewSettings& settings, std::span<const Layer>) {

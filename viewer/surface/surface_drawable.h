@@ -64,7 +64,7 @@ class SurfaceDrawable final : public Drawable {
   GlQuery anySample_ = makeQuery(GL_ANY_SAMPLES_PASSED), anyBlended_ = makeQuery(GL_ANY_SAMPLES_PASSED);
   bool hasDrawnBlended_ = false;  // in the last picture
   BlendedOrder blended_;          // of the last cut
-  double pixels_ = 1;  // of the last cut
+  double pixels_ = 1;             // of the last cut
   bool isUploaded_ = false;
   GlBuffer indices_, errors_;
   std::vector<DrawnSurface::Range> ranges_;

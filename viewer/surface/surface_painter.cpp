@@ -13,6 +13,7 @@
 
 #include "viewer/color/color_tables.h"
 #include "viewer/gl/gl_program.h"
+#include "viewer/surface/reflected_light.h"
 
 namespace arete {
 
@@ -56,19 +57,27 @@ Result<SurfacePainter> SurfacePainter::create() {
   p.look_ = makeBuffer(sizeof(Look));
   p.errorColors_ = ColorMapsOnGpu({&colorTable("error"), 1});
   p.nothing_ = makeBuffer(16);
+  constexpr GLsizei kSide = 32;
+  p.reflected_ = makeTexture(GL_TEXTURE_2D);
+  glTextureStorage2D(p.reflected_, 1, GL_RG32F, kSide, kSide);
+  glTextureSubImage2D(p.reflected_, 0, 0, 0, kSide, kSide, GL_RG, GL_FLOAT, reflectedLight(kSide).data());
+  glTextureParameteri(p.reflected_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(p.reflected_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   p.surfaceArray_ = makeVertexArray();
   p.emptyArray_ = makeVertexArray();
   return p;
 }
 
-// What is switched off leaves what it is multiplied by: without its picture a metal is none, and what glows in
-// places does not glow.
+// What is switched off leaves what it is multiplied by: without its picture a metal is none, and what glows
+// in places does not glow.
 SurfacePainter::Look SurfacePainter::lookOf(const DrawnMaterial& material, const SurfaceOnGpu& surface,
                                             const ViewLook& look) {
   const SurfaceLook& own = look.surface;
   Look now;
   const bool hasPictures = own.hasTextures && surface.textureCoords != 0;
-  const auto has = [&](DrawnPicture::Role role) { return hasPictures && material.pictures[role].texture != 0; };
+  const auto has = [&](DrawnPicture::Role role) {
+    return hasPictures && material.pictures[role].texture != 0;
+  };
   const auto lacks = [&](DrawnPicture::Role role) {
     return !hasPictures && material.pictures[role].texture != 0;
   };
@@ -118,6 +127,7 @@ void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& mat
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, front.errors != 0 ? front.errors : nothing_);
   glUseProgram(surface_);
   errorColors_.bind();
+  glBindTextureUnit(GLuint(DrawnPicture::count), reflected_);
   glProgramUniform1ui(surface_, 0, errorColors_.place(0));
   const GLuint array = surfaceArray_;
   // An attribute that the surface lacks is disabled, and a constant takes its place: no coordinates, white.

@@ -16,7 +16,9 @@ Material mtl(const std::string& lines) {
 TEST(MaterialFinish, OfGltfIsMetalAndRoughWhereNothingIsStated) {
   EXPECT_EQ(finishOf({}, true), (MaterialFinish{.metal = 1, .roughness = 1, .reflectance = 0.04f}));
   const MaterialFinish stated = finishOf(
-      Material{.name = "m", .verbatim = {{"gltf", R"({"pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0.25}})"}}},
+      Material{
+          .name = "m",
+          .verbatim = {{"gltf", R"({"pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0.25}})"}}},
       true);
   EXPECT_EQ(stated.metal, 0);
   EXPECT_EQ(stated.roughness, 0.25f);
@@ -24,7 +26,8 @@ TEST(MaterialFinish, OfGltfIsMetalAndRoughWhereNothingIsStated) {
 
 TEST(MaterialFinish, DamagedNumbersCountAsNotStatedAndLargeOnesAsTheMost) {
   const MaterialFinish finish = finishOf(
-      Material{.name = "m", .verbatim = {{"gltf", R"({"pbrMetallicRoughness":{"metallicFactor":"x","roughnessFactor":7},)"
+      Material{.name = "m",
+               .verbatim = {{"gltf", R"({"pbrMetallicRoughness":{"metallicFactor":"x","roughnessFactor":7},)"
                                      R"("emissiveFactor":[1,2]})"}}},
       true);
   EXPECT_EQ(finish.metal, 1);
@@ -51,9 +54,10 @@ TEST(MaterialFinish, OfAnMtlTakesMetalRoughnessAndEmissionWhereTheyAreStated) {
 
 TEST(PictureLookup, ScalesTurnsAndMovesInThisOrder) {
   const TextureUse use{.role = "baseColor", .picture = "p.png"};
-  const Material gltf{.name = "m", .verbatim = {{"gltf:baseColor",
-                                    R"({"extensions":{"KHR_texture_transform":{"offset":[0.1,0.2],)"
-                                    R"("rotation":1.5707963267948966,"scale":[2,3],"texCoord":1}}})"}}};
+  const Material gltf{
+      .name = "m",
+      .verbatim = {{"gltf:baseColor", R"({"extensions":{"KHR_texture_transform":{"offset":[0.1,0.2],)"
+                                      R"("rotation":1.5707963267948966,"scale":[2,3],"texCoord":1}}})"}}};
   const PictureLookup lookup = lookupOf(gltf, use);
   const glm::vec3 corner(0.5f, 0.25f, 1);
   // (0.5, 0.25) becomes (1, 0.75), turned (0.75, -1), moved (0.85, -0.8).

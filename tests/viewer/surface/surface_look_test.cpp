@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a surface shows and under what light, each by itself, judged by the pixels of pictures of a flat square
-// that is seen from above. Expected colours are worked out here, in doubles.
+// What a surface shows and under what light, each by itself, judged by the pixels of pictures of a flat
+// square that is seen from above. Expected colours are worked out here, in doubles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,14 +56,12 @@ void addCoords(SurfaceMesh& mesh, double times = 1) {
   coords.name = kTexcoordName;
   coords.meaning = AttributeMeaning::textureCoords;
   coords.components = 2;
-  for (const Vec3& p : mesh.positions)
-    coords.append(std::vector<double>{times * p.x / 8, times * p.y / 8});
+  for (const Vec3& p : mesh.positions) coords.append(std::vector<double>{times * p.x / 8, times * p.y / 8});
   mesh.vertexAttributes.push_back(coords);
 }
 
 void addPicture(SurfaceMesh& mesh, const std::string& role, const std::vector<std::byte>& png) {
-  mesh.materials[0].textures.push_back(
-      {.role = role, .picture = "#" + std::to_string(mesh.pictures.size())});
+  mesh.materials[0].textures.push_back({.role = role, .picture = "#" + std::to_string(mesh.pictures.size())});
   mesh.pictures.push_back({.name = role + ".png", .mimeType = "image/png", .bytes = png});
 }
 
@@ -80,8 +78,8 @@ class SurfaceLooks : public ::testing::Test {
     Result<HeadlessView> view = HeadlessView::create(
         {.widthPixels = 160, .heightPixels = 160, .samples = 1, .settings = settings},
         [&](Scene& scene) -> Status {
-          ARETE_TRY(SurfaceDrawable made,
-                    SurfaceDrawable::create(*model, std::make_shared<SurfaceSubject>(*model, ZUpFrame(*model))));
+          ARETE_TRY(SurfaceDrawable made, SurfaceDrawable::create(*model, std::make_shared<SurfaceSubject>(
+                                                                              *model, ZUpFrame(*model))));
           return scene.add(std::make_unique<SurfaceDrawable>(std::move(made)));
         });
     ASSERT_TRUE(view) << view.error().describe();
@@ -199,10 +197,11 @@ TEST_F(SurfaceLooks, TheInsideIsDarkOrAsTheOutsideOrNotThere) {
 
 TEST_F(SurfaceLooks, WhatIsBlendedIsSeenThroughEachOtherFromBackToFront) {
   ARETE_NEEDS_OPENGL(probe);
-  // Panes of two materials one over the other; their colours stand in one order in the file, and the other way
-  // round in space, and nothing solid is behind them.
+  // Panes of two materials one over the other; their colours stand in one order in the file, and the other
+  // way round in space, and nothing solid is behind them.
   for (const bool isRedAbove : {false, true}) {
-    SurfaceMesh mesh = square(Material{.name = "m", .baseColor = {1, 0, 0, 0.5}, .alphaMode = "BLEND"}, isRedAbove ? 1 : 0);
+    SurfaceMesh mesh =
+        square(Material{.name = "m", .baseColor = {1, 0, 0, 0.5}, .alphaMode = "BLEND"}, isRedAbove ? 1 : 0);
     const SurfaceMesh other = square({}, isRedAbove ? 0 : 1);
     const auto shift = std::uint32_t(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
@@ -272,8 +271,8 @@ TEST_F(SurfaceLooks, MetalAndRoughnessAreInBlueAndGreen) {
     const Highlight bright(green / 255.0);
     const double mirrored = base + (1 - base) * std::pow(1 - std::cos(angle / 2), 5);
     const double again = 1 + base * (1 / bright.all() - 1);
-    EXPECT_NEAR(level({0, green, 255, 255}),
-                0.74 * std::numbers::pi * bright.of(angle) * mirrored * again, 0.02);
+    EXPECT_NEAR(level({0, green, 255, 255}), 0.74 * std::numbers::pi * bright.of(angle) * mirrored * again,
+                0.02);
   }
   // What is no metal has nearly all of its matt colour, whatever red says.
   EXPECT_NEAR(level({255, 255, 0, 255}), 0.74 * std::cos(angle) * base, 0.03);
@@ -296,7 +295,8 @@ TEST_F(SurfaceLooks, AWhiteMetalThrowsBackAllLightThatFallsOnIt) {
            settings);
       sum += toLinear(middle().g) * std::cos(elevation * std::numbers::pi / 180);
     }
-    const double thrown = 2 * std::numbers::pi * sum * std::numbers::pi / 2 / kSteps / (std::numbers::pi * 0.74);
+    const double thrown =
+        2 * std::numbers::pi * sum * std::numbers::pi / 2 / kSteps / (std::numbers::pi * 0.74);
     EXPECT_NEAR(thrown, 1, 0.06) << roughness;
   }
 }
@@ -328,10 +328,11 @@ TEST_F(SurfaceLooks, APictureOfNormalsRunsAlongUAndAgainstV) {
 
 TEST_F(SurfaceLooks, WhatGlowsDoesSoWithoutLightAndByItsStrength) {
   ARETE_NEEDS_OPENGL(probe);
-  SurfaceMesh mesh = square(Material{.name = "m",
-      .baseColor = {0, 0, 0, 1},
-      .verbatim = {{"gltf", R"({"emissiveFactor":[0.1,0.2,0],"extensions":{)"
-                            R"("KHR_materials_emissive_strength":{"emissiveStrength":2.5}}})"}}});
+  SurfaceMesh mesh = square(
+      Material{.name = "m",
+               .baseColor = {0, 0, 0, 1},
+               .verbatim = {{"gltf", R"({"emissiveFactor":[0.1,0.2,0],"extensions":{)"
+                                     R"("KHR_materials_emissive_strength":{"emissiveStrength":2.5}}})"}}});
   ViewSettings settings = shown(true);
   settings.look.surface.hasSun = settings.look.surface.hasSky = settings.look.surface.hasHeadlight = false;
   draw(mesh, settings);
@@ -383,8 +384,8 @@ TEST_F(SurfaceLooks, ASamplerWrapsMirrorsOrClampsAndATransformPlacesThePicture) 
 
 TEST_F(SurfaceLooks, AMaskCutsAndTheAlphaOfWhatIsOpaqueDoesNotCount) {
   ARETE_NEEDS_OPENGL(probe);
-  for (const auto& [mode, alpha, isThere] : {std::tuple{"MASK", 120, false}, std::tuple{"MASK", 135, true},
-                                             std::tuple{"OPAQUE", 0, true}}) {
+  for (const auto& [mode, alpha, isThere] :
+       {std::tuple{"MASK", 120, false}, std::tuple{"MASK", 135, true}, std::tuple{"OPAQUE", 0, true}}) {
     SCOPED_TRACE(std::string(mode) + " " + std::to_string(alpha));
     SurfaceMesh mesh = square(Material{.name = "m", .alphaMode = mode});
     addCoords(mesh);
