@@ -13,6 +13,7 @@
 
 #include "viewer/color/color_tables.h"
 #include "viewer/gl/gl_program.h"
+#include "viewer/surface/reflected_light.h"
 
 namespace arete {
 
@@ -56,6 +57,12 @@ Result<SurfacePainter> SurfacePainter::create() {
   p.look_ = makeBuffer(sizeof(Look));
   p.errorColors_ = ColorMapsOnGpu({&colorTable("error"), 1});
   p.nothing_ = makeBuffer(16);
+  constexpr GLsizei kSide = 32;
+  p.reflected_ = makeTexture(GL_TEXTURE_2D);
+  glTextureStorage2D(p.reflected_, 1, GL_RG32F, kSide, kSide);
+  glTextureSubImage2D(p.reflected_, 0, 0, 0, kSide, kSide, GL_RG, GL_FLOAT, reflectedLight(kSide).data());
+  glTextureParameteri(p.reflected_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(p.reflected_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   p.surfaceArray_ = makeVertexArray();
   p.emptyArray_ = makeVertexArray();
   return p;
@@ -120,6 +127,7 @@ void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& mat
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, front.errors != 0 ? front.errors : nothing_);
   glUseProgram(surface_);
   errorColors_.bind();
+  glBindTextureUnit(GLuint(DrawnPicture::count), reflected_);
   glProgramUniform1ui(surface_, 0, errorColors_.place(0));
   const GLuint array = surfaceArray_;
   // An attribute that the surface lacks is disabled, and a constant takes its place: no coordinates, white.

@@ -56,6 +56,7 @@ class SurfacePainter {
   GlProgram surface_, background_;
   GlBuffer frame_, look_, nothing_;
   ColorMapsOnGpu errorColors_;
+  GlTexture reflected_;  // viewer/surface/reflected_light.h
   GlVertexArray surfaceArray_, emptyArray_;
 };
 

@@ -15,6 +15,7 @@ layout(std140, binding = 1) uniform Look {
   vec4 lookups[12];  // of each picture: (u, v, 1) to u, 1 + set of coordinates or 0 = no picture; the same to v
 };
 layout(binding = 0) uniform sampler2D pictures[6];  // colour, metal and roughness, normal, occlusion, emission, opacity
+layout(binding = 6) uniform sampler2D reflected;
 layout(location = 0) uniform uint errorColors;  // color_map.glsl
 layout(std430, binding = 8) readonly buffer Errors { float error[]; };
 
@@ -39,12 +40,11 @@ vec3 picturedNormal(vec3 normal) {
   return length(turned) > 1e-6 ? normalize(turned) : normal;
 }
 
-/// What a surface of a roughness throws back of light from all sides: a factor of the reflectance, and what is added.
+/// What a surface of a roughness throws back of light from all sides (viewer/surface/reflected_light.h).
 vec2 thrownBack(float roughness, float toEye) {
-  const vec4 c0 = vec4(-1.0, -0.0275, -0.572, 0.022), c1 = vec4(1.0, 0.0425, 1.04, -0.04);
-  vec4 r = roughness * c0 + c1;
-  float a = min(r.x * r.x, exp2(-9.28 * toEye)) * r.x + r.y;
-  return vec2(-1.04, 1.04) * a + r.zw;
+  // Between the middles of the first and the last texel.
+  vec2 side = vec2(textureSize(reflected, 0));
+  return texture(reflected, clamp(vec2(toEye, roughness), 0.5 / side, 1.0 - 0.5 / side)).rg;
 }
 
 /// A highlight (GGX), as a multiple of what a white matt surface shows that the same light falls on straight.
