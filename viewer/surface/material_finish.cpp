@@ -93,9 +93,10 @@ MaterialFinish finishOfMtl(const Material& material) {
     finish.metal = metal ? float(std::clamp(metal->front(), 0.0, 1.0)) : hasPicture ? 1.0f : 0.0f;
     finish.roughness = roughness ? float(std::clamp(roughness->front(), 0.0, 1.0)) : 1.0f;
     finish.reflectance = 0.04f;
-  } else if (!isMatt && mean > 0) {
+  } else if (!isMatt && mean > 0 && shine && shine->front() > 0) {
+    // Exporters write a white Ks beside an exponent of 0 where nothing shines.
     finish.reflectance = float(0.08 * std::clamp(mean, 0.0, 1.0));
-    finish.roughness = float(std::sqrt(2 / (2 + std::max(0.0, shine ? shine->front() : 0.0))));
+    finish.roughness = float(std::sqrt(2 / (2 + shine->front())));
   }
   if (emission) finish.emission = emissionFrom(*emission, 1);
   // A picture of emission beside no Ke is shown as it is.

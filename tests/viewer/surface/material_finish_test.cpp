@@ -43,6 +43,8 @@ TEST(MaterialFinish, OfAnMtlShinesByKsAndNsUnlessItsModelIsMatt) {
   EXPECT_FLOAT_EQ(shiny.reflectance, 0.04f);
   EXPECT_FLOAT_EQ(shiny.roughness, float(std::sqrt(0.02)));
   EXPECT_EQ(finishOf(mtl("Ks 0.5 0.5 0.5\nNs 98\nillum 1"), false), MaterialFinish{});
+  EXPECT_EQ(finishOf(mtl("Ks 1 1 1\nNs 0\nillum 2"), false), MaterialFinish{});
+  EXPECT_EQ(finishOf(mtl("Ks 1 1 1\nillum 2"), false), MaterialFinish{});
 }
 
 TEST(MaterialFinish, OfAnMtlTakesMetalRoughnessAndEmissionWhereTheyAreStated) {
