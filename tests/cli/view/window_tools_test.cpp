@@ -66,7 +66,7 @@ TEST_F(WindowTools, AnObjIsHalvedSavedCroppedAndDecimatedWithTheBytesOfTheComman
 
 TEST_F(WindowTools, ACutByTheCameraIsThatOfTheCommandThatTheWindowSays) {
   check("--pixel-error 6");
-  check("--pixel-error 1.5 --frame-time 5");
+  check("--pixel-error 1.5");
 }
 
 TEST_F(WindowTools, ACutThatABudgetEndsIsRefusedAsNoCommandHasIt) {
