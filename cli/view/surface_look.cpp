@@ -45,7 +45,7 @@ void SurfaceLookArguments::addTo(CLI::App& command, const std::string& group, Op
                        ->group(group));
   kinds.ofSurfaces(command
                        .add_option("--shading", shading,
-                                   "Light by the normals of triangles (flat), those of the source smooth but "
+                                   "Light by the normals of triangles (flat), the source's, smooth but "
                                    "for edges of 45 degrees, or the file's own, smooth where it has none "
                                    "(stated, default)")
                        ->check(oneOf({"flat", "smooth", "stated"}))

@@ -41,7 +41,7 @@ struct SurfaceLook {
   bool hasTextures = true, hasMaterialColors = true, hasVertexColors = true;
   SurfaceShading shading = SurfaceShading::stated;
   SurfaceSides sides = SurfaceSides::asStated;
-  /// The sun's diffuse light, that of the sky, a light at the eye, and what shines in all of them.
+  /// The sun's diffuse light, the sky's, a light at the eye, and what shines in all of them.
   bool hasSun = true, hasSky = true, hasHeadlight = true, hasHighlights = true;
 
   bool operator==(const SurfaceLook&) const = default;

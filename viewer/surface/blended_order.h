@@ -30,8 +30,8 @@ class BlendedOrder {
   void add(const Triangle& triangle) { triangles_.push_back(triangle); }
   bool isEmpty() const { return triangles_.empty(); }
 
-  /// Sorts them by the depth of their middles along `forward`; those of one depth stay as they were added.
-  /// Triangles that cut through each other, or are long beside their distances, may come out of order.
+  /// Sorts them by the depth of their middles along `forward`; where depths are equal they stay as they were
+  /// added. Triangles that cut through each other, or are long beside their distances, may come out of order.
   /// O(n log n).
   void sort(Vec3 eye, Vec3 forward);
   /// As sorted last: three drawn vertices a triangle, and the runs that they fall into.

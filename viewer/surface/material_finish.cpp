@@ -162,7 +162,7 @@ PictureLookup lookupOf(const Material& material, const TextureUse& use) {
   };
   lookup.acrossU = wrap("/sampler/wrapS");
   lookup.acrossV = wrap("/sampler/wrapT");
-  // NEAREST, and those of mipmaps: NEAREST_MIPMAP_NEAREST, NEAREST_MIPMAP_LINEAR.
+  // NEAREST, and with mipmaps NEAREST_MIPMAP_NEAREST, NEAREST_MIPMAP_LINEAR.
   const double shrunk = numberAt(json, "/sampler/minFilter", 9987, 0, 1e6);
   lookup.isNearest = numberAt(json, "/sampler/magFilter", 9729, 0, 1e6) == 9728;
   lookup.isNearestFar = shrunk == 9728 || shrunk == 9984 || shrunk == 9986;

@@ -14,7 +14,7 @@ namespace arete {
 /// How a material shines, as glTF's model of metal and roughness has it. Colours are linear.
 struct MaterialFinish {
   float metal = 0, roughness = 1;
-  float reflectance = 0;        ///< of light that falls straight on what is no metal; 0: it does not shine
+  float reflectance = 0;        ///< of light that falls straight on all but metal; 0: it does not shine
   glm::vec3 emission{0};        ///< light of its own
   float normalScale = 1;        ///< of the slopes of its picture of normals
   float occlusion = 1;          ///< 0 to 1: how much its picture of occlusion counts

@@ -68,8 +68,8 @@ Result<SurfacePainter> SurfacePainter::create() {
   return p;
 }
 
-// What is switched off leaves what it is multiplied by: without its picture a metal is none, and what glows
-// in places does not glow.
+// What is switched off leaves what it is multiplied by: a material does not count as metal without its
+// picture, and what glows in places does not glow.
 SurfacePainter::Look SurfacePainter::lookOf(const DrawnMaterial& material, const SurfaceOnGpu& surface,
                                             const ViewLook& look) {
   const SurfaceLook& own = look.surface;

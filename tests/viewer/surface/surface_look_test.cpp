@@ -274,7 +274,7 @@ TEST_F(SurfaceLooks, MetalAndRoughnessAreInBlueAndGreen) {
     EXPECT_NEAR(level({0, green, 255, 255}), 0.74 * std::numbers::pi * bright.of(angle) * mirrored * again,
                 0.02);
   }
-  // What is no metal has nearly all of its matt colour, whatever red says.
+  // All but metal has nearly all of its matt colour, whatever red says.
   EXPECT_NEAR(level({255, 255, 0, 255}), 0.74 * std::cos(angle) * base, 0.03);
 }
 
