@@ -6,7 +6,7 @@
 
 namespace arete {
 
-// The order of the last frame is nearly that of the next one, but ties are by the order of adding: a camera
+// The order of the last frame is nearly the next one, but ties are by the order of adding: a camera
 // that returns sees the same picture.
 void BlendedOrder::sort(Vec3 eye, Vec3 forward) {
   std::vector<std::pair<double, std::uint32_t>> keys(triangles_.size());
