@@ -12,6 +12,7 @@
 #include "engine/parallel/run_context.h"
 #include "surface/model/surface_model.h"
 #include "viewer/scene/drawable.h"
+#include "viewer/surface/material_slots.h"
 #include "viewer/surface/surface_painter.h"
 #include "viewer/surface/surface_subject.h"
 
@@ -53,7 +54,10 @@ class SurfaceDrawable final : public Drawable {
 
  private:
   std::uint32_t materialOf(std::uint32_t triangle) const;
+  /// Sends what changed since the last call.
   void upload();
+  void send(std::uint32_t first, std::uint32_t count);
+  void listBlended(std::span<const std::uint32_t> front);
   /// Sorts what is blended for a view, the farthest first.
   void sortBlended(const FrameView& frame);
   void displace(const BoundedCriterion& criterion);
@@ -62,6 +66,7 @@ class SurfaceDrawable final : public Drawable {
   std::shared_ptr<SurfaceSubject> subject_;
   IncrementalCut cut_;
   std::shared_ptr<SurfaceAssets> assets_;
+  MaterialSlots slots_;  // what indices_ and errors_ hold
   GlQuery anySample_ = makeQuery(GL_ANY_SAMPLES_PASSED), anyBlended_ = makeQuery(GL_ANY_SAMPLES_PASSED);
   double pixels_ = 1;  // of the last cut
   bool isUploaded_ = false;
