@@ -215,23 +215,6 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
           ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 20))
           ->type_name("MIB")
           ->group(group));
-  kinds.ofSurfaces(
-      command
-          .add_option("--hide", hidden,
-                      "What of a surface is not shown: textures, material-colors, vertex-colors; "
-                      "or of its light: sun, sky, headlight")
-          ->type_name("WORD[,WORD]...")
-          ->group(group));
-  kinds.ofSurfaces(
-      command.add_flag("--flat", isFlat, "Light goes by the triangles that are drawn, not by smooth normals")
-          ->group(group));
-  kinds.ofSurfaces(command
-                       .add_option("--sides", sides,
-                                   "Both sides of triangles alike, or the front alone (default: as materials "
-                                   "say, the inside of the others dark)")
-                       ->check(oneOf({"both", "front"}))
-                       ->type_name("NAME")
-                       ->group(group));
   command.add_option("--sun", sun, "Direction of the sun in degrees, from the map's north (default 315,40)")
       ->type_name("AZIMUTH,ELEVATION")
       ->group(group);
@@ -250,6 +233,7 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
   kinds.ofTerrain(
       command.add_flag("--curvature", isCurved, "Draw the curvature of the Earth, by the CRS's ellipsoid")
           ->group(group));
+  surface.addTo(command, group, kinds);
   command.add_flag("--wireframe", hasWireframe, "Draw the edges of the triangles")->group(group);
   command.add_flag("--unshaded", isUnshaded, "Draw without sunlight")->group(group);
   command
@@ -272,34 +256,6 @@ Result<DrapeOptions> AppearanceArguments::drapeOptions() const {
   return options;
 }
 
-Result<SurfaceLook> AppearanceArguments::surfaceLook() const {
-  SurfaceLook look;
-  look.isFlat = isFlat;
-  look.sides = sides == "both"    ? SurfaceLook::Sides::both
-               : sides == "front" ? SurfaceLook::Sides::front
-                                  : SurfaceLook::Sides::asStated;
-  const std::array words = {std::pair{"textures", &look.hasTextures},
-                            std::pair{"material-colors", &look.hasMaterialColors},
-                            std::pair{"vertex-colors", &look.hasVertexColors},
-                            std::pair{"sun", &look.hasSun},
-                            std::pair{"sky", &look.hasSky},
-                            std::pair{"headlight", &look.hasHeadlight}};
-  for (std::size_t at = 0; !hidden.empty() && at <= hidden.size();) {
-    const std::size_t end = std::min(hidden.find(',', at), hidden.size());
-    const std::string word = hidden.substr(at, end - at);
-    const auto* const found =
-        std::ranges::find_if(words, [&](const auto& known) { return word == known.first; });
-    if (found == words.end())
-      return failure(
-          ErrorCode::usage,
-          fmt::format("'{}' is none of textures, material-colors, vertex-colors, sun, sky, headlight", word),
-          "--hide " + hidden);
-    *found->second = false;
-    at = end + 1;
-  }
-  return look;
-}
-
 Result<ViewLook> AppearanceArguments::look(std::span<const Coloring> colorings) const {
   // OptionKinds has refused the colours of the other kind of model.
   const auto stated = std::ranges::find(colorings, color, [](Coloring c) { return toString(c); });
@@ -308,7 +264,7 @@ Result<ViewLook> AppearanceArguments::look(std::span<const Coloring> colorings) 
   look.isShaded = !isUnshaded;
   look.hazeKilometres = hazeKilometres;
   look.hasWireframe = hasWireframe;
-  ARETE_TRY(look.surface, surfaceLook());
+  ARETE_TRY(look.surface, surface.look());
   if (sun.empty()) return look;
   ARETE_TRY(look.sun, readSun(sun));
   return look;
@@ -417,6 +373,7 @@ Status ViewArguments::check() const {
     return refuse("requires --screenshot; the frames of a flight have cameras of their own",
                   viewpoint.home.empty() ? "--camera " + viewpoint.camera : "--home " + viewpoint.home);
   if (!appearance.sun.empty()) ARETE_CHECK(readSun(appearance.sun));
+  ARETE_CHECK(appearance.surface.look());
   ARETE_CHECK(appearance.drapeOptions());
   if (p.film.empty()) return {};
   // Drawing may take hours: a film that cannot be made is refused first.

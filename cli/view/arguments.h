@@ -11,6 +11,7 @@
 #include "cli/arguments/option_kinds.h"
 #include "cli/session/session.h"
 #include "cli/view/colors.h"
+#include "cli/view/surface_look.h"
 #include "engine/base/result.h"
 #include "engine/base/similarity.h"
 #include "viewer/camera/home_view.h"
@@ -68,16 +69,13 @@ struct AppearanceArguments {
   bool hasWireframe = false, isUnshaded = false, isCurved = false;
   bool isPlainPicture = false;  ///< without legend, scale bar, north arrow and graticule
   ColorArguments colors;
-  std::string hidden, sides;  ///< of a surface: what is not shown; which sides are alike
-  bool isFlat = false;
+  SurfaceLookArguments surface;
 
   void addTo(CLI::App& command, OptionKinds& kinds);
-  /// Of a surface. Errors: usage: a word of `hidden` is unknown.
-  Result<SurfaceLook> surfaceLook() const;
   /// Which bands of the drape to show. Errors: usage: not one or three band numbers, which count from 1.
   Result<DrapeOptions> drapeOptions() const;
   /// @param colorings of the model, the usual one first.
-  /// Errors: usage: `sun` is not two angles.
+  /// Errors: usage: `sun` is not two angles; as SurfaceLookArguments::look().
   Result<ViewLook> look(std::span<const Coloring> colorings) const;
 };
 

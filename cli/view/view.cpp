@@ -82,7 +82,7 @@ Status refuseOtherKinds(const ViewArguments& a, ModelKind kind) {
   return {};
 }
 
-/// Options of one model, where a scene states each object's own; and those of terrain, where it has none.
+/// Options of one model, where a scene states each object's own; and of terrain, where it has no terrain.
 Status refuseForScenes(const ViewArguments& a, const OpenScene& scene) {
   for (const auto& [option, text] :
        {std::pair{"--turn ", a.viewpoint.turn}, std::pair{"--up ", a.viewpoint.up}})

@@ -18,14 +18,14 @@ namespace {
 /// Verbs, and how many words follow.
 const std::map<std::string, std::size_t, std::less<>>& verbs() {
   static const std::map<std::string, std::size_t, std::less<>> all = {
-      {"halve", 0}, {"error", 1},    {"triangles", 1}, {"save", 1},       {"box", 1},
-      {"crop", 1},  {"decimate", 3}, {"drag", 1},      {"click", 1},      {"open", 1},
-      {"yes", 0},   {"no", 0},       {"drawn", 0},     {"select", 1},     {"key", 0},
-      {"play", 0},  {"around", 0},   {"frames", 1},    {"screenshot", 0}, {"free", 0}};
+      {"halve", 0},  {"error", 1},    {"triangles", 1},  {"save", 1},  {"box", 1},
+      {"crop", 1},   {"decimate", 3}, {"drag", 1},       {"click", 1}, {"open", 1},
+      {"yes", 0},    {"no", 0},       {"select", 1},     {"key", 0},   {"play", 0},
+      {"around", 0}, {"frames", 1},   {"screenshot", 0}, {"free", 0}};
   return all;
 }
 
-/// How many numbers the first word of a verb has; 0: it is no list of them.
+/// How many numbers the first word of a verb has; 0: it has none.
 std::size_t numbersOf(std::string_view verb) {
   if (verb == "box") return 6;
   if (verb == "drag") return 4;
@@ -54,7 +54,7 @@ Result<WindowScript> WindowScript::read(const std::string& path) {
     const bool isKnown = verb != verbs().end() && words.size() == verb->second + 1;
     const std::size_t wanted = numbersOf(words.front());
     if (!isKnown || (wanted > 0 && numbersIn(words[1]).size() != wanted))
-      return failure(ErrorCode::usage, "is no action of a window: " + line,
+      return failure(ErrorCode::usage, "names an action that a window does not have: " + line,
                      fmt::format("{}, line {}", path, number));
     script.lines_.push_back(std::move(words));
   }
@@ -85,7 +85,8 @@ void WindowScript::act(const std::string& verb, const std::vector<std::string>& 
   if (verb == "triangles") s.say(s.objects->setLevel(HandLevel{.triangles = std::uint32_t(n[0])}));
   if (verb == "save") {
     desk.fields.cut = words[1];
-    s.say(desk.saveCut(s.rig.camera(), s.settings));
+    std::printf("drawn: %u triangles\n", s.figures.triangles);
+    s.say(desk.saveCut(s.rig.camera(), s.cutSettings));
   }
   if (verb == "box") {
     if (!desk.box()) desk.toggleBox();
@@ -114,7 +115,6 @@ void WindowScript::act(const std::string& verb, const std::vector<std::string>& 
   if (verb == "open") s.files.next = words[1];
   if (verb == "yes" || verb == "no") s.answer(verb == "yes");
   if (verb == "select") s.say(s.objects->select(std::size_t(n[0])));
-  if (verb == "drawn") s.say(fmt::format("drawn: {} triangles", s.figures.triangles));
   if (verb == "key") s.apply(Action::setKeyFrame);
   if (verb == "play") s.apply(Action::playFlight);
   if (verb == "free") s.apply(Action::toggleMode);

@@ -15,7 +15,7 @@ namespace arete {
 ///
 ///     halve                    half of the triangles, by hand
 ///     error E | triangles N    a level by hand
-///     save FILE                this cut
+///     save FILE                this cut; says how many triangles it has
 ///     box X0,Y0,Z0,X1,Y1,Z1    shows the box there
 ///     crop FILE
 ///     decimate METHOD N|P% FILE
@@ -25,7 +25,6 @@ namespace arete {
 ///     yes | no                 answers a question
 ///     key, play, around, free  of the flight, and of the camera
 ///     select N                 an object of a scene, from 0
-///     drawn                    says how many triangles are drawn
 ///     frames N                 waits
 ///     screenshot
 ///
@@ -33,7 +32,7 @@ namespace arete {
 /// alone. Sentences of the window go to stdout.
 class WindowScript {
  public:
-  /// Errors: notFound; usage: a line that is no action, with its number.
+  /// Errors: notFound; usage: a line without a known action, with its number.
   static Result<WindowScript> read(const std::string& path);
 
   /// Before each frame. @return whether the window stays open: not behind the last line.

@@ -8,7 +8,7 @@
 // distance and the cosine at the largest angle that the ball reaches.
 //
 // In parallel projection (x, y, z) appears at f (x, y), f pixels per metric unit, so e moves it by at most f
-// e wherever it is: the bound is that of a reach of 1.
+// e wherever it is: a reach of 1 has the same bound.
 #include "engine/criteria/view.h"
 
 #include <algorithm>

@@ -24,7 +24,7 @@ struct View {
   double widthPixels = 1920, heightPixels = 1080;
   double nearDistance = 0;  ///< depths along forward, in metric units; in parallel projection below 0 too
   double farDistance = std::numeric_limits<double>::infinity();
-  /// Above 0: a parallel projection along forward, whose picture is so many metric units high; pixels are
+  /// Above 0: a parallel projection along forward, whose picture has this height in metric units; pixels are
   /// square, and the field of view is not used. The eye is in the middle of the picture. What lies behind it
   /// is seen if nearDistance is below 0, from minus infinity on all of it. 0: perspective.
   double parallelHeight = 0;

@@ -12,7 +12,7 @@ struct SurfaceCamera {
   Vec3 eye, target;  ///< what it looks at, different from the eye
   double verticalFieldOfViewDegrees = 60;
   double widthPixels = 1920, heightPixels = 1080;
-  double parallelHeight = 0;  ///< as of Camera, in metric units
+  double parallelHeight = 0;  ///< as in Camera, in metric units
 };
 
 /// Transforms a camera to the metric space of the model's multitriangulation, as ViewError takes it. The

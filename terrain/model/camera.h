@@ -15,8 +15,8 @@ struct Camera {
   double pitchDegrees = 0;    ///< above the horizon; -90 looks straight down
   double verticalFieldOfViewDegrees = 60;
   double widthPixels = 1920, heightPixels = 1080;
-  /// Above 0: a parallel projection, whose picture is so many metric units high; all that is within the sides
-  /// of the picture is seen, behind the camera too. 0: perspective.
+  /// Above 0: a parallel projection, whose picture has this height in metric units; all that is within the
+  /// sides of the picture is seen, behind the camera too. 0: perspective.
   double parallelHeight = 0;
 };
 

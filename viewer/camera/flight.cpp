@@ -118,7 +118,7 @@ Result<Flight> Flight::create(FlightPlan plan, const CameraSpace& space) {
     places.push_back(space.position(plan.keys[i]));
     ARETE_CHECK(checkKey(plan.keys[i], places[i], i));
     if ((plan.keys[i].parallelHeight > 0) != (plan.keys[0].parallelHeight > 0))
-      return failure(ErrorCode::usage, "its projection is not that of the first key frame", keyName(i));
+      return failure(ErrorCode::usage, "the first key frame has another projection", keyName(i));
   }
   Vec3 low = places[0], high = places[0];
   for (const Vec3& p : places) {

@@ -99,29 +99,16 @@ void drawObjectsSection(ObjectList& objects, const std::function<void(std::strin
   drawTurn(objects);
 }
 
-void drawSurfaceLook(SurfaceLook& look) {
-  const auto pairOf = [](const char* left, bool& isLeft, const char* right, bool& isRight) {
-    ImGui::Checkbox(left, &isLeft);
-    ImGui::SameLine(9.5f * em());
-    ImGui::Checkbox(right, &isRight);
-  };
-  pairOf("textures", look.hasTextures, "flat", look.isFlat);
-  pairOf("material colours", look.hasMaterialColors, "sun", look.hasSun);
-  pairOf("vertex colours", look.hasVertexColors, "sky", look.hasSky);
-  ImGui::Checkbox("headlight", &look.hasHeadlight);
-  int sides = int(look.sides);
-  if (ImGui::Combo("sides", &sides, "as materials say\0both alike\0the front alone\0"))
-    look.sides = SurfaceLook::Sides(sides);
-}
-
 void drawDistanceSection(DistancePicks& distance, const ObjectList& objects, const std::string& unit) {
   if (!widget::section("Places and distance", !widget::isNarrow() || !distance.picks().empty())) return;
   if (distance.picks().empty())
     return dim("Click on the surface: one place shows its coordinates, two their distance.");
   for (std::size_t i = 0; i < distance.picks().size(); ++i) {
     const Pick& pick = distance.picks()[i];
-    const Vec3& p = pick.inObject;
-    row(i == 0 ? "A" : "B", fmt::format("{:.7g}, {:.7g}, {:.7g}", p.x, p.y, p.z));
+    // One below the other: coordinates of a map have many digits.
+    row(i == 0 ? "A" : "B", fmt::format("x {:.11g}", pick.inObject.x));
+    row("", fmt::format("y {:.11g}", pick.inObject.y));
+    row("", fmt::format("z {:.11g}", pick.inObject.z));
     if (objects.count() > 1) row("", objects.nameOf(pick.object));
     if (!pick.material.empty()) row("", pick.material);
     if (!pick.parts.empty()) row("", pick.parts);
@@ -129,7 +116,9 @@ void drawDistanceSection(DistancePicks& distance, const ObjectList& objects, con
   if (distance.picks().size() == 2) {
     const Vec3 way = distance.way();
     row("distance", fmt::format("{:.7g}{}", norm(way), unit.empty() ? "" : " " + unit));
-    row("", fmt::format("{:+.6g}, {:+.6g}, {:+.6g}", way.x, way.y, way.z));
+    row("", fmt::format("dx {:+.9g}", way.x));
+    row("", fmt::format("dy {:+.9g}", way.y));
+    row("", fmt::format("dz {:+.9g}", way.z));
   }
   if (ImGui::Button("clear")) return distance.clear();
   ImGui::SameLine();

@@ -10,13 +10,10 @@
 namespace arete {
 
 /// The section of a panel that lists the objects of a scene, with what the selected one is and has; changes
-/// them in place. Precondition: that of widgets.
+/// them in place. Precondition: a frame of ImGui has begun.
 ///
 /// @param say takes a sentence for the user
 void drawObjectsSection(ObjectList& objects, const std::function<void(std::string)>& say);
-
-/// Switches of what of surfaces is shown, in a section that is open.
-void drawSurfaceLook(SurfaceLook& look);
 
 /// The section of the places that were clicked on surfaces.
 void drawDistanceSection(DistancePicks& distance, const ObjectList& objects, const std::string& unit);

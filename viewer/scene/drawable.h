@@ -34,9 +34,12 @@ class Drawable {
   /// ground are painted on it. Errors: usage, of the camera, or of more layers than can be painted.
   virtual Status draw(const Camera& camera, const ViewSettings& settings,
                       std::span<const Layer> layers = {}) = 0;
-  /// Draws what of the model is seen through, over all that has been drawn, what is behind the models too.
+  /// Draws what lets light through, over all that draw() and drawBackground() of every model have drawn.
   /// Precondition: draw() for the same frame.
-  virtual Status drawBlended(const Camera&, const ViewSettings&) { return {}; }
+  virtual Status drawBlended(const Camera& camera, const ViewSettings& settings) {
+    static_cast<void>(camera), static_cast<void>(settings);
+    return {};
+  }
   /// Draws what is behind all models, where nothing has been drawn. Precondition: draw() for the same frame.
   virtual void drawBackground(const ViewSettings& settings) = 0;
   /// Whether a sample of the last picture shows the model. Waits for the drawing.

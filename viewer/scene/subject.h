@@ -110,7 +110,7 @@ std::string_view toString(Coloring coloring);
 
 /// The direction, in the space of the view, of a pixel of its picture. `isMirrored`: as CameraSpace says.
 Vec3 directionOfPixel(const View& view, bool isMirrored, Vec2 pixel);
-/// Where the ray of a place in the picture begins: at the eye, in parallel projection beside it, and so many
+/// Where the ray of a place in the picture begins: at the eye, in parallel projection beside it, and `behind`
 /// metric units behind it that the ray meets all that is seen.
 Vec3 originOfPixel(const View& view, bool isMirrored, Vec2 pixel, double behind);
 /// The place in a picture of a point in the eye's axes (Frustum::toView()); nothing behind a perspective eye.

@@ -22,17 +22,29 @@ struct Sun {
   double azimuthDegrees = 315, elevationDegrees = 40;
 };
 
-/// What of a surface is shown, each by itself.
+/// Which normals light falls on.
+enum class SurfaceShading {
+  flat,    ///< the drawn triangles' own
+  smooth,  ///< the source's, smooth across edges of less than 45 degrees
+  stated   ///< the file's own, of corners or vertices; smooth where it has none
+};
+
+/// Which sides of a surface are seen.
+enum class SurfaceSides {
+  asStated,  ///< as the material says: the inside of what has one side is dark
+  both,      ///< alike
+  front      ///< what is turned away is not drawn
+};
+
+/// What a surface shows, and under what light: each by itself.
 struct SurfaceLook {
   bool hasTextures = true, hasMaterialColors = true, hasVertexColors = true;
-  bool isFlat = false;  ///< light goes by the drawn triangles, not by the normals of the source
-  /// Which sides of triangles are alike.
-  enum class Sides {
-    asStated,  ///< as materials say; the inside of the others is dark
-    both,
-    front,  ///< the inside is not drawn
-  } sides = Sides::asStated;
-  bool hasSun = true, hasSky = true, hasHeadlight = true;  ///< parts of the light
+  SurfaceShading shading = SurfaceShading::stated;
+  SurfaceSides sides = SurfaceSides::asStated;
+  /// The sun's diffuse light, the sky's, a light at the eye, and what shines in all of them.
+  bool hasSun = true, hasSky = true, hasHeadlight = true, hasHighlights = true;
+
+  bool operator==(const SurfaceLook&) const = default;
 };
 
 /// Colours and light.
@@ -43,11 +55,11 @@ struct ViewLook {
       {};                     ///< nothing: as Sun has it; of a surface, from above the viewer's left shoulder
   double hazeKilometres = 0;  ///< distance at which haze hides about two thirds; 0 = none
   bool hasWireframe = false;
+  SurfaceLook surface = {};
   /// The error of the hottest colour, in the unit of heights; 0 = as many pixels as the cut allows.
   double heatError = 0;
   /// The colours of heights, slopes, aspects and errors of a terrain. Null: the table's, for its heights.
   SharedColors colors = {};
-  SurfaceLook surface = {};
 };
 
 /// A level of detail that is chosen by hand, whatever the camera sees: one of the two.

@@ -5,6 +5,7 @@
 #include "viewer/surface/surface_drawable.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "engine/base/stopwatch.h"
@@ -49,9 +50,7 @@ void SurfaceDrawable::upload() {
     i = end;
   }
   blended_.clear();
-  const auto& materials = assets_->materials.materials();
-  const auto isBlended = [](const DrawnMaterial& m) { return m.alpha == DrawnMaterial::Alpha::blended; };
-  if (std::ranges::any_of(materials, isBlended)) listBlended(front);
+  if (hasBlendedMaterials()) listBlended(front);
   isUploaded_ = true;
 }
 
@@ -78,8 +77,7 @@ void SurfaceDrawable::listBlended(std::span<const std::uint32_t> front) {
     Vec3 middle;
     for (const std::uint32_t v : mt.corners(TriangleId(t)))
       middle = middle + subject_->upright().fromFile(mt.position(VertexId(v))) / 3;
-    blended_.push_back(
-        {material, model_->hasWedges() ? model_->wedgesOf[t] : mt.corners(TriangleId(t)), middle});
+    blended_.add({model_->hasWedges() ? model_->wedgesOf[t] : mt.corners(TriangleId(t)), material, middle});
   }
 }
 
@@ -169,53 +167,40 @@ Result<FrameView> SurfaceDrawable::frameOf(const Camera& camera, const ViewSetti
   return frame;
 }
 
+bool SurfaceDrawable::hasBlendedMaterials() const {
+  return std::ranges::any_of(assets_->materials.materials(),
+                             [](const DrawnMaterial& m) { return m.alpha == DrawnMaterial::Alpha::blended; });
+}
+
 Status SurfaceDrawable::draw(const Camera& camera, const ViewSettings& settings, std::span<const Layer>) {
   ARETE_TRY(const FrameView frame, frameOf(camera, settings));
+  std::vector<DrawnSurface::Range> solid;
+  for (const DrawnSurface::Range& range : ranges_)
+    if (!SurfacePainter::isBlended(assets_->materials.materials()[range.material], settings.look))
+      solid.push_back(range);
+  hasDrawnBlended_ = false;
   glBeginQuery(GL_ANY_SAMPLES_PASSED, anySample_);
-  const DrawnSurface front{
-      .indices = indices_, .errors = errors_, .positions = displaced_, .ranges = ranges_};
-  assets_->painter.draw(assets_->vertices, assets_->materials, front, frame, settings.look,
+  assets_->painter.draw(assets_->vertices, assets_->materials,
+                        DrawnSurface{indices_, errors_, displaced_, solid}, frame, settings.look,
                         Similarity(subject_->placement().turn, 1, {}));
   glEndQuery(GL_ANY_SAMPLES_PASSED);
-  hasBlended_ = false;
   return {};
 }
 
 Status SurfaceDrawable::drawBlended(const Camera& camera, const ViewSettings& settings) {
-  if (blended_.empty()) return {};
+  if (settings.look.coloring != Coloring::material || blended_.isEmpty()) return {};
   ARETE_TRY(const FrameView frame, frameOf(camera, settings));
-  sortBlended(frame);
+  blended_.sort(frame.view.eye, Frustum(frame.view).planes().forward);
+  const auto corners = blended_.corners();
+  const GlBuffer indices = makeBuffer(std::span<const std::array<std::uint32_t, 3>>(corners));
+  std::vector<DrawnSurface::Range> runs;
+  for (const BlendedOrder::Run& run : blended_.runs()) runs.push_back({run.material, run.first, run.count});
   glBeginQuery(GL_ANY_SAMPLES_PASSED, anyBlended_);
-  const DrawnSurface front{
-      .positions = displaced_, .blendedIndices = blendedIndices_, .blended = blendedRanges_};
-  assets_->painter.drawBlended(assets_->vertices, assets_->materials, front, frame, settings.look,
-                               Similarity(subject_->placement().turn, 1, {}));
+  assets_->painter.draw(assets_->vertices, assets_->materials, DrawnSurface{indices, 0, displaced_, runs},
+                        frame, settings.look, Similarity(subject_->placement().turn, 1, {}), true);
   glEndQuery(GL_ANY_SAMPLES_PASSED);
-  hasBlended_ = true;
+  hasDrawnBlended_ = true;
   return {};
-}
-
-// A triangle counts by its middle. Equal depths keep the order of the front, so that a picture does not
-// depend on the sorting.
-void SurfaceDrawable::sortBlended(const FrameView& frame) {
-  blendedRanges_.clear();
-  if (blended_.empty()) return;
-  const Frustum frustum(frame.view);
-  std::vector<std::pair<double, std::uint32_t>> order;
-  order.reserve(blended_.size());
-  for (std::uint32_t i = 0; i < blended_.size(); ++i)
-    order.push_back({-frustum.toView(blended_[i].middle).z, i});
-  std::ranges::sort(order);
-  std::vector<std::array<std::uint32_t, 3>> corners;
-  corners.reserve(order.size());
-  for (const auto& [depth, i] : order) {
-    const Blended& triangle = blended_[i];
-    if (blendedRanges_.empty() || blendedRanges_.back().material != triangle.material)
-      blendedRanges_.push_back({triangle.material, static_cast<std::uint32_t>(corners.size()), 0});
-    ++blendedRanges_.back().count;
-    corners.push_back(triangle.corners);
-  }
-  blendedIndices_ = makeBuffer(std::span<const std::array<std::uint32_t, 3>>(corners));
 }
 
 void SurfaceDrawable::setTurn(const Turn& turn) {
@@ -227,7 +212,7 @@ void SurfaceDrawable::setTurn(const Turn& turn) {
 bool SurfaceDrawable::isShown() const {
   GLuint any = 0;
   glGetQueryObjectuiv(anySample_, GL_QUERY_RESULT, &any);
-  if (any == 0 && hasBlended_) glGetQueryObjectuiv(anyBlended_, GL_QUERY_RESULT, &any);
+  if (any == 0 && hasDrawnBlended_) glGetQueryObjectuiv(anyBlended_, GL_QUERY_RESULT, &any);
   return any != 0;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -12,6 +12,7 @@
 #include "engine/parallel/run_context.h"
 #include "surface/model/surface_model.h"
 #include "viewer/scene/drawable.h"
+#include "viewer/surface/blended_order.h"
 #include "viewer/surface/material_slots.h"
 #include "viewer/surface/surface_painter.h"
 #include "viewer/surface/surface_subject.h"
@@ -42,6 +43,7 @@ class SurfaceDrawable final : public Drawable {
                            const RunContext& context = {}) override;
   Status draw(const Camera& camera, const ViewSettings& settings,
               std::span<const Layer> layers = {}) override;
+  /// Its triangles from back to front.
   Status drawBlended(const Camera& camera, const ViewSettings& settings) override;
   void drawBackground(const ViewSettings&) override { assets_->painter.drawBackground(); }
   bool isShown() const override;
@@ -58,8 +60,6 @@ class SurfaceDrawable final : public Drawable {
   void upload();
   void send(std::uint32_t first, std::uint32_t count);
   void listBlended(std::span<const std::uint32_t> front);
-  /// Sorts what is blended for a view, the farthest first.
-  void sortBlended(const FrameView& frame);
   void displace(const BoundedCriterion& criterion);
 
   const SurfaceModel* model_;  // the subject's
@@ -67,19 +67,14 @@ class SurfaceDrawable final : public Drawable {
   IncrementalCut cut_;
   std::shared_ptr<SurfaceAssets> assets_;
   MaterialSlots slots_;  // what indices_ and errors_ hold
+  bool hasBlendedMaterials() const;
   GlQuery anySample_ = makeQuery(GL_ANY_SAMPLES_PASSED), anyBlended_ = makeQuery(GL_ANY_SAMPLES_PASSED);
-  double pixels_ = 1;  // of the last cut
+  bool hasDrawnBlended_ = false;  // in the last picture
+  BlendedOrder blended_;          // of the last cut
+  double pixels_ = 1;             // of the last cut
   bool isUploaded_ = false;
-  GlBuffer indices_, errors_, blendedIndices_;
-  std::vector<DrawnSurface::Range> ranges_, blendedRanges_;
-  /// A triangle of the front that its material blends.
-  struct Blended {
-    std::uint32_t material = 0;
-    std::array<std::uint32_t, 3> corners{};  // drawn vertices
-    Vec3 middle;                             // in upright space
-  };
-  std::vector<Blended> blended_;
-  bool hasBlended_ = false;       // the last picture drew them
+  GlBuffer indices_, errors_;
+  std::vector<DrawnSurface::Range> ranges_;
   std::vector<float> positions_;  // of a displaced model: its own
   GlBuffer displaced_;            // the same in graphics memory
 };

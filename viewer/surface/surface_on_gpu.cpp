@@ -61,22 +61,30 @@ double scaleOf(const Attribute& a) {
   return 1 / (std::exp2(8 * double(sizeOf(a.type)) - (isSigned ? 1 : 0)) - 1);
 }
 
-std::vector<float> normalsOf(const SurfaceModel& model, const ZUpFrame& upright,
-                             const std::vector<std::uint32_t>& vertexOf) {
+struct DrawnNormals {
+  std::vector<float> stated, smooth;  // smooth: empty where no other ones are stated
+};
+
+DrawnNormals normalsOf(const SurfaceModel& model, const ZUpFrame& upright,
+                       const std::vector<std::uint32_t>& vertexOf) {
   const std::vector<Vec3> own = shadingNormals(model);
   const DrawnAttribute stated(model, vertexOf, kNormalName, AttributeMeaning::normal);
-  std::vector<float> normals;
-  normals.reserve(3 * vertexOf.size());
+  const bool isStated = stated && stated.attribute().components >= 3;
+  DrawnNormals normals;
+  const auto add = [&](std::vector<float>& to, const Vec3& normal) {
+    const Vec3 n = upright.turned(normal);
+    to.insert(to.end(), {float(n.x), float(n.y), float(n.z)});
+  };
   for (std::size_t i = 0; i < vertexOf.size(); ++i) {
     Vec3 n = own[vertexOf[i]];
-    if (stated && stated.attribute().components >= 3) {
+    if (isStated) {
+      add(normals.smooth, n);
       const std::vector<double> numbers = stated.attribute().numbers(stated.elementOf(i));
       const Vec3 said{numbers[0], numbers[1], numbers[2]};
       const double length = norm(said);
       if (std::isfinite(length) && length > 0) n = said / length;
     }
-    n = upright.turned(n);
-    normals.insert(normals.end(), {float(n.x), float(n.y), float(n.z)});
+    add(normals.stated, n);
   }
   return normals;
 }
@@ -136,7 +144,9 @@ SurfaceOnGpu uploadSurface(const SurfaceModel& model, const ZUpFrame& upright) {
     return makeBuffer(std::span<const T>(data));
   };
   gpu.positions = upload(drawnPositions(model, upright));
-  gpu.normals = upload(normalsOf(model, upright, vertexOf));
+  const DrawnNormals normals = normalsOf(model, upright, vertexOf);
+  gpu.normals = upload(normals.stated);
+  if (!normals.smooth.empty()) gpu.smoothNormals = upload(normals.smooth);
   if (const auto coords = textureCoordsOf(model, vertexOf); !coords.empty())
     gpu.textureCoords = upload(coords);
   if (const auto colors = colorsOf(model, vertexOf); !colors.empty()) gpu.colors = upload(colors);

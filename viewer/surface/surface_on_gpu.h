@@ -15,6 +15,7 @@ namespace arete {
 struct SurfaceOnGpu {
   GlBuffer positions;      ///< 3 floats, upright
   GlBuffer normals;        ///< 3 floats, upright; zero: the triangle's own is to be used
+  GlBuffer smoothNormals;  ///< the same without those that the file states; empty where it states none
   GlBuffer textureCoords;  ///< 4 floats: two sets, v from the upper side; empty without
   GlBuffer colors;         ///< 4 bytes, sRGB and alpha; empty without
 };

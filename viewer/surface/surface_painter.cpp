@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A draw call for each material of the front, and one for its wireframe; what is blended comes in a pass of
-// its own, a draw call for each run of one material. Light is added up in proportion to light and written as
-// sRGB.
+// A draw call for each material of the front, or for each run of triangles of one material, and as many for
+// its wireframe. Light is added up in proportion to
+// light and written as sRGB.
 #include "viewer/surface/surface_painter.h"
 
 #include <glm/vec4.hpp>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "viewer/color/color_tables.h"
 #include "viewer/gl/gl_program.h"
+#include "viewer/surface/reflected_light.h"
 
 namespace arete {
 
 /// shaders/surface.frag.glsl, std140.
 struct SurfacePainter::Look {
-  glm::vec4 baseColor{1, 1, 1, 1}, sun{}, modes{}, more{}, zenith{}, parts{1, 1, 1, 0};
+  glm::vec4 baseColor{1, 1, 1, 1}, sun{}, modes{}, more{}, zenith{}, parts{}, finish{0, 1, 0, 1}, emission{};
+  std::array<glm::vec4, 2 * DrawnPicture::count> lookups{};
 };
 
 namespace {
@@ -54,9 +57,57 @@ Result<SurfacePainter> SurfacePainter::create() {
   p.look_ = makeBuffer(sizeof(Look));
   p.errorColors_ = ColorMapsOnGpu({&colorTable("error"), 1});
   p.nothing_ = makeBuffer(16);
+  constexpr GLsizei kSide = 32;
+  p.reflected_ = makeTexture(GL_TEXTURE_2D);
+  glTextureStorage2D(p.reflected_, 1, GL_RG32F, kSide, kSide);
+  glTextureSubImage2D(p.reflected_, 0, 0, 0, kSide, kSide, GL_RG, GL_FLOAT, reflectedLight(kSide).data());
+  glTextureParameteri(p.reflected_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(p.reflected_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   p.surfaceArray_ = makeVertexArray();
   p.emptyArray_ = makeVertexArray();
   return p;
+}
+
+// What is switched off leaves what it is multiplied by: without its picture nothing is metal, and what glows
+// in places does not glow.
+SurfacePainter::Look SurfacePainter::lookOf(const DrawnMaterial& material, const SurfaceOnGpu& surface,
+                                            const ViewLook& look) {
+  const SurfaceLook& own = look.surface;
+  Look now;
+  const bool hasPictures = own.hasTextures && surface.textureCoords != 0;
+  const auto has = [&](DrawnPicture::Role role) {
+    return hasPictures && material.pictures[role].texture != 0;
+  };
+  const auto lacks = [&](DrawnPicture::Role role) {
+    return !hasPictures && material.pictures[role].texture != 0;
+  };
+  const bool hasColors = own.hasVertexColors && surface.colors != 0;
+  now.baseColor = material.baseColor;
+  if (!own.hasMaterialColors)
+    now.baseColor = hasColors || has(DrawnPicture::color) ? glm::vec4(1) : kUncolored;
+  else if (surface.colors != 0 && !hasColors && !has(DrawnPicture::color) && now.baseColor == glm::vec4(1))
+    now.baseColor = kUncolored;
+  for (std::size_t i = 0; i < material.pictures.size(); ++i) {
+    const PictureLookup& lookup = material.pictures[i].lookup;
+    const float set = has(DrawnPicture::Role(i)) ? float(1 + std::min(lookup.textureCoords, 1u)) : 0;
+    now.lookups[2 * i] = {lookup.u, set};
+    now.lookups[2 * i + 1] = {lookup.v, 0};
+  }
+  const MaterialFinish& finish = material.finish;
+  const bool hasFinish = look.coloring == Coloring::material;
+  if (hasFinish) {
+    now.finish = {lacks(DrawnPicture::metalAndRoughness) ? 0 : finish.metal, finish.roughness,
+                  finish.reflectance, finish.normalScale};
+    if (own.hasMaterialColors && !lacks(DrawnPicture::emission))
+      now.emission = {finish.emission, finish.occlusion};
+    now.emission.w = finish.occlusion;
+  }
+  now.sun.w = look.isShaded && !(hasFinish && finish.isWithoutLight) ? 1.0f : 0.0f;
+  now.modes = {coloringNumber(look.coloring), 0, float(material.alpha), material.alphaCutoff};
+  now.more.x = material.isDoubleSided || own.sides == SurfaceSides::both ? 1.0f : 0.0f;
+  now.more.w = own.shading == SurfaceShading::flat ? 1.0f : 0.0f;
+  now.parts = {own.hasSun, own.hasSky, own.hasHeadlight, own.hasHighlights};
+  return now;
 }
 
 // The look differs from range to range and is written before each draw call; OpenGL keeps the order.
@@ -66,68 +117,21 @@ void SurfacePainter::drawRange(const DrawnSurface::Range& range, const Look& loo
                  reinterpret_cast<const void*>(std::size_t(12) * range.first));
 }
 
-/// One pass over a surface: binds what its draw calls share, and writes the look of each.
-class SurfacePainter::Pass {
- public:
-  Pass(SurfacePainter& painter, const SurfaceOnGpu& surface, const MaterialsOnGpu& materials,
-       const DrawnSurface& front, const FrameView& frame, const ViewLook& look, const Similarity& turned)
-      : painter_(painter),
-        surface_(surface),
-        materials_(materials),
-        look_(look),
-        sun_(towardsSun(frame, look, turned)),
-        up_(turned.inverse().direction({0, 0, 1})) {
-    const FrameBlock block = frameBlock(frame, MetricFrame{});
-    glNamedBufferSubData(painter.frame_, 0, sizeof block, &block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, 0, painter.frame_);
-    glBindBufferBase(GL_UNIFORM_BUFFER, 1, painter.look_);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, front.errors != 0 ? front.errors : painter.nothing_);
-    glUseProgram(painter.surface_);
-    painter.errorColors_.bind();
-    glProgramUniform1ui(painter.surface_, 0, painter.errorColors_.place(0));
-    // An attribute that the surface lacks is disabled, and a constant takes its place: no coordinates, white.
-    attribute(0, front.positions != 0 ? front.positions : GLuint(surface.positions), 3, GL_FLOAT);
-    attribute(1, surface.normals, 3, GL_FLOAT);
-    attribute(2, surface.textureCoords, 4, GL_FLOAT);
-    attribute(3, look.surface.hasVertexColors ? GLuint(surface.colors) : 0, 4, GL_UNSIGNED_BYTE);
-    glBindVertexArray(painter.surfaceArray_);
-    glVertexAttrib4f(2, 0, 0, 0, 0);
-    glVertexAttrib4f(3, 1, 1, 1, 1);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_GEQUAL);
-    if (look.surface.sides == SurfaceLook::Sides::front) glEnable(GL_CULL_FACE);
-  }
-  ~Pass() { glDisable(GL_CULL_FACE); }
-  Pass(const Pass&) = delete;
-  Pass& operator=(const Pass&) = delete;
-
-  void takeIndices(GLuint indices) const { glVertexArrayElementBuffer(painter_.surfaceArray_, indices); }
-  /// Only the colouring by materials blends.
-  bool isBlended(const DrawnSurface::Range& range) const {
-    return look_.coloring == Coloring::material &&
-           materials_.materials()[range.material].alpha == DrawnMaterial::Alpha::blended;
-  }
-  void draw(const DrawnSurface::Range& range) const {
-    const DrawnMaterial& m = materials_.materials()[range.material];
-    const SurfaceLook& shown = look_.surface;
-    const auto number = [](bool is) { return is ? 1.0f : 0.0f; };
-    Look now;
-    if (shown.hasMaterialColors) now.baseColor = m.baseColor;
-    now.baseColor.w = m.baseColor.w;
-    now.sun = {float(sun_.x), float(sun_.y), float(sun_.z), number(look_.isShaded)};
-    const bool hasPicture = shown.hasTextures && m.texture != 0 && surface_.textureCoords != 0;
-    now.modes = {coloringNumber(look_.coloring), hasPicture ? float(1 + m.textureCoords) : 0.0f,
-                 float(m.alpha), m.alphaCutoff};
-    now.more = {number(m.isDoubleSided || shown.sides == SurfaceLook::Sides::both), 0, float(range.first), 0};
-    now.zenith = {float(up_.x), float(up_.y), float(up_.z), number(shown.isFlat)};
-    now.parts = {number(shown.hasSun), number(shown.hasSky), number(shown.hasHeadlight), 0};
-    glBindTextureUnit(0, hasPicture ? m.texture : 0);
-    painter_.drawRange(range, now);
-  }
-
- private:
-  void attribute(GLuint index, GLuint buffer, GLint size, GLenum type) const {
-    const GLuint array = painter_.surfaceArray_;
+void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials,
+                          const DrawnSurface& front, const FrameView& frame, const ViewLook& look,
+                          const Similarity& turned, bool isBlended) {
+  const FrameBlock block = frameBlock(frame, MetricFrame{});
+  glNamedBufferSubData(frame_, 0, sizeof block, &block);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 1, look_);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, front.errors != 0 ? front.errors : nothing_);
+  glUseProgram(surface_);
+  errorColors_.bind();
+  glBindTextureUnit(GLuint(DrawnPicture::count), reflected_);
+  glProgramUniform1ui(surface_, 0, errorColors_.place(0));
+  const GLuint array = surfaceArray_;
+  // An attribute that the surface lacks is disabled, and a constant takes its place: no coordinates, white.
+  const auto attribute = [&](GLuint index, GLuint buffer, GLint size, GLenum type) {
     if (buffer == 0) {
       glDisableVertexArrayAttrib(array, index);
       return;
@@ -136,23 +140,41 @@ class SurfacePainter::Pass {
     glVertexArrayAttribFormat(array, index, size, type, type == GL_FLOAT ? GL_FALSE : GL_TRUE, 0);
     glVertexArrayAttribBinding(array, index, index);
     glEnableVertexArrayAttrib(array, index);
+  };
+  attribute(0, front.positions != 0 ? front.positions : GLuint(surface.positions), 3, GL_FLOAT);
+  const bool isSmooth = look.surface.shading == SurfaceShading::smooth && surface.smoothNormals != 0;
+  attribute(1, isSmooth ? surface.smoothNormals : surface.normals, 3, GL_FLOAT);
+  attribute(2, surface.textureCoords, 4, GL_FLOAT);
+  attribute(3, look.surface.hasVertexColors ? GLuint(surface.colors) : 0, 4, GL_UNSIGNED_BYTE);
+  glVertexArrayElementBuffer(array, front.indices);
+  glBindVertexArray(array);
+  glVertexAttrib4f(2, 0, 0, 0, 0);
+  glVertexAttrib4f(3, 1, 1, 1, 1);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GEQUAL);
+
+  const Vec3 sun = towardsSun(frame, look, turned), up = turned.inverse().direction({0, 0, 1});
+  if (look.surface.sides == SurfaceSides::front) glEnable(GL_CULL_FACE);
+  if (isBlended) {
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
   }
-
-  SurfacePainter& painter_;
-  const SurfaceOnGpu& surface_;
-  const MaterialsOnGpu& materials_;
-  const ViewLook& look_;
-  Vec3 sun_, up_;
-};
-
-void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials,
-                          const DrawnSurface& front, const FrameView& frame, const ViewLook& look,
-                          const Similarity& turned) {
-  const Pass pass(*this, surface, materials, front, frame, look, turned);
-  pass.takeIndices(front.indices);
-  for (const DrawnSurface::Range& range : front.ranges)
-    if (!pass.isBlended(range)) pass.draw(range);
-  if (!look.hasWireframe) return;
+  for (const DrawnSurface::Range& range : front.ranges) {
+    const DrawnMaterial& m = materials.materials()[range.material];
+    Look now = lookOf(m, surface, look);
+    now.sun = {float(sun.x), float(sun.y), float(sun.z), now.sun.w};
+    now.zenith = {float(up.x), float(up.y), float(up.z), 0};
+    now.more.z = float(range.first);
+    for (GLuint i = 0; i < m.pictures.size(); ++i) glBindTextureUnit(i, m.pictures[i].texture);
+    drawRange(range, now);
+  }
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  if (!look.hasWireframe) {
+    glDisable(GL_CULL_FACE);
+    return;
+  }
   Look lines;
   lines.baseColor = {0.05f, 0.07f, 0.10f, 1};
   lines.more.y = 1;
@@ -162,22 +184,7 @@ void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& mat
   for (const DrawnSurface::Range& range : front.ranges) drawRange(range, lines);
   glDisable(GL_POLYGON_OFFSET_LINE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-}
-
-// Depth is not written, so that what lies behind stays visible, and nothing is hidden by what is seen
-// through.
-void SurfacePainter::drawBlended(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials,
-                                 const DrawnSurface& front, const FrameView& frame, const ViewLook& look,
-                                 const Similarity& turned) {
-  if (front.blended.empty() || look.coloring != Coloring::material) return;
-  const Pass pass(*this, surface, materials, front, frame, look, turned);
-  pass.takeIndices(front.blendedIndices);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glDepthMask(GL_FALSE);
-  for (const DrawnSurface::Range& range : front.blended) pass.draw(range);
-  glDisable(GL_BLEND);
-  glDepthMask(GL_TRUE);
+  glDisable(GL_CULL_FACE);
 }
 
 void SurfacePainter::drawBackground() {

@@ -24,10 +24,7 @@ struct DrawnSurface {
   GLuint errors = 0;   ///< a float a triangle; 0: none
   /// Positions of the drawn vertices instead of the surface's; 0: none.
   GLuint positions = 0;
-  /// What materials blend, the farthest first, as runs of one material in indices of their own. They take the
-  /// place of the ranges of these materials where materials are shown.
-  GLuint blendedIndices = 0;
-  std::span<const Range> ranges = {}, blended = {};
+  std::span<const Range> ranges = {};
 };
 
 /// Draws fronts of a surface and what is behind them into the framebuffer that is bound.
@@ -36,25 +33,30 @@ class SurfacePainter {
   /// Errors: unsupported, by the driver.
   static Result<SurfacePainter> create();
 
-  /// What hides what is behind it. `frame`: of upright space.
+  /// `frame`: of upright space. `isBlended`: whether the front is of triangles that let light through: they
+  /// are drawn in their order over what is there, and leave depths as they are.
   ///
   /// @param turned how the surface is turned out of east, north and up, which the sun stands in.
   void draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials, const DrawnSurface& front,
-            const FrameView& frame, const ViewLook& look, const Similarity& turned = {});
-  /// What is blended, in its order, over all that has been drawn.
-  void drawBlended(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials, const DrawnSurface& front,
-                   const FrameView& frame, const ViewLook& look, const Similarity& turned = {});
+            const FrameView& frame, const ViewLook& look, const Similarity& turned = {},
+            bool isBlended = false);
   void drawBackground();
+
+  /// Whether a material lets light through, by the colours that are shown.
+  static bool isBlended(const DrawnMaterial& material, const ViewLook& look) {
+    return look.coloring == Coloring::material && material.alpha == DrawnMaterial::Alpha::blended;
+  }
 
  private:
   SurfacePainter() = default;
   struct Look;
-  class Pass;
+  static Look lookOf(const DrawnMaterial& material, const SurfaceOnGpu& surface, const ViewLook& look);
   void drawRange(const DrawnSurface::Range& range, const Look& look);
 
   GlProgram surface_, background_;
   GlBuffer frame_, look_, nothing_;
   ColorMapsOnGpu errorColors_;
+  GlTexture reflected_;  // viewer/surface/reflected_light.h
   GlVertexArray surfaceArray_, emptyArray_;
 };
 

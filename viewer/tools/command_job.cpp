@@ -103,7 +103,8 @@ Result<std::string> runOne(const std::string& program, const CommandWords& comma
   posix_spawn_file_actions_adddup2(&actions, err.at[1], STDERR_FILENO);
   CommandWords words = command;
   words.insert(words.begin(), program);
-  words.push_back("--progress");
+  // With a blank before it, as options stand in a command line.
+  words.push_back(std::string(" --progress").substr(1));
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);

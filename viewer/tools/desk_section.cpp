@@ -49,7 +49,7 @@ void drawDecimation(SurfaceDesk& desk, const std::function<void(std::string)>& s
   tip("The largest number of triangles, or a share of them: 5000, 10%.");
   ImGui::InputTextWithHint("error", "E or P%", &f.error);
   tip("The largest distance, in the unit of the file or as a share of the diagonal (measured).");
-  ImGui::InputTextWithHint("options", "--keep-borders ...", &f.more);
+  ImGui::InputTextWithHint("options", " --keep-borders ...", &f.more);
   tip("Further options of arete mesh decimate.");
   ImGui::InputText("##decimated", &f.decimated);
   ImGui::SameLine();

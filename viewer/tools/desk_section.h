@@ -9,7 +9,7 @@
 namespace arete {
 
 /// Draws the section of the panel with what can be made of the selected surface; nothing without one.
-/// Precondition: that of viewer/panel/widgets.h.
+/// Precondition: the one that viewer/panel/widgets.h states.
 ///
 /// @param camera,settings of the cut that is shown
 /// @param say shows a sentence

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -25,6 +26,11 @@ constexpr std::array<const char*, 7> kMethods = {"measured",    "qem",  "lindstr
 
 bool isModel(const std::string& file) {
   return fs::path(file).extension() == ".amt";
+}
+
+/// An option of a command line, as it stands in one.
+std::string option(std::string_view composed) {
+  return std::string(composed.substr(1));
 }
 
 /// The words between blanks; single quotes keep blanks.
@@ -112,7 +118,7 @@ std::string SurfaceDesk::meshFor(Order& order) {
   const fs::path made = temporary(".ply");
   std::error_code ignored;
   if (!fs::exists(made, ignored))
-    order.commands.push_back({"extract", file(), "-o", made.string(), "--max-error", "0"});
+    order.commands.push_back({"extract", file(), "-o", made.string(), option(" --max-error"), "0"});
   const std::string name = fs::path(file()).filename().replace_extension(".ply").string();
   order.told =
       fmt::format("arete extract {} -o {} --max-error 0 && ", shellQuoted(file()), shellQuoted(name));
@@ -127,11 +133,14 @@ std::string SurfaceDesk::saveCut(const Camera& camera, const ViewSettings& setti
   if (object.level && object.level->triangles > 0) {
     // A budget below the coarsest cut shows that one.
     const std::uint32_t most = std::max(object.level->triangles, object.figures.triangles);
-    request = {"--max-triangles", std::to_string(most)};
+    request = {option(" --max-triangles"), std::to_string(most)};
   } else if (object.level) {
-    request = {"--max-error", fmt::format("{}", object.level->error)};
+    request = {option(" --max-error"), fmt::format("{}", object.level->error)};
   } else {
     if (shown->isPlaced()) return "an object of a scene is saved at a level by hand: choose one first";
+    // Where a budget ends a cut depends on the cuts before it, and no command has had these.
+    if (settings.maxTriangles > 0)
+      return "a cut within a budget is saved at a level by hand: choose its triangles in the section Surface";
     const Result<View> view = shown->viewOf(camera, settings);
     if (!view) return view.error().describe();
     const Vec3 eye = shown->space().position(camera);
@@ -140,15 +149,11 @@ std::string SurfaceDesk::saveCut(const Camera& camera, const ViewSettings& setti
                                double(camera.widthPixels), double(camera.heightPixels)};
     if (!isUpright(*shown, stated, *view))
       return "no command can state what is up for this camera: turn it, or choose a level by hand";
-    // A cut that a budget has ended is asked for anew as it was asked for.
-    const bool isKept = object.figures.pixels > 0 && object.figures.isComplete;
-    const double pixels = isKept ? object.figures.pixels : settings.pixels * object.toleranceFactor;
-    request = {"--camera=" + numbered(stated.eye) + "," + numbered(stated.target) +
+    const double pixels = object.figures.pixels > 0 ? object.figures.pixels : settings.pixels;
+    request = {option(" --camera=") + numbered(stated.eye) + "," + numbered(stated.target) +
                    fmt::format(",{}", camera.verticalFieldOfViewDegrees),
-               "--viewport", fmt::format("{}x{}", camera.widthPixels, camera.heightPixels), "--pixel-error",
-               fmt::format("{}", pixels)};
-    if (settings.maxTriangles > 0)
-      request.insert(request.end(), {"--max-triangles", std::to_string(settings.maxTriangles)});
+               option(" --viewport"), fmt::format("{}x{}", camera.widthPixels, camera.heightPixels),
+               option(" --pixel-error"), fmt::format("{}", pixels)};
   }
   Order order;
   const std::string model = modelFor(order);
@@ -167,9 +172,10 @@ std::string SurfaceDesk::crop() {
   Order order;
   const std::string mesh = meshFor(order);
   const Box3& b = box_->box;
-  CommandWords command = {"mesh", "crop",         mesh,
-                          "-o",   fields.cropped, "--box=" + numbered(b.low) + "," + numbered(b.high)};
-  if (fields.keepsWhole) command.push_back("--whole");
+  CommandWords command = {"mesh",         "crop",
+                          mesh,           "-o",
+                          fields.cropped, option(" --box=") + numbered(b.low) + "," + numbered(b.high)};
+  if (fields.keepsWhole) command.push_back(option(" --whole"));
   order.commands.push_back(command);
   order.output = fields.cropped;
   if (!order.told.empty()) command[2] = fs::path(file()).filename().replace_extension(".ply").string();
@@ -181,9 +187,11 @@ std::string SurfaceDesk::decimate() {
   if (!surface()) return "a surface with a file can be decimated";
   Order order;
   const std::string mesh = meshFor(order);
-  CommandWords command = {"mesh", "decimate", mesh, "-o", fields.decimated, "--operator", fields.method};
-  if (!fields.triangles.empty()) command.insert(command.end(), {"--max-triangles", fields.triangles});
-  if (!fields.error.empty()) command.insert(command.end(), {"--max-error", fields.error});
+  CommandWords command = {"mesh",       "decimate", mesh, "-o", fields.decimated, option(" --operator"),
+                          fields.method};
+  if (!fields.triangles.empty())
+    command.insert(command.end(), {option(" --max-triangles"), fields.triangles});
+  if (!fields.error.empty()) command.insert(command.end(), {option(" --max-error"), fields.error});
   const CommandWords more = wordsOf(fields.more);
   command.insert(command.end(), more.begin(), more.end());
   order.commands.push_back(command);

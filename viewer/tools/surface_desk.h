@@ -41,7 +41,7 @@ class SurfaceDesk {
     std::string cut = "cut.ply", cropped = "cropped.ply", decimated = "decimated.ply";
     bool keepsWhole = false;  ///< triangles that touch the box are not cut
     std::string method = "measured";
-    std::string triangles = "50%", error = {};  ///< as --max-triangles and --max-error; empty: not stated
+    std::string triangles = "50%", error = {};  ///< as the command takes them; empty: not stated
     std::string more = {};                      ///< further options of the command
     bool opens = true;                          ///< a result is shown next
   } fields;
@@ -49,7 +49,7 @@ class SurfaceDesk {
   /// The surface that is selected, if it has a file.
   const SurfaceSubject* surface() const;
 
-  /// Writes what is drawn: the request of a level by hand; else that of the camera and the tolerance.
+  /// Writes what is drawn: by the level that is chosen by hand; else by the camera and the tolerance.
   ///
   /// @param camera,settings of the cut that is shown
   std::string saveCut(const Camera& camera, const ViewSettings& settings);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/looks/surface_switches.h"
 #include "viewer/objects/objects_section.h"
 #include "viewer/panel/widgets.h"
 #include "viewer/tools/desk_section.h"
@@ -50,7 +51,7 @@ void Panel::draw(ViewerSession& s, double scale) {
     else if (s.objects)
       drawDistanceSection(s.distance, *s.objects, s.subject.heightUnit());
     if (s.desk)
-      drawDeskSection(*s.desk, s.frozen.value_or(s.rig.camera()), s.settings,
+      drawDeskSection(*s.desk, s.frozen.value_or(s.rig.camera()), s.cutSettings,
                       [&](std::string sentence) { s.say(std::move(sentence)); });
     flightSection(s);
     covered.right = endColumn();
@@ -153,8 +154,7 @@ void Panel::lookSection(ViewerSession& s) {
     const bool isTurned = slider("sun azimuth", sun.azimuthDegrees, 0, 360, "%.0f°");
     if (slider("sun height", sun.elevationDegrees, 0, 90, "%.0f°") || isTurned) look.sun = sun;
   }
-  const bool hasSurfaces = !s.tools || (s.objects && s.objects->count() > 1);
-  if (hasSurfaces) drawSurfaceLook(look.surface);
+  if (!s.tools || (s.objects && s.objects->count() > 1)) drawSurfaceSwitches(look);
   if (!s.tools) return;
   // The curved Earth is drawn in perspective only.
   if (!s.tools->model().georeference.crsWkt.empty() && !(s.rig.camera().parallelHeight > 0))

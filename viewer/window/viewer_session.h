@@ -81,6 +81,7 @@ class ViewerSession {
   ViewSettings settings;            ///< of the next frame; pixels are ToleranceControl's
   ToleranceControl::Wanted wanted;  ///< the user's settings
   FrameFigures figures;             ///< of the last frame
+  ViewSettings cutSettings;         ///< that its cut was taken with
   FrameHistory history;
   bool isFrozen = false;         ///< the cut stays while the camera flies on
   std::optional<Camera> frozen;  ///< the camera that it was taken for

@@ -204,6 +204,7 @@ class WindowLoop {
     settings.waits = settings.waits || files_.has_value();
     if (!s.isFrozen || !hasCut_) {
       ARETE_TRY(s.figures, scene_.cut(s.rig.camera(), settings, context));
+      s.cutSettings = settings;
       hasCut_ = true;
     }
     target_->begin();

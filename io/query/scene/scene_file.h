@@ -52,7 +52,7 @@ struct SceneObject {
 /// What a scene.json says (docs/topics/scenes.md, docs/topics/scene.schema.json).
 struct SceneFile {
   std::string path;
-  std::string crs;  ///< empty: that of the first terrain; without terrain plain metres
+  std::string crs;  ///< empty: the first terrain's; without terrain plain metres
   std::vector<SceneObject> objects;
 };
 

@@ -21,7 +21,7 @@ struct SceneLeg {
   double first = 0, last = 0;  ///< the range of distances that belongs to it
 };
 
-/// Where a line crosses triangles, in a scene whose heights relate to those of the line by the z of a frame.
+/// Where a line crosses triangles, in a scene whose heights relate to the line's by the z of a frame.
 ///
 /// Per vertex the side of the leg is a function of the vertex alone, 0 counts as the left side, and the point
 /// of an edge above the leg is computed from its right end to its left one: two triangles at an edge get the

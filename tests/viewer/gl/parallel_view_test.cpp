@@ -39,7 +39,6 @@ TEST(ParallelPictures, BothPathsDrawTheSameSurface) {
     const Camera camera = anyParallel(random, 1280, 720);
     ViewSettings settings;
     settings.pixels = random.between(0.5, 4);
-    settings.stretch = i % 3 == 0 ? 2.5 : 1;
     auto device = view->cut(camera, settings);
     ASSERT_TRUE(device);
     DrawnMesh a = test::readDrawn(*view);
@@ -59,62 +58,6 @@ TEST(ParallelPictures, BothPathsDrawTheSameSurface) {
       for (const std::uint32_t v : t) ASSERT_NEAR(a.vertices[v].z, b.vertices[v].z, 2e-3) << "vertex " << v;
   }
   EXPECT_GT(drawn, 1000u);
-}
-
-// The pixel in column x of a picture from straight above shows the easting of its middle, and the depth there
-// is the eye's height less the ground's.
-TEST(ParallelPictures, FromStraightAboveAreTheResampledRaster) {
-  ARETE_NEEDS_OPENGL(context);
-  const TerrainModel& model = mountains();
-  Result<TerrainDrawable> view = TerrainDrawable::create(model, {});
-  ASSERT_TRUE(view);
-  const GroundHeights ground(model);
-  const TerrainSubject subject(model);
-  Random random(5);
-  for (int i = 0; i < 4; ++i) {
-    SCOPED_TRACE("seed 5, picture " + std::to_string(i));
-    Camera camera;
-    camera.xy =
-        model.toSource({model.columns * random.between(0.3, 0.7), model.rows * random.between(0.3, 0.7)});
-    // Also below the ground, which the eye then has behind it.
-    camera.height = i % 2 ? test::highest(model) + 500 : -700;
-    camera.pitchDegrees = -90;
-    camera.widthPixels = 240, camera.heightPixels = 160;
-    camera.parallelHeight = random.between(800, 2400);
-    ViewSettings settings;
-    settings.pixels = 0.05;
-    settings.isGeomorphed = false;
-    const double perPixel = camera.parallelHeight / 160;
-    ASSERT_TRUE(view->cut(camera, settings));
-    const auto target = FrameTarget::create(240, 160);
-    ASSERT_TRUE(target);
-    target->begin();
-    ASSERT_TRUE(view->draw(camera, settings));
-    const auto frame = view->frameOf(camera, settings);
-    ASSERT_TRUE(frame);
-    const std::vector<float> depths = target->depths(frame->drawnNear, frame->depthReach);
-    // What the depth buffer and the tolerance, on the ground from above, allow.
-    const double slack = 0.05 * perPixel + frame->depthReach * 2e-6;
-    std::size_t compared = 0;
-    for (int y = 0; y < 160; ++y)
-      for (int x = 0; x < 240; ++x) {
-        const Vec2 place{camera.xy.x + (x + 0.5 - 120) * perPixel, camera.xy.y - (y + 0.5 - 80) * perPixel};
-        const auto there = ground.at(place);
-        const float depth = depths[std::size_t(y) * 240 + std::size_t(x)];
-        if (!there) continue;
-        ++compared;
-        ASSERT_TRUE(std::isfinite(depth)) << x << ", " << y;
-        ASSERT_NEAR(camera.height - double(depth), there->height, slack) << x << ", " << y;
-        if (x % 40 != 7 || y % 40 != 9) continue;
-        const auto pick = subject.pick(camera, {x + 0.5, y + 0.5}, settings);
-        ASSERT_TRUE(pick);
-        EXPECT_NEAR(pick->xy.x, place.x, 1e-6);
-        EXPECT_NEAR(pick->xy.y, place.y, 1e-6);
-        EXPECT_NEAR(pick->height, there->height, 1e-6);
-        EXPECT_NEAR(pick->metres, norm(pick->metric - subject.space().position(camera)), 1e-6);
-      }
-    EXPECT_GT(compared, 10000u);
-  }
 }
 
 TEST(ParallelPictures, APickIsDrawnAtThePixelThatItWasTakenAt) {

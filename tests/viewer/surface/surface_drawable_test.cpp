@@ -233,13 +233,6 @@ Material glass(const char* name, double r, double g, double b, double alpha) {
   return material;
 }
 
-double linear(double srgb) {
-  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-}
-double encoded(double light) {
-  return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
-}
-
 TEST(SurfaceDrawable, WhatIsBlendedIsDrawnBackToFrontWhateverItsOrderInTheFile) {
   ARETE_NEEDS_OPENGL(probe);
   // The nearer, blue, covers half of the farther, red, which covers half of the opaque green.
@@ -276,56 +269,6 @@ TEST(SurfaceDrawable, GlassIsSeenAgainstTheBackgroundToo) {
   const Rgb glassy = view->image().at(100, 80), beside = view->image().at(2, 80);
   EXPECT_NEAR(glassy.r, (255 + beside.r) / 2.0, 8);
   EXPECT_NEAR(glassy.b, beside.b / 2.0, 8);
-}
-
-TEST(SurfaceDrawable, EachPartOfTheLookIsSwitchedByItself) {
-  ARETE_NEEDS_OPENGL(probe);
-  SurfaceMesh mesh = stackedSquares({Material{.name = "green", .baseColor = {0, 1, 0, 1}}}, {0});
-  mesh.vertexAttributes = {Attribute{.name = std::string(kColorName),
-                                     .meaning = AttributeMeaning::color,
-                                     .type = ScalarType::uint8,
-                                     .components = 3,
-                                     .isNormalized = true,
-                                     .colorSpace = ColorSpace::srgb}};
-  for (int v = 0; v < 4; ++v) mesh.vertexAttributes[0].append(std::vector<double>{255, 128, 255});
-  const Result<SurfaceModel> model = buildSurface(std::move(mesh));
-  ASSERT_TRUE(model);
-  const auto colorWith = [&](const SurfaceLook& look, bool isShaded = false, double pitch = -90) {
-    ViewSettings settings = byMaterial();
-    settings.look.surface = look;
-    settings.look.isShaded = isShaded;
-    auto view = viewOf(*model, settings);
-    EXPECT_TRUE(view);
-    Camera camera = fromAbove(*model);
-    if (pitch > 0) {
-      camera.pitchDegrees = pitch;
-      camera.height = -camera.height;
-    }
-    EXPECT_TRUE(view->draw(camera));
-    return view->image().at(100, 80);
-  };
-  EXPECT_NEAR(colorWith({}).g, 128, 2);
-  EXPECT_EQ(colorWith({}).r, 0);
-  EXPECT_NEAR(colorWith({.hasVertexColors = false}).g, 255, 1);
-  EXPECT_NEAR(colorWith({.hasMaterialColors = false}).r, 255, 1);
-  // The inside of a one-sided material is dark, like the outside, or not there.
-  EXPECT_LT(colorWith({}, false, 90).g, 120);
-  EXPECT_NEAR(colorWith({.sides = SurfaceLook::Sides::both}, false, 90).g, 128, 2);
-  EXPECT_GT(colorWith({.sides = SurfaceLook::Sides::front}, false, 90).r, 100) << "the background";
-  // Without any of the light's parts it is black; each adds its own.
-  SurfaceLook dark{.hasMaterialColors = false, .hasVertexColors = false};
-  dark.hasSun = dark.hasSky = dark.hasHeadlight = false;
-  EXPECT_EQ(colorWith(dark, true).g, 0);
-  double sum = 0;
-  for (bool SurfaceLook::*part : {&SurfaceLook::hasSun, &SurfaceLook::hasSky, &SurfaceLook::hasHeadlight}) {
-    SurfaceLook one = dark;
-    one.*part = true;
-    const double light = linear(colorWith(one, true).g / 255.0);
-    EXPECT_GT(light, 0.01);
-    sum += light;
-  }
-  SurfaceLook all{.hasMaterialColors = false, .hasVertexColors = false};
-  EXPECT_NEAR(colorWith(all, true).g, encoded(sum), 3);
 }
 
 }  // namespace

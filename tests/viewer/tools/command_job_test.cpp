@@ -29,11 +29,12 @@ TEST(CommandJob, RunsCommandsInTheirOrderAndHandsOnWhatTheLastOneSays) {
 
 TEST(CommandJob, SaysWhyACommandFailsAndDoesNotBeginTheNext) {
   CommandJob job;
-  job.start("/bin/sh", {{"-c", "echo 'arete: scan.obj: is no mesh' >&2; echo 'see arete --help' >&2; exit 3"},
-                        {"-c", "echo never"}});
+  job.start("/bin/sh",
+            {{"-c", "echo 'arete: scan.obj: has no faces' >&2; echo 'see arete --help' >&2; exit 3"},
+             {"-c", "echo never"}});
   const auto done = ended(job);
   ASSERT_TRUE(done && !*done);
-  EXPECT_EQ(done->error().message, "scan.obj: is no mesh");
+  EXPECT_EQ(done->error().message, "scan.obj: has no faces");
   job.start("/nowhere/arete", {{"build"}});
   const auto absent = ended(job);
   ASSERT_TRUE(absent && !*absent);

@@ -23,7 +23,7 @@ vec3 inView(vec3 fromEye) {
   return vec3(dot(fromEye, right.xyz), dot(fromEye, up.xyz), dot(fromEye, forward.xyz));
 }
 
-/// Where a place in the eye's axes is drawn, as if it were so many times nearer; in parallel projection a part of
+/// Where a place in the eye's axes is drawn, as if it were `nearer` times nearer; in parallel projection a part of
 /// the picture's height nearer. Depth is near / depth: 1 at the near plane, 0 at infinity, as fine far away as floats
 /// are; in parallel projection it falls evenly over the depths that are drawn, 1/2 at the eye.
 vec4 clipOf(vec3 p, float nearer) {
