@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A cut that changed is written to the device as a whole: its triangles sorted by material, each as three
-// drawn vertices.
+// Triangles are drawn sorted by material, each as three drawn vertices. Of a cut that changed only the slots
+// that changed are written to the device.
 #include "viewer/surface/surface_drawable.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "engine/base/stopwatch.h"
@@ -13,6 +14,13 @@
 #include "surface/displacement/displaced_places.h"
 
 namespace arete {
+namespace {
+
+/// Unchanged slots between two that changed are sent with them rather than in a call of their own.
+constexpr std::uint32_t kGapThatIsSent = 16;
+
+}  // namespace
+
 std::uint32_t SurfaceDrawable::materialOf(std::uint32_t triangle) const {
   const auto none = static_cast<std::uint32_t>(assets_->materials.materials().size()) - 1;
   const std::vector<std::uint32_t>& of = model_->attributes.materialOf;
@@ -23,35 +31,54 @@ std::uint32_t SurfaceDrawable::materialOf(std::uint32_t triangle) const {
 
 void SurfaceDrawable::upload() {
   const auto front = cut_.triangles();
-  const MultiTriangulation& mt = model_->mt;
-  std::vector<std::uint32_t> begin(assets_->materials.materials().size() + 1, 0);
-  for (const std::uint32_t t : front) ++begin[materialOf(t) + 1];
-  for (std::size_t m = 1; m < begin.size(); ++m) begin[m] += begin[m - 1];
+  slots_.update(front, [&](std::uint32_t t) { return materialOf(t); });
   ranges_.clear();
-  for (std::uint32_t m = 0; m + 1 < begin.size(); ++m)
-    if (begin[m + 1] > begin[m]) ranges_.push_back({m, begin[m], begin[m + 1] - begin[m]});
-  std::vector<std::array<std::uint32_t, 3>> corners(front.size());
-  std::vector<float> worst(front.size());
-  std::vector<Vec3> middles(hasBlendedMaterials() ? front.size() : 0);
-  for (const std::uint32_t t : front) {
-    const std::uint32_t at = begin[materialOf(t)]++;
-    corners[at] = model_->hasWedges() ? model_->wedgesOf[t] : mt.corners(TriangleId(t));
-    if (!middles.empty()) {
-      const auto places = mt.corners(TriangleId(t));
-      for (const std::uint32_t v : places)
-        middles[at] = middles[at] + subject_->upright().fromFile(mt.position(VertexId(v))) / 3;
-    }
-    worst[at] = static_cast<float>(mt.error(TriangleId(t)));
+  for (std::uint32_t m = 0; m < slots_.ranges().size(); ++m)
+    if (const MaterialSlots::Range& range = slots_.ranges()[m]; range.count > 0)
+      ranges_.push_back({m, range.first, range.count});
+  const auto count = static_cast<std::uint32_t>(slots_.triangles().size());
+  if (slots_.isPacked()) {
+    indices_ = makeBuffer(std::size_t{12} * count);
+    errors_ = makeBuffer(std::size_t{4} * count);
+    send(0, count);
+  }
+  const std::span<const std::uint32_t> changed = slots_.changed();
+  for (std::size_t i = 0; i < changed.size();) {
+    std::size_t end = i + 1;
+    while (end < changed.size() && changed[end] - changed[end - 1] <= kGapThatIsSent) ++end;
+    send(changed[i], changed[end - 1] - changed[i] + 1);
+    i = end;
   }
   blended_.clear();
-  for (const DrawnSurface::Range& range : ranges_) {
-    if (assets_->materials.materials()[range.material].alpha != DrawnMaterial::Alpha::blended) continue;
-    for (std::uint32_t t = range.first; t < range.first + range.count; ++t)
-      blended_.add({corners[t], range.material, middles[t]});
-  }
-  indices_ = makeBuffer(std::span<const std::array<std::uint32_t, 3>>(corners));
-  errors_ = makeBuffer(std::span<const float>(worst));
+  if (hasBlendedMaterials()) listBlended(front);
   isUploaded_ = true;
+}
+
+/// Writes slots to the device.
+void SurfaceDrawable::send(std::uint32_t first, std::uint32_t count) {
+  if (count == 0) return;
+  const MultiTriangulation& mt = model_->mt;
+  std::vector<std::array<std::uint32_t, 3>> corners(count);
+  std::vector<float> worst(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t t = slots_.triangles()[first + i];
+    corners[i] = model_->hasWedges() ? model_->wedgesOf[t] : mt.corners(TriangleId(t));
+    worst[i] = static_cast<float>(mt.error(TriangleId(t)));
+  }
+  glNamedBufferSubData(indices_, GLintptr(12) * first, GLsizeiptr(12) * count, corners.data());
+  glNamedBufferSubData(errors_, GLintptr(4) * first, GLsizeiptr(4) * count, worst.data());
+}
+
+void SurfaceDrawable::listBlended(std::span<const std::uint32_t> front) {
+  const MultiTriangulation& mt = model_->mt;
+  for (const std::uint32_t t : front) {
+    const std::uint32_t material = materialOf(t);
+    if (assets_->materials.materials()[material].alpha != DrawnMaterial::Alpha::blended) continue;
+    Vec3 middle;
+    for (const std::uint32_t v : mt.corners(TriangleId(t)))
+      middle = middle + subject_->upright().fromFile(mt.position(VertexId(v))) / 3;
+    blended_.add({model_->hasWedges() ? model_->wedgesOf[t] : mt.corners(TriangleId(t)), material, middle});
+  }
 }
 
 /// Draws the front where it is within what the criterion allows now.
@@ -90,7 +117,11 @@ Result<std::shared_ptr<SurfaceAssets>> SurfaceAssets::create(const SurfaceModel&
 
 SurfaceDrawable::SurfaceDrawable(std::shared_ptr<SurfaceAssets> assets,
                                  std::shared_ptr<SurfaceSubject> subject)
-    : model_(&subject->model()), subject_(std::move(subject)), cut_(model_->mt), assets_(std::move(assets)) {}
+    : model_(&subject->model()),
+      subject_(std::move(subject)),
+      cut_(model_->mt),
+      assets_(std::move(assets)),
+      slots_(static_cast<std::uint32_t>(assets_->materials.materials().size())) {}
 
 Result<FrameFigures> SurfaceDrawable::cut(const Camera& camera, const ViewSettings& settings,
                                           const RunContext& context) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -11,6 +13,7 @@
 #include "surface/model/surface_model.h"
 #include "viewer/scene/drawable.h"
 #include "viewer/surface/blended_order.h"
+#include "viewer/surface/material_slots.h"
 #include "viewer/surface/surface_painter.h"
 #include "viewer/surface/surface_subject.h"
 
@@ -53,13 +56,17 @@ class SurfaceDrawable final : public Drawable {
 
  private:
   std::uint32_t materialOf(std::uint32_t triangle) const;
+  /// Sends what changed since the last call.
   void upload();
+  void send(std::uint32_t first, std::uint32_t count);
+  void listBlended(std::span<const std::uint32_t> front);
   void displace(const BoundedCriterion& criterion);
 
   const SurfaceModel* model_;  // the subject's
   std::shared_ptr<SurfaceSubject> subject_;
   IncrementalCut cut_;
   std::shared_ptr<SurfaceAssets> assets_;
+  MaterialSlots slots_;  // what indices_ and errors_ hold
   bool hasBlendedMaterials() const;
   GlQuery anySample_ = makeQuery(GL_ANY_SAMPLES_PASSED), anyBlended_ = makeQuery(GL_ANY_SAMPLES_PASSED);
   bool hasDrawnBlended_ = false;  // in the last picture

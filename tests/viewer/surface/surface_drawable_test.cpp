@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "surface/builder/build.h"
@@ -138,6 +139,47 @@ TEST(SurfaceDrawable, SaysWhichPictureCannotBeShown) {
   ASSERT_EQ(view->warnings().size(), 1u);
   EXPECT_NE(view->warnings()[0].sentence.find("broken.png"), std::string::npos)
       << view->warnings()[0].sentence;
+}
+
+// A drawable sends what changed since its last cut; the other has only ever had this one.
+TEST(SurfaceDrawable, AfterManyCutsItDrawsWhatANewOneDraws) {
+  ARETE_NEEDS_OPENGL(probe);
+  SurfaceMesh mesh(shapes::shaken(shapes::globe(60, 40), 5, 0.02));
+  mesh.materials = {Material{.name = "red", .baseColor = {1, 0, 0, 1}},
+                    Material{.name = "green", .baseColor = {0, 1, 0, 1}},
+                    Material{.name = "blue", .baseColor = {0, 0, 1, 1}}};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    mesh.materialOf.push_back(static_cast<std::uint32_t>(t * 3 / mesh.triangles.size()));
+  const Result<SurfaceModel> model = buildSurface(mesh);
+  ASSERT_TRUE(model) << model.error().describe();
+  Result<HeadlessView> flown = viewOf(*model);
+  ASSERT_TRUE(flown) << flown.error().describe();
+  const Camera start = fromAbove(*model);
+  std::uint32_t least = ~0u, most = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    Camera camera = start;
+    camera.xy.x += 0.4 * std::sin(frame * 0.3);
+    camera.height *= 1.5 + std::cos(frame * 0.2);
+    const auto figures = flown->draw(camera);
+    ASSERT_TRUE(figures) << figures.error().describe();
+    least = std::min(least, figures->triangles);
+    most = std::max(most, figures->triangles);
+    if (frame % 10 != 9) continue;
+    Result<HeadlessView> fresh = viewOf(*model);
+    ASSERT_TRUE(fresh) << fresh.error().describe();
+    const auto expected = fresh->draw(camera);
+    ASSERT_TRUE(expected);
+    EXPECT_EQ(figures->triangles, expected->triangles);
+    const Image a = flown->image(), b = fresh->image();
+    int unlike = 0;
+    for (int y = 0; y < 160; ++y)
+      for (int x = 0; x < 200; ++x) {
+        const Rgb p = a.at(x, y), q = b.at(x, y);
+        unlike += p.r != q.r || p.g != q.g || p.b != q.b;
+      }
+    EXPECT_EQ(unlike, 0) << "frame " << frame;
+  }
+  EXPECT_LT(2 * least, most);  // the cut did change
 }
 
 TEST(SurfaceDrawable, KeepsABudgetAndSaysWhichToleranceIsReached) {
