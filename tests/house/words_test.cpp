@@ -173,11 +173,6 @@ std::string nameOf(const fs::path& file) {
   return fs::relative(file, kSources).string();
 }
 
-/// The room that composes command lines and runs them, word by word.
-bool runsCommands(const fs::path& file) {
-  return nameOf(file).starts_with("viewer/tools/");
-}
-
 /// Whether a literal is part of a command line that the library composes: the one that a certificate tells
 /// its readers to run.
 bool isOfACommandLine(std::string_view literal) {
@@ -202,7 +197,6 @@ std::vector<std::string> optionsNamedIn(const Prose& strings) {
 TEST(Words, OfTheLibraryNameNoOptionOfTheCommandLine) {
   for (const fs::path& file :
        sourcesOf({"engine", "measure", "surface", "terrain", "io", "gis", "python", "viewer"})) {
-    if (runsCommands(file)) continue;
     for (const std::string& match : optionsNamedIn(Lexer(textOf(file)).take(Kind::strings)))
       ADD_FAILURE() << nameOf(file) << ":" << match;
   }

@@ -145,15 +145,21 @@ std::string SurfaceDesk::saveCut(const Camera& camera, const ViewSettings& setti
     if (!view) return view.error().describe();
     const Vec3 eye = shown->space().position(camera);
     const Vec3 target = eye + shown->space().forward(lookOf(camera)) * shown->box().diagonal();
-    const SurfaceCamera stated{shown->inFile(eye), shown->inFile(target), camera.verticalFieldOfViewDegrees,
-                               double(camera.widthPixels), double(camera.heightPixels)};
+    SurfaceCamera stated{shown->inFile(eye), shown->inFile(target), camera.verticalFieldOfViewDegrees,
+                         double(camera.widthPixels), double(camera.heightPixels)};
+    stated.parallelHeight = camera.parallelHeight;
     if (!isUpright(*shown, stated, *view))
       return "no command can state what is up for this camera: turn it, or choose a level by hand";
     const double pixels = object.figures.pixels > 0 ? object.figures.pixels : settings.pixels;
+    const bool isParallel = camera.parallelHeight > 0;
     request = {option(" --camera=") + numbered(stated.eye) + "," + numbered(stated.target) +
-                   fmt::format(",{}", camera.verticalFieldOfViewDegrees),
+                   (isParallel ? "" : fmt::format(",{}", camera.verticalFieldOfViewDegrees)),
                option(" --viewport"), fmt::format("{}x{}", camera.widthPixels, camera.heightPixels),
                option(" --pixel-error"), fmt::format("{}", pixels)};
+    if (isParallel) {
+      request.push_back(option(" --parallel-height"));
+      request.push_back(fmt::format("{}", camera.parallelHeight));
+    }
   }
   Order order;
   const std::string model = modelFor(order);

@@ -66,6 +66,7 @@ TEST_F(WindowTools, AnObjIsHalvedSavedCroppedAndDecimatedWithTheBytesOfTheComman
 
 TEST_F(WindowTools, ACutByTheCameraIsThatOfTheCommandThatTheWindowSays) {
   check("--pixel-error 6");
+  check("--pixel-error 6 --parallel");
   check("--pixel-error 1.5");
 }
 
