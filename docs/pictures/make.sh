@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Draws the pictures of README.md and of docs/start again: docs/pictures/make.sh, after ./dev build, from generated mountains.
+# Draws the pictures of README.md, of docs/start and of docs/topics/scenes.md again: docs/pictures/make.sh, after ./dev build, from generated mountains.
 # Needs python3-pil and python3-matplotlib; those of QGIS and Blender also python3-qgis and blender, and are left out without.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -20,6 +20,15 @@ done
 arete view ridge.amt "${panel[@]}" --screenshot ridge.png
 python "$out/panels.py" "$out/levels.png" 480x208 \
   ridge200.png "200 triangles" ridge2000.png "2 000" ridge20000.png "20 000" ridge.png "full resolution: 524 288"
+
+# Rocks on hills, docs/topics/scenes.md.
+arete-datasets generate -o hills.tif --size 513 -q
+arete-datasets asteroid -o rock.ply -q
+arete build hills.tif -o hills.amt -q
+arete build rock.ply -o rock.amt -q
+cp "$out/scene.json" .
+arete view scene.json --screenshot rocks.png --camera 407700,5187000,2500msl,0,-10 --size 760x380 --sea-level 0 -q
+python "$out/panels.py" "$out/scene.png" 760x380 rocks.png ""
 
 # The tutorial, docs/start/tutorial.md.
 arete-datasets generate -o dem.tif -q
