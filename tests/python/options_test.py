@@ -56,6 +56,7 @@ RENAMED = {
 EXCEPTED = {
     ("build", "as"): "build() makes terrain, build_points() terrain of points, build_surface() a surface",
     ("height", "points"): "x and y are arrays: geopandas reads tables", ("height", "layer"): "as points",
+    ("extract", "parallel-height"): "views of Python are in perspective",
     ("los", "pairs"): "observer and target are rows", ("los", "points"): "as pairs", ("los", "layer"): "as pairs",
     ("los", "observer-height"): "the third number of each row", ("los", "target-height"): "the third number of each row",
     ("profile", "layer"): "the line is rows, or of shapely", ("profile", "csv"): "output", ("profile", "png"): "plot()",
