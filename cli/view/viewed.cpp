@@ -5,7 +5,10 @@
 #include "cli/view/viewed.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <map>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -115,13 +118,18 @@ Result<Viewed> viewedSurface(const ViewArguments& a, SurfaceModel opened) {
 
 /// Where an object stands in the metric space of the scene: on the middle of the bottom of its box, which is
 /// also what it turns about.
-Placement placementOf(const OpenScene& scene, std::size_t i, const SurfaceForm& form) {
+Placement placementOf(const OpenScene& scene, std::size_t i, const SurfaceForm& form, const Subject* ground) {
   const SceneObject& stated = scene.file.objects[i];
   const MetricBox& box = form.shape.box;
   const Vec3 middle = box.centre();
   Placement placement;
   placement.pivot = {middle.x, middle.y, box.low.z};
-  placement.turn = stated.turn;
+  // Headings of a scene are from the y of its space, of a placement from the north of the terrain's grid.
+  placement.turn = scene.objects[i].turn;
+  if (ground) {
+    const Vec3 north = scene.metricOf(ground->space().forward({0, 0}));
+    placement.turn.heading -= std::atan2(north.x, north.y) * 180 / std::numbers::pi;
+  }
   placement.scale = stated.scale;
   const Vec3 inFile = uprightPosition(form.upright.toFile(placement.pivot), scene.objects[i].isYUp);
   placement.anchor = scene.metricOf(scene.objects[i].placement(inFile));
@@ -145,7 +153,6 @@ ShownObject shownObjectOf(const SceneObject& stated) {
 /// The subjects of a scene, before anything is drawn.
 struct SceneParts {
   OpenScene scene;
-  std::vector<std::shared_ptr<const SurfaceForm>> forms;  // by model; null of a terrain
   std::vector<std::shared_ptr<const Subject>> subjects;   // by object
   std::vector<std::shared_ptr<SurfaceSubject>> surfaces;  // the same, as they can be moved; null of a terrain
   std::unique_ptr<SceneSubject> all;
@@ -173,17 +180,18 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
     addGround = viewed.addModel;
     viewed.finestTriangles = 0;
   }
-  parts->forms.resize(scene.models.size());
+  // One for each file and axis that is up in it.
+  std::map<std::pair<std::size_t, bool>, std::shared_ptr<const SurfaceForm>> forms;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const PlacedObject& object = scene.objects[i];
     const bool isSurface = parts->surface(object.model) != nullptr;
     viewed.files.push_back(isSurface ? scene.paths[object.model] : std::string());
     if (const SurfaceModel* const surface = parts->surface(object.model)) {
-      auto& form = parts->forms[object.model];
+      auto& form = forms[{object.model, object.isYUp}];
       if (!form)
         form = std::make_shared<const SurfaceForm>(*surface, ZUpFrame(*surface, scene.file.objects[i].up));
       parts->surfaces.push_back(
-          std::make_shared<SurfaceSubject>(form, placementOf(scene, i, *form), ground.get()));
+          std::make_shared<SurfaceSubject>(form, placementOf(scene, i, *form, ground.get()), ground.get()));
       parts->subjects.push_back(parts->surfaces.back());
       viewed.finestTriangles += surface->mt.finestTriangleCount();
     } else {
@@ -203,7 +211,7 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
   }
 
   viewed.addModel = [&a, &session, parts, addGround](Scene& shown) -> Status {
-    std::vector<std::shared_ptr<SurfaceAssets>> assets(parts->scene.models.size());
+    std::map<std::pair<std::size_t, bool>, std::shared_ptr<SurfaceAssets>> assets;
     for (std::size_t i = 0; i < parts->subjects.size(); ++i) {
       const PlacedObject& object = parts->scene.objects[i];
       if (parts->scene.terrain == i) {
@@ -220,10 +228,11 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
         continue;
       }
       const auto& subject = parts->surfaces[i];
-      if (!assets[object.model]) {
-        ARETE_TRY(assets[object.model], SurfaceAssets::create(subject->model(), subject->upright()));
+      auto& shared = assets[{object.model, object.isYUp}];
+      if (!shared) {
+        ARETE_TRY(shared, SurfaceAssets::create(subject->model(), subject->upright()));
       }
-      ARETE_CHECK(shown.add(std::make_unique<SurfaceDrawable>(assets[object.model], subject),
+      ARETE_CHECK(shown.add(std::make_unique<SurfaceDrawable>(shared, subject),
                             shownObjectOf(parts->scene.file.objects[i])));
     }
     return {};

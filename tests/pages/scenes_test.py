@@ -27,7 +27,7 @@ OBJECTS = [
     ({"tolerance": -1}, False), ({"level": {}}, False), ({"level": {"error": -1}}, False), ({"level": {"triangles": 0}}, False),
     ({"level": {"error": 1, "triangles": 1}}, False), ({"visible": "yes"}, False), ({"colour": "red"}, False), ({"name": ""}, False),
     ({"instances": []}, False), ({"instances": [{"file": "scan.obj"}]}, False), ({"instances": [{"at": [1, 2]}, {"scale": 2}]}, True),
-    ({"at": [1, 2], "instances": [{}, {"lonlat": [1, 2]}]}, True), ({"file": ""}, False), ({"name": 1}, False)]
+    ({"at": [1, 2], "instances": [{}, {"at": [3, 4]}]}, True), ({"file": ""}, False), ({"name": 1}, False)]
 
 
 class Scenes(unittest.TestCase):

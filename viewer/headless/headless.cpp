@@ -69,8 +69,10 @@ Result<FrameFigures> HeadlessView::draw(const Camera& stated, const RunContext& 
   // The device's cut knows its number of triangles beforehand, but not which tolerance has fewer: doubled
   // until there are few enough, halved between (on a logarithmic scale) until nearly all of the budget is
   // used.
-  const std::uint32_t most = settings.maxTriangles > 0 ? settings.maxTriangles : scene_.capacity();
-  const auto fits = [&] { return figures->isComplete && figures->asked <= most; };
+  // The room on the device is of one terrain; what other models have they make room for.
+  const std::uint32_t room = scene_.drawables().size() == 1 ? scene_.capacity() : 0;
+  const std::uint32_t most = settings.maxTriangles > 0 ? settings.maxTriangles : room;
+  const auto fits = [&] { return figures->isComplete && (most == 0 || figures->asked <= most); };
   if (!scene_.keepsBudget(settings) && !fits()) {
     const auto cutAt = [&](double pixels) -> Status {
       settings.pixels = pixels;

@@ -80,6 +80,13 @@ Status checkTerrains(OpenScene& scene) {
           scene.file, i, {},
           "is terrain, which lies where its own coordinates say: at, lonlat, above, turn, scale, "
           "up and anchor are for meshes");
+    if (scene.file.objects[i].level.isStated())
+      return wrongPlace(scene.file, i, "level", "is for surfaces; the tolerance of a terrain has a factor");
+    if (scene.terrain &&
+        terrain->georeference.verticalUnitMetres != scene.terrainModel()->georeference.verticalUnitMetres)
+      return wrongPlace(scene.file, i, "file",
+                        fmt::format("has heights in another unit than the first terrain, '{}'",
+                                    scene.file.objects[*scene.terrain].name));
     if (!scene.terrain) {
       scene.terrain = i;
     } else if (!isSameCrs(terrain->georeference.crsWkt, scene.terrainModel()->georeference.crsWkt)) {
@@ -272,6 +279,7 @@ Result<OpenScene> openScene(SceneFile file, const RunContext& context) try {
     const Vec3 anchor = stated.anchor == SceneObject::Anchor::base
                             ? Similarity(Turn{turn.heading, 0, 0}, stated.scale, Vec3{})(placer.baseOf(i))
                             : Vec3{};
+    scene.objects[i].turn = turn;
     scene.objects[i].placement = Similarity(turn, stated.scale, stand.at - anchor);
   }
   warnOfFarMeshes(scene);

@@ -26,6 +26,7 @@ struct PlacedObject {
   std::size_t model = 0;  ///< of OpenScene::models
   /// A surface has one: from the file's coordinates turned z up (uprightPosition()) to the scene's space.
   Similarity placement;
+  Turn turn = {};  ///< of the placement: its heading is from the y of the scene's space
   bool isYUp = false;
 };
 

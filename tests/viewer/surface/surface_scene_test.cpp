@@ -175,6 +175,29 @@ TEST(SurfaceScene, ABudgetMakesOneToleranceForAllObjectsTimesTheirFactors) {
   EXPECT_NEAR(objects[2].figures.pixels, 3 * figures->pixels, 1e-9);
 }
 
+TEST(SurfaceScene, WithoutATerrainAndABudgetTheToleranceIsKept) {
+  ARETE_NEEDS_OPENGL(probe);
+  const BallsOnThePlain scene;
+  auto view = HeadlessView::create(
+      {.widthPixels = kSide, .heightPixels = kSide, .samples = 1, .settings = unshaded()},
+      [&](Scene& shown) -> Status {
+        ARETE_TRY(const auto assets, SurfaceAssets::create(scene.ball, scene.form->upright));
+        for (const double x : {-2.0, 2.0}) {
+          Placement there;
+          there.anchor = {x, 0, 0};
+          ARETE_CHECK(shown.add(std::make_unique<SurfaceDrawable>(
+              assets, std::make_shared<SurfaceSubject>(scene.form, there, nullptr))));
+        }
+        return {};
+      });
+  ASSERT_TRUE(view);
+  const auto figures = view->draw(straightDown({0, 0, 0}, 5));
+  ASSERT_TRUE(figures);
+  EXPECT_TRUE(figures->isComplete);
+  EXPECT_EQ(figures->pixels, 1);
+  EXPECT_GT(figures->triangles, 500u);
+}
+
 TEST(SurfaceScene, ALevelByHandStaysWhateverTheCamera) {
   ARETE_NEEDS_OPENGL(probe);
   BallsOnThePlain scene;

@@ -87,6 +87,11 @@ TEST_F(Scenes, AnInstanceHasWhatItsObjectStatesButForWhatItStatesItself) {
   EXPECT_SAYS(refusal(R"({"file": "mast.obj", "instances": {}})"), "instances: must be a list");
 }
 
+TEST_F(Scenes, LevelsByHandAreForSurfaces) {
+  EXPECT_SAYS(refusal(R"({"name": "ground", "file": "dem.asc", "level": {"triangles": 50}})"),
+              "'ground': level");
+}
+
 TEST_F(Scenes, ReadsEveryKey) {
   const auto scene = read(
       R"({"$schema": "x", "crs": "EPSG:32611", "objects": [
