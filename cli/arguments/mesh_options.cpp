@@ -18,6 +18,12 @@ Result<MeshTarget> meshTarget(const MeshOutput& output, const std::string& input
   return MeshTarget{*format, path};
 }
 
+void addMeshFilesTo(CLI::App& command, std::string& input, MeshOutput& output, ExistingFile& existing) {
+  command.add_option("MESH", input, "Triangle mesh: " + readableMeshExtensions())->required()->type_name("");
+  output.addTo(command, "File to write", "");
+  addOverwriteTo(command, existing);
+}
+
 void addPlacingTo(CLI::App& command, MeshPlacing& placing) {
   command
       .add_option_function<std::string>(

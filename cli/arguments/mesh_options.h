@@ -20,6 +20,9 @@ struct MeshTarget {
 /// Errors: usage: no format has the name; those of checkOutput().
 Result<MeshTarget> meshTarget(const MeshOutput& output, const std::string& input, Session& session);
 
+/// MESH, and the options of the file that a command writes it to.
+void addMeshFilesTo(CLI::App& command, std::string& input, MeshOutput& output, ExistingFile& existing);
+
 /// The options --up and --unit of every command that writes a mesh.
 void addPlacingTo(CLI::App& command, MeshPlacing& placing);
 

@@ -92,11 +92,7 @@ void addMeshCropCommand(CLI::App& mesh, Session& session) {
                          "  arete mesh crop scan.glb -o lower.glb --box ,,,,,1.5\n"
                          "  arete mesh crop scan.ply -o part.ply --box=-5,-5,-5,5,5,5 --whole",
                          [arguments](Session& s) { return runCrop(*arguments, s); });
-  command->add_option("MESH", arguments->input, "Triangle mesh: " + readableMeshExtensions())
-      ->required()
-      ->type_name("");
-  arguments->output.addTo(*command, "File to write", "");
-  addOverwriteTo(*command, arguments->existing);
+  addMeshFilesTo(*command, arguments->input, arguments->output, arguments->existing);
   command
       ->add_option(
           "--box", arguments->box,

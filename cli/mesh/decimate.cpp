@@ -235,11 +235,7 @@ void addMeshDecimateCommand(CLI::App& mesh, Session& session) {
                          "  arete mesh decimate scan.ply -o small.ply --max-error 0.5%\n"
                          "  arete mesh decimate scan.ply -o small.ply --max-triangles 5000 --operator qem",
                          [arguments](Session& s) { return runDecimate(*arguments, s); });
-  command->add_option("MESH", arguments->input, "Triangle mesh: " + readableMeshExtensions())
-      ->required()
-      ->type_name("");
-  arguments->output.addTo(*command, "File to write", "");
-  addOverwriteTo(*command, arguments->existing);
+  addMeshFilesTo(*command, arguments->input, arguments->output, arguments->existing);
   command
       ->add_option("--max-triangles", arguments->maxTriangles,
                    "Largest number of triangles, or a percentage of the faces: 10% (or 10%f)")

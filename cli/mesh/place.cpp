@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/conversion_report.h"
 #include "cli/arguments/mesh_options.h"
+#include "io/formats/exchange/axes.h"
 #include "io/formats/exchange/convert.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/geo/crs/names.h"
@@ -80,10 +80,9 @@ Status runPlace(const PlaceArguments& a, Session& session) {
   const Similarity zUp(Turn{angles.x, angles.y, angles.z}, a.scale, {});
   const Similarity turned = isYUp ? withYUp(zUp) : zUp;
   const Similarity placing(turned.axes(), a.scale, pivot + move - turned(pivot));
-  if (Status placed = place(mesh.mesh, placing); !placed)
+  if (Status placed = placeMesh(mesh, placing); !placed)
     return failure(placed.error().code, placed.error().message,
                    fmt::format("{}, {}", a.input, placed.error().culprit));
-  for (float& error : mesh.triangleErrors) error = std::nextafter(float(error * a.scale), INFINITY);
   ARETE_TRY(const ConvertedMesh converted,
             convertMesh(std::move(mesh), target.path,
                         {.format = a.output.format, .existing = a.existing, .placing = a.placing},
@@ -109,11 +108,7 @@ void addMeshPlaceCommand(CLI::App& mesh, Session& session) {
                          "  arete mesh place part.stl -o upright.stl --turn 0,90,0 --about base\n"
                          "  arete mesh place model.obj -o metres.obj --scale 0.0254 --up y",
                          [arguments](Session& s) { return runPlace(*arguments, s); });
-  command->add_option("MESH", arguments->input, "Triangle mesh: " + readableMeshExtensions())
-      ->required()
-      ->type_name("");
-  arguments->output.addTo(*command, "File to write", "");
-  addOverwriteTo(*command, arguments->existing);
+  addMeshFilesTo(*command, arguments->input, arguments->output, arguments->existing);
   command
       ->add_option("--turn", arguments->turn,
                    "Angles in degrees: clockwise seen from above, the front upwards, the right side "

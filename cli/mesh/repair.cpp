@@ -175,11 +175,7 @@ void addMeshRepairCommand(CLI::App& mesh, Session& session) {
       "  arete mesh repair scan.stl -o clean.ply --weld 0.001% --fill-holes 12\n"
       "  arete mesh repair parts.glb -o parts.obj --split-sheets --json",
       [arguments](Session& s) { return runRepair(*arguments, s); });
-  command->add_option("MESH", arguments->input, "Triangle mesh: " + readableMeshExtensions())
-      ->required()
-      ->type_name("");
-  arguments->output.addTo(*command, "File to write", "");
-  addOverwriteTo(*command, arguments->existing);
+  addMeshFilesTo(*command, arguments->input, arguments->output, arguments->existing);
   command
       ->add_option(
           "--weld", arguments->weld,

@@ -8,7 +8,7 @@
 namespace arete {
 namespace {
 
-void turn(Attribute& attribute, const Similarity& placing) {
+void turnEach(Attribute& attribute, const std::function<Vec3(const Vec3&)>& turn) {
   const bool isDirection =
       attribute.meaning == AttributeMeaning::normal || attribute.meaning == AttributeMeaning::tangent;
   if (!isDirection || attribute.components < 3) return;
@@ -16,10 +16,10 @@ void turn(Attribute& attribute, const Similarity& placing) {
   turned.values.reserve(attribute.values.size());
   for (std::size_t i = 0; i < attribute.elementCount(); ++i) {
     std::vector<double> numbers = attribute.numbers(i);
-    const Vec3 d = placing.direction({numbers[0], numbers[1], numbers[2]});
-    numbers[0] = d.x;
-    numbers[1] = d.y;
-    numbers[2] = d.z;
+    const Vec3 to = turn({numbers[0], numbers[1], numbers[2]});
+    numbers[0] = to.x;
+    numbers[1] = to.y;
+    numbers[2] = to.z;
     turned.append(numbers);
   }
   attribute = std::move(turned);
@@ -34,9 +34,13 @@ Status place(SurfaceMesh& mesh, const Similarity& placing) {
       return failure(ErrorCode::invalidData, "is placed beyond all numbers", fmt::format("vertex {}", v));
   }
   if (placing.axes() == Similarity().axes()) return {};
-  for (auto* attributes : {&mesh.vertexAttributes, &mesh.wedgeAttributes, &mesh.triangleAttributes})
-    for (Attribute& attribute : *attributes) turn(attribute, placing);
+  turnDirections(mesh, [&](const Vec3& d) { return placing.direction(d); });
   return {};
+}
+
+void turnDirections(SurfaceMesh& mesh, const std::function<Vec3(const Vec3&)>& turn) {
+  for (auto* attributes : {&mesh.vertexAttributes, &mesh.wedgeAttributes, &mesh.triangleAttributes})
+    for (Attribute& attribute : *attributes) turnEach(attribute, turn);
 }
 
 Similarity withYUp(const Similarity& zUp) {

@@ -5,6 +5,7 @@
 #include "surface/rays/first_hit.h"
 
 #include <cmath>
+#include <limits>
 #include <unordered_set>
 #include <vector>
 
@@ -14,13 +15,8 @@ namespace {
 /// Of a surface in the metric space of its multitriangulation.
 class RayDescent {
  public:
-  RayDescent(const MultiTriangulation& mt, const Vec3& from, const Vec3& direction, double least, double most)
-      : mt_(mt),
-        eye_(from),
-        direction_(direction),
-        length2_(dot(direction, direction)),
-        least_(least),
-        nearest_(most) {}
+  RayDescent(const MultiTriangulation& mt, const Vec3& from, const Vec3& direction)
+      : mt_(mt), eye_(from), direction_(direction), length2_(dot(direction, direction)) {}
 
   void run() {
     for (std::uint32_t t = 0; t < mt_.rootTriangleCount(); ++t) follow(TriangleId(t));
@@ -51,7 +47,7 @@ class RayDescent {
     const Vec3 off = to - along * direction_;
     if (dot(off, off) > radius * radius) return false;
     const double half = radius / std::sqrt(length2_);
-    return along + half >= least_ && along - half <= nearest_;
+    return along + half >= 0 && along - half <= nearest_;
   }
 
   // By Cramer's rule on the plane of the triangle. Edges belong to both triangles.
@@ -65,7 +61,7 @@ class RayDescent {
     const double b = dot(s, p) / determinant, c = dot(direction_, q) / determinant;
     const double along = dot(v, q) / determinant;
     constexpr double kEdge = 1e-9;
-    if (!(b >= -kEdge && c >= -kEdge && b + c <= 1 + kEdge && along >= least_ && along <= nearest_)) return;
+    if (!(b >= -kEdge && c >= -kEdge && b + c <= 1 + kEdge && along >= 0 && along <= nearest_)) return;
     if (isFound_ && along == nearest_) return;
     nearest_ = along;
     triangle_ = t;
@@ -74,7 +70,7 @@ class RayDescent {
 
   const MultiTriangulation& mt_;
   Vec3 eye_, direction_;
-  double length2_, least_, nearest_;
+  double length2_, nearest_ = std::numeric_limits<double>::infinity();
   bool isFound_ = false;
   TriangleId triangle_{};
   std::vector<NodeId> waiting_;
@@ -83,9 +79,8 @@ class RayDescent {
 
 }  // namespace
 
-std::optional<RayHit> firstHit(const MultiTriangulation& mt, const Vec3& from, const Vec3& direction,
-                               double least, double most) {
-  RayDescent descent(mt, from, direction, least, most);
+std::optional<RayHit> firstHit(const MultiTriangulation& mt, const Vec3& from, const Vec3& direction) {
+  RayDescent descent(mt, from, direction);
   descent.run();
   return descent.found();
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <limits>
 #include <optional>
 
 #include "engine/base/vec.h"
@@ -21,8 +20,6 @@ struct RayHit {
 /// is met at its neighbours. O(root triangles + nodes along the ray). Thread-safe.
 ///
 /// @param from,direction in metric space (MetricFrame); the direction has any length but 0
-/// @param least,most bounds of RayHit::along, both included
-std::optional<RayHit> firstHit(const MultiTriangulation& mt, const Vec3& from, const Vec3& direction,
-                               double least = 0, double most = std::numeric_limits<double>::infinity());
+std::optional<RayHit> firstHit(const MultiTriangulation& mt, const Vec3& from, const Vec3& direction);
 
 }  // namespace arete

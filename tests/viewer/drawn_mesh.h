@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -76,6 +78,31 @@ inline double planArea(const DrawnMesh& mesh) {
     area += ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2;
   }
   return area;
+}
+
+/// Checks that the device and the processor draw the same surface for a camera. Returns its triangles.
+inline std::size_t expectBothPathsAgree(TerrainDrawable& view, const Camera& camera, ViewSettings settings) {
+  const auto drawnBy = [&](CutPath path, FrameFigures& figures) {
+    settings.path = path;
+    const auto cut = view.cut(camera, settings);
+    EXPECT_TRUE(cut) << cut.error().describe();
+    if (cut) figures = *cut;
+    DrawnMesh mesh = readDrawn(view);
+    for (auto& t : mesh.triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    std::sort(mesh.triangles.begin(), mesh.triangles.end());
+    return mesh;
+  };
+  FrameFigures device, processor;
+  const DrawnMesh a = drawnBy(CutPath::device, device), b = drawnBy(CutPath::processor, processor);
+  EXPECT_EQ(device.moving, processor.moving);
+  EXPECT_EQ(a.triangles, b.triangles);
+  for (const auto& t : a.triangles)
+    for (const std::uint32_t v : t)
+      if (std::abs(a.vertices[v].z - b.vertices[v].z) > 2e-3) {
+        ADD_FAILURE() << "vertex " << v << " is at " << a.vertices[v].z << " and " << b.vertices[v].z;
+        return a.triangles.size();
+      }
+  return a.triangles.size();
 }
 
 /// A context for the test, or a reason to skip it.

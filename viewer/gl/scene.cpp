@@ -39,33 +39,40 @@ const Subject& Scene::subject() const {
   return drawables_.front()->subject();
 }
 
+ViewSettings Scene::sharedOf(const ViewSettings& settings) const {
+  if (drawables_.size() == 1) return settings;
+  ViewSettings shared = settings;
+  shared.maxTriangles = 0;
+  shared.nearPlane = subject().nearPlane();
+  const Sphere all = ballAbout(subject(), settings);
+  shared.contentsMiddle = {all.x, all.y, all.z};
+  shared.contentsRadius = all.radius;
+  // Objects on a terrain have its light.
+  if (!shared.look.sun && subject().isTerrain()) shared.look.sun = Sun{};
+  return shared;
+}
+
 // What a model cannot be coloured by, it shows as it usually is.
-ViewSettings Scene::settingsOf(std::size_t model, const ViewSettings& settings) const {
-  ViewSettings own = settings;
+ViewSettings Scene::settingsOf(std::size_t model, const ViewSettings& shared) const {
+  ViewSettings own = shared;
   const ShownObject& object = objects()[model];
   own.pixels *= object.toleranceFactor;
   own.level = object.level;
   if (drawables_.size() == 1) return own;
-  own.maxTriangles = 0;
-  own.nearPlane = this->subject().nearPlane();
-  const Sphere all = ballAbout(this->subject(), settings);
-  own.contentsMiddle = {all.x, all.y, all.z};
-  own.contentsRadius = all.radius;
   const Subject& subject = drawables_[model]->subject();
   if (std::ranges::find(subject.colorings(), own.look.coloring) == subject.colorings().end())
     own.look.coloring = subject.colorings().front();
-  // Objects on a terrain have its light.
-  if (!own.look.sun && this->subject().isTerrain()) own.look.sun = Sun{};
   return own;
 }
 
 Result<FrameFigures> Scene::cut(const Camera& camera, const ViewSettings& settings,
                                 const RunContext& context) {
   FrameFigures sum;
+  const ViewSettings shared = sharedOf(settings);
   for (std::size_t i = 0; i < drawables_.size(); ++i) {
     ShownObject& object = objects()[i];
     if (!object.isShown) continue;
-    auto cut = drawables_[i]->cut(camera, settingsOf(i, settings), context);
+    auto cut = drawables_[i]->cut(camera, settingsOf(i, shared), context);
     if (!cut && !object.name.empty() && cut.error().code != ErrorCode::interrupted)
       cut.error().culprit =
           cut.error().culprit.empty() ? object.name : object.name + ": " + cut.error().culprit;
@@ -85,15 +92,16 @@ Result<FrameFigures> Scene::cut(const Camera& camera, const ViewSettings& settin
 Status Scene::draw(const Camera& camera, const ViewSettings& settings) {
   for (const Layer& layer : layers.list())
     if (layer.isVisible) ARETE_CHECK(subject().check(layer));
+  const ViewSettings shared = sharedOf(settings);
   for (std::size_t i = 0; i < drawables_.size(); ++i) {
     if (!objects()[i].isShown) continue;
     const bool isGround = drawables_[i]->subject().isTerrain();
     ARETE_CHECK(
-        drawables_[i]->draw(camera, settingsOf(i, settings),
+        drawables_[i]->draw(camera, settingsOf(i, shared),
                             isGround ? std::span<const Layer>(layers.list()) : std::span<const Layer>()));
   }
   drawBackground(settings);
-  ARETE_CHECK(drawBlended(camera, settings));
+  ARETE_CHECK(drawBlended(camera, shared));
   for (const Layer& layer : layers.list()) {
     const auto* space = std::get_if<SpaceVertices>(&layer.content);
     if (!space || !layer.isVisible) continue;
@@ -107,7 +115,8 @@ Status Scene::draw(const Camera& camera, const ViewSettings& settings) {
 
 Result<FrameView> Scene::frameOf(const Camera& camera, const ViewSettings& settings) const {
   for (std::size_t i = 0; i < drawables_.size(); ++i)
-    if (drawables_[i]->subject().isTerrain()) return drawables_[i]->frameOf(camera, settingsOf(i, settings));
+    if (drawables_[i]->subject().isTerrain())
+      return drawables_[i]->frameOf(camera, settingsOf(i, sharedOf(settings)));
   FrameView frame;
   ARETE_TRY(frame.view, subject().viewOf(camera, settings));
   frame.drawnNear = subject().nearPlane();
@@ -117,16 +126,18 @@ Result<FrameView> Scene::frameOf(const Camera& camera, const ViewSettings& setti
 }
 
 // The farthest object first, by the middle of its box.
-Status Scene::drawBlended(const Camera& camera, const ViewSettings& settings) {
-  ARETE_TRY(const View view, subject().viewOf(camera, settings));
+Status Scene::drawBlended(const Camera& camera, const ViewSettings& shared) {
+  ARETE_TRY(const View view, subject().viewOf(camera, shared));
   std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < drawables_.size(); ++i)
+  for (std::size_t i = 0; i < drawables_.size(); ++i) {
+    const Subject& object = drawables_[i]->subject();
+    // A further terrain has a space of its own; terrain is not blended.
     if (objects()[i].isShown)
-      order.push_back(
-          {-norm(subject().drawn(drawables_[i]->subject().box().centre(), settings) - view.eye), i});
+      order.push_back({-norm(object.drawn(object.box().centre(), shared) - view.eye), i});
+  }
   std::ranges::sort(order);
   for (const auto& [distance, i] : order)
-    ARETE_CHECK(drawables_[i]->drawBlended(camera, settingsOf(i, settings)));
+    ARETE_CHECK(drawables_[i]->drawBlended(camera, settingsOf(i, shared)));
   return {};
 }
 

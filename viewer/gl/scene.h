@@ -64,10 +64,12 @@ class Scene {
 
  private:
   explicit Scene(SpacePainter painter) : painter_(std::move(painter)) {}
-  /// What one model is drawn with.
-  ViewSettings settingsOf(std::size_t model, const ViewSettings& settings) const;
+  /// What all models are drawn with; O(models).
+  ViewSettings sharedOf(const ViewSettings& settings) const;
+  /// What one model is drawn with. `shared`: sharedOf().
+  ViewSettings settingsOf(std::size_t model, const ViewSettings& shared) const;
   void drawBackground(const ViewSettings& settings);
-  Status drawBlended(const Camera& camera, const ViewSettings& settings);
+  Status drawBlended(const Camera& camera, const ViewSettings& shared);
   /// The layers that draw themselves.
   Status drawContents(const Camera& camera, const ViewSettings& settings);
   std::vector<std::unique_ptr<Drawable>> drawables_;

@@ -11,17 +11,6 @@
 namespace arete {
 namespace {
 
-MetricBox boxOf(std::span<const Subject* const> objects) {
-  MetricBox box = objects.front()->box();
-  for (const Subject* object : objects) {
-    const MetricBox& b = object->box();
-    box.low = {std::min(box.low.x, b.low.x), std::min(box.low.y, b.low.y), std::min(box.low.z, b.low.z)};
-    box.high = {std::max(box.high.x, b.high.x), std::max(box.high.y, b.high.y),
-                std::max(box.high.z, b.high.z)};
-  }
-  return box;
-}
-
 const Subject* groundOf(std::span<const Subject* const> objects) {
   const auto found = std::ranges::find_if(objects, [](const Subject* s) { return s->terrain() != nullptr; });
   return found == objects.end() ? nullptr : *found;
@@ -34,9 +23,25 @@ CameraSpace spaceOf(const Subject* ground) {
 }  // namespace
 
 SceneSubject::SceneSubject(std::vector<const Subject*> objects)
-    : Subject(spaceOf(groundOf(objects)), boxOf(objects)),
-      objects_(std::move(objects)),
-      ground_(groundOf(objects_)) {}
+    : Subject(spaceOf(groundOf(objects)), {}), objects_(std::move(objects)), ground_(groundOf(objects_)) {}
+
+Vec3 SceneSubject::fromObject(const Subject& object, const Vec3& metric) const {
+  if (!object.isTerrain() || &object == ground_) return metric;
+  return space_.position(object.space().xy(metric), object.space().height(metric));
+}
+
+// Objects move, so that it is found anew.
+MetricBox SceneSubject::box() const {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  MetricBox box{{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
+  for (const Subject* object : objects_)
+    for (const Vec3& corner : object->box().corners()) {
+      const Vec3 p = fromObject(*object, corner);
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    }
+  return box;
+}
 
 Result<View> SceneSubject::viewOf(const Camera& camera, const ViewSettings& settings) const {
   return ground_ ? ground_->viewOf(camera, settings) : arete::viewOf(camera, space_);
@@ -50,7 +55,7 @@ Camera SceneSubject::home(HomeView view, const Camera& picture, const ViewSettin
                           const CoveredEdges& covered) const {
   if (ground_) return ground_->home(view, picture, settings, covered);
   HomeShape shape;
-  shape.box = boxOf(objects_);
+  shape.box = box();
   for (const Subject* object : objects_)
     for (const Vec3& corner : object->box().corners()) shape.points.push_back(corner);
   return homeCamera(view, space_, shape, picture, 1, covered);
@@ -61,8 +66,9 @@ std::optional<Pick> SceneSubject::pick(const Camera& camera, Vec2 pixel, const V
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     if (isShown && !isShown(i)) continue;
     auto found = objects_[i]->pick(camera, pixel, settings);
-    if (!found || (nearest && nearest->metres <= found->metres)) continue;
+    if (!found || (nearest && nearest->depth <= found->depth)) continue;
     nearest = std::move(found);
+    nearest->metric = fromObject(*objects_[i], nearest->metric);
     nearest->object = i;
   }
   return nearest;
@@ -93,7 +99,7 @@ std::string SceneSubject::heightUnit() const {
 }
 
 Result<FlightPlan> SceneSubject::round(const Camera& from) const {
-  return ground_ ? ground_->round(from) : turnAround(space_, boxOf(objects_).centre(), from);
+  return ground_ ? ground_->round(from) : turnAround(space_, box().centre(), from);
 }
 
 Vec3 SceneSubject::inFile(const Vec3& metric) const {

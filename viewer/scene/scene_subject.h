@@ -18,6 +18,7 @@ class SceneSubject final : public Subject {
   explicit SceneSubject(std::vector<const Subject*> objects);
 
   std::string_view kind() const override { return ground_ ? "terrain" : "surface"; }
+  MetricBox box() const override;
   Result<View> viewOf(const Camera& camera, const ViewSettings& settings) const override;
   Vec3 drawn(const Vec3& metric, const ViewSettings& settings) const override;
   /// Of the terrain, where there is one; else of all objects.
@@ -45,6 +46,9 @@ class SceneSubject final : public Subject {
   std::function<bool(std::size_t)> isShown;
 
  private:
+  /// Of a place in the metric space of an object. A further terrain has a space of its own.
+  Vec3 fromObject(const Subject& object, const Vec3& metric) const;
+
   std::vector<const Subject*> objects_;
   const Subject* ground_ = nullptr;  // the first terrain
 };

@@ -28,6 +28,7 @@ struct Pick {
   double height = 0;          ///< of the model at full resolution, in the source's vertical unit
   Vec3 metric;                ///< heights as they are, not exaggerated
   double metres = 0;          ///< from the eye, in a straight line
+  double depth = 0;           ///< of the place as it is drawn, along the view: what is less is nearer
   std::string material = {};  ///< of a surface; empty: none
   Vec3 inObject = {};         ///< coordinates of its own file; of a terrain: xy and height
   std::size_t object = 0;     ///< of a scene: which
@@ -55,7 +56,7 @@ class Subject {
   virtual bool isPlaced() const { return isTerrain(); }
   const CameraSpace& space() const { return space_; }
   /// Holds all of the model, in metric space.
-  const MetricBox& box() const { return box_; }
+  virtual MetricBox box() const { return box_; }
 
   /// What a camera sees, in the space that is drawn with these settings. Errors: usage, culprit "camera";
   /// those of CurvedGround.
@@ -86,7 +87,7 @@ class Subject {
   virtual double leastRadius() const = 0;
   /// Depth of the plane that clips what is near, in metric units, > 0.
   virtual double nearPlane() const = 0;
-  /// The terrain itself, or the scene's; null where there is none.
+  /// Returns itself if it is a terrain, and the ground of a scene; null where there is none.
   virtual const TerrainSubject* terrain() const { return nullptr; }
   /// The ground that cameras follow; null where there is none.
   virtual const GroundHeights* heights() const { return nullptr; }

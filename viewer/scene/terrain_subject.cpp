@@ -204,10 +204,17 @@ std::optional<Pick> TerrainSubject::pick(const Camera& camera, Vec2 pixel,
                                          const ViewSettings& settings) const {
   const Result<View> view = viewOf(camera, settings);
   if (!view) return std::nullopt;
-  if (settings.isCurved) return pickCurved(*view, pixel, camera, settings.stretch);
-  Vec3 direction = directionOfPixel(*view, space_.isMirrored(), pixel);
+  auto found = settings.isCurved ? pickCurved(*view, pixel, camera, settings.stretch)
+                                 : pickFlat(*view, pixel, camera, settings);
+  if (found) found->depth = dot(drawn(found->metric, settings) - view->eye, view->forward);
+  return found;
+}
+
+std::optional<Pick> TerrainSubject::pickFlat(const View& view, Vec2 pixel, const Camera& camera,
+                                             const ViewSettings& settings) const {
+  Vec3 direction = directionOfPixel(view, space_.isMirrored(), pixel);
   direction.z /= settings.stretch;
-  auto found = along(originOf(*view, pixel, settings), direction);
+  auto found = along(originOf(view, pixel, settings), direction);
   if (found) found->metres = norm(found->metric - space_.position(camera));
   return found;
 }

@@ -57,6 +57,8 @@ class TerrainSubject final : public Subject {
  private:
   /// The first intersection between two points.
   std::optional<Pick> between(const Vec3& first, const Vec3& last, const Vec3& eye) const;
+  std::optional<Pick> pickFlat(const View& view, Vec2 pixel, const Camera& camera,
+                               const ViewSettings& settings) const;
   std::optional<Pick> pickCurved(const View& view, Vec2 pixel, const Camera& camera, double stretch) const;
   /// Null on a flat map, and if the CRS has no ellipsoid.
   const CurvedGround* groundOf(const ViewSettings& settings) const;

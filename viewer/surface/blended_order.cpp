@@ -6,8 +6,7 @@
 
 namespace arete {
 
-// The order of the last frame is nearly the next one, but ties are by the order of adding: a camera
-// that returns sees the same picture.
+// Ties are sorted by the order of adding, so a camera that returns sees the same picture.
 void BlendedOrder::sort(Vec3 eye, Vec3 forward) {
   std::vector<std::pair<double, std::uint32_t>> keys(triangles_.size());
   for (std::uint32_t i = 0; i < keys.size(); ++i) keys[i] = {-dot(triangles_[i].middle - eye, forward), i};

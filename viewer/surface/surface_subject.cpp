@@ -137,7 +137,9 @@ std::optional<Pick> SurfaceSubject::pick(const Camera& camera, Vec2 pixel,
   const Vec3 inFile = upright().toFile(found->place), metric = placed(placement_, scene_)(found->place);
   Pick pick;
   pick.metric = metric;
-  pick.metres = norm(origin + found->length * pose.scale() * unit(direction) - view->eye);
+  const Vec3 way = origin + found->length * pose.scale() * unit(direction) - view->eye;
+  pick.metres = norm(way);
+  pick.depth = dot(way, view->forward);
   pick.material = form_->picker.materialOf(found->triangle);
   pick.parts = form_->picker.partsOf(found->triangle);
   pick.inObject = inFile;

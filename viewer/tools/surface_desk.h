@@ -98,7 +98,7 @@ class SurfaceDesk {
   std::size_t boxOf_ = 0;
   std::optional<std::string> opened_;
   std::string lastCommand_;
-  std::filesystem::path folder_;  // of what is made in between; empty: there is none yet
+  std::filesystem::path folder_;  // holds the files that commands make; empty until the first one runs
 };
 
 /// The methods of `mesh decimate`, as its option names them.

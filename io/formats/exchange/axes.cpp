@@ -10,6 +10,7 @@
 
 #include "engine/base/vec.h"
 #include "io/geo/crs/names.h"
+#include "surface/edit/place.h"
 
 namespace arete {
 namespace {
@@ -34,33 +35,24 @@ Vec3 magnitudes(const Vec3& p) {
 }
 
 template <class Turn>
-void turnDirections(std::vector<Attribute>& attributes, const Turn& turn) {
-  for (Attribute& attribute : attributes) {
-    const bool isDirection =
-        attribute.meaning == AttributeMeaning::normal || attribute.meaning == AttributeMeaning::tangent;
-    if (!isDirection || attribute.components < 3) continue;
-    Attribute turned = emptyLike(attribute);
-    turned.values.reserve(attribute.values.size());
-    for (std::size_t i = 0; i < attribute.elementCount(); ++i) {
-      std::vector<double> numbers = attribute.numbers(i);
-      const Vec3 to = turn(Vec3{numbers[0], numbers[1], numbers[2]});
-      numbers[0] = to.x;
-      numbers[1] = to.y;
-      numbers[2] = to.z;
-      turned.append(numbers);
-    }
-    attribute = std::move(turned);
-  }
-}
-
-template <class Turn>
 void turnMesh(MeshFile& mesh, const Turn& turn) {
   for (Vec3& p : mesh.mesh.positions) p = turn(p);
-  for (auto* attributes :
-       {&mesh.mesh.vertexAttributes, &mesh.mesh.wedgeAttributes, &mesh.mesh.triangleAttributes})
-    turnDirections(*attributes, turn);
+  turnDirections(mesh.mesh, turn);
   if (mesh.frame.origin) *mesh.frame.origin = turn(*mesh.frame.origin);
   mesh.frame.rounding = magnitudes(turn(mesh.frame.rounding));
+}
+
+/// The least float that is not below a number.
+float roundedUp(double x) {
+  const auto rounded = static_cast<float>(x);
+  return double(rounded) < x ? std::nextafter(rounded, INFINITY) : rounded;
+}
+
+/// Bounds stay bounds. Where one is beyond all numbers, none is stated.
+template <class Scale>
+void scaleErrors(std::vector<float>& errors, const Scale& scaled) {
+  for (float& error : errors) error = roundedUp(scaled(error));
+  if (std::ranges::any_of(errors, [](float e) { return !std::isfinite(e); })) errors.clear();
 }
 
 Status scaleMesh(MeshFile& mesh, const MeshUnit& unit) {
@@ -72,9 +64,7 @@ Status scaleMesh(MeshFile& mesh, const MeshUnit& unit) {
       return failure(ErrorCode::invalidData, "a coordinate in metres is too large for a number",
                      fmt::format("unit {}", unit.name));
   }
-  for (float& error : mesh.triangleErrors) error = static_cast<float>(scaled(error));
-  if (std::ranges::any_of(mesh.triangleErrors, [](float e) { return !std::isfinite(e); }))
-    mesh.triangleErrors.clear();
+  scaleErrors(mesh.triangleErrors, scaled);
   if (mesh.frame.origin) *mesh.frame.origin = scaledPoint(*mesh.frame.origin);
   mesh.frame.rounding = scaledPoint(mesh.frame.rounding);
   return {};
@@ -92,6 +82,18 @@ std::vector<std::string> meshUnitNames() {
   std::vector<std::string> names;
   for (const MeshUnit& unit : kUnits) names.emplace_back(unit.name);
   return names;
+}
+
+Status placeMesh(MeshFile& mesh, const Similarity& placing) {
+  ARETE_CHECK(place(mesh.mesh, placing));
+  scaleErrors(mesh.triangleErrors, [&](double error) { return error * placing.scale(); });
+  // An origin that the new place leaves no number for is one that the writer chooses anew.
+  if (mesh.frame.origin) mesh.frame.origin = placing(*mesh.frame.origin);
+  if (mesh.frame.origin && !isFinite(*mesh.frame.origin)) mesh.frame.origin.reset();
+  const auto [x, y, z] = placing.axes();
+  const Vec3& r = mesh.frame.rounding;
+  mesh.frame.rounding = (magnitudes(x) * r.x + magnitudes(y) * r.y + magnitudes(z) * r.z) * placing.scale();
+  return {};
 }
 
 Status placeMesh(MeshFile& mesh, const MeshPlacing& placing, MeshUp wanted) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/similarity.h"
 #include "io/formats/exchange/mesh_formats.h"
 
 namespace arete {
@@ -27,6 +28,12 @@ struct MeshPlacing {
 
   bool isNothing() const { return up == MeshUp::unknown && unit.empty(); }
 };
+
+/// Scales, turns and moves a mesh: what place() does, and its origin, rounding and errors go along. Errors
+/// are rounded upwards; where one is too large for its number, none is stated.
+///
+/// Errors: as place(). Precondition: the placing does not mirror. O(size).
+Status placeMesh(MeshFile& mesh, const Similarity& placing);
 
 /// Turns and scales a mesh so that the `wanted` axis points up, y or z, and lengths are in metres. Positions,
 /// the origin, the rounding and the errors of the mesh, and the directions among its attributes go along.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -25,6 +26,9 @@
 
 namespace arete {
 namespace {
+
+// What is off by less than a thousandth of its distance is off by about a pixel.
+constexpr double kMostOfUnits = 1e-3;
 
 Status wrongPlace(const SceneFile& file, std::size_t object, std::string_view key, std::string message) {
   return failure(ErrorCode::invalidData, std::move(message), sceneCulprit(file, object, key));
@@ -71,6 +75,19 @@ bool isSameCrs(const std::string& a, const std::string& b) {
   return one && other && one->IsSame(&*other);
 }
 
+/// By how much the map units of two terrains of one CRS differ in length, as a part of one: those of degrees
+/// and of Web Mercator have their length in the middle of each DEM.
+double differenceOfUnits(const TerrainModel& a, const TerrainModel& b) {
+  const Vec2 corner = a.toSource({0, 0});
+  const auto step = [&](const TerrainModel& model, Vec2 by) {
+    return metricPosition(corner + by, 0, model) - metricPosition(corner, 0, model);
+  };
+  double most = 0;
+  for (const Vec2 by : {Vec2{1, 0}, Vec2{0, 1}})
+    most = std::max(most, std::abs(norm(step(a, by)) / norm(step(b, by)) - 1));
+  return most;
+}
+
 Status checkTerrains(OpenScene& scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const auto* terrain = std::get_if<TerrainModel>(scene.models[scene.objects[i].model].get());
@@ -93,6 +110,13 @@ Status checkTerrains(OpenScene& scene) {
       return wrongPlace(scene.file, i, "file",
                         fmt::format("is in another CRS than the first terrain, '{}'",
                                     scene.file.objects[*scene.terrain].name));
+    } else if (const double part = differenceOfUnits(*terrain, *scene.terrainModel()); part > kMostOfUnits) {
+      return wrongPlace(
+          scene.file, i, "file",
+          fmt::format(
+              "has map units that differ by {:.2g} % in length from those of the first terrain, '{}'; "
+              "in a projected CRS they do not",
+              100 * part, scene.file.objects[*scene.terrain].name));
     }
   }
   return {};

@@ -105,7 +105,7 @@ TEST_F(WindowTools, OfASceneTheSelectedObjectIsSavedAtItsLevelInItsFilesCoordina
                        {"name": "right", "file": "scan.obj", "at": [600100, 200000]}]})");
   const Outcome window = inWindow("scene.json", "save left.ply\nselect 1\nsave right.ply\n");
   ASSERT_EQ(window.code, 0) << window.out;
-  EXPECT_FALSE(exists("right.ply")) << "a camera of the scene is none of the file";
+  EXPECT_FALSE(exists("right.ply")) << "an object without a level by hand is not saved";
   EXPECT_NE(window.out.find("level by hand"), std::string::npos) << window.out;
   ASSERT_TRUE(exists("left.ply")) << window.out;
   const std::string bytes = read("left.ply");

@@ -64,22 +64,7 @@ TEST(TerrainDrawable, BothPathsDrawTheSameSurface) {
     const Camera camera = anyCamera(random, model, 1280, 720);
     ViewSettings settings;
     settings.pixels = random.between(0.5, 4);
-    auto device = view->cut(camera, settings);
-    ASSERT_TRUE(device);
-    DrawnMesh a = test::readDrawn(*view);
-    settings.path = CutPath::processor;
-    auto processor = view->cut(camera, settings);
-    ASSERT_TRUE(processor) << processor.error().describe();
-    DrawnMesh b = test::readDrawn(*view);
-    EXPECT_EQ(device->moving, processor->moving);
-    const auto sorted = [](DrawnMesh& mesh) {
-      for (auto& t : mesh.triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-      std::sort(mesh.triangles.begin(), mesh.triangles.end());
-      return mesh.triangles;
-    };
-    ASSERT_EQ(sorted(a), sorted(b));
-    for (const auto& t : a.triangles)
-      for (const std::uint32_t v : t) ASSERT_NEAR(a.vertices[v].z, b.vertices[v].z, 2e-3) << "vertex " << v;
+    test::expectBothPathsAgree(*view, camera, settings);
   }
 }
 

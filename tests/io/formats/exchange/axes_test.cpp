@@ -59,6 +59,32 @@ TEST(PlaceMesh, ScalesToMetres) {
   EXPECT_EQ(mesh.mesh.positions[0], (Vec3{0.001, 0.002, 0.003})) << "the nearest double";
 }
 
+TEST(PlaceMesh, AMoveTakesTheOriginAlongAndBoundsStayBounds) {
+  MeshFile mesh = oneTriangle();
+  mesh.frame.origin = Vec3{1, 2, 3};
+  mesh.frame.rounding = {1, 2, 4};
+  mesh.triangleErrors = {0.1F, 2, 0};
+  ASSERT_TRUE(placeMesh(mesh, Similarity(Turn{.heading = 90}, 0.3, {4e5, 5e6, 0})));
+  EXPECT_EQ(*mesh.frame.origin, mesh.mesh.positions[0]);
+  EXPECT_EQ(mesh.frame.rounding, (Vec3{0.6, 0.3, 1.2})) << "its x is what was along y";
+  EXPECT_EQ(mesh.mesh.vertexAttributes[0].numbers(0), (std::vector<double>{0.6f, 0, 0.8f}));
+  EXPECT_GE(double(mesh.triangleErrors[0]), 0.3 * double(0.1F));
+  EXPECT_FLOAT_EQ(mesh.triangleErrors[0], 0.03F);
+  EXPECT_GE(double(mesh.triangleErrors[1]), 0.6);
+  EXPECT_EQ(mesh.triangleErrors[2], 0);
+
+  MeshFile sixty = oneTriangle();
+  sixty.frame.rounding = {1, 0, 0};
+  ASSERT_TRUE(placeMesh(sixty, Similarity(Turn{.heading = 60}, 1, {})));
+  EXPECT_NEAR(sixty.frame.rounding.x, 0.5, 1e-12);
+  EXPECT_NEAR(sixty.frame.rounding.y, 0.866025404, 1e-9);
+
+  MeshFile wide = oneTriangle();
+  wide.triangleErrors = {3e38F};
+  ASSERT_TRUE(placeMesh(wide, Similarity(Turn{}, 10, {})));
+  EXPECT_TRUE(wide.triangleErrors.empty()) << "no float is as large";
+}
+
 TEST(PlaceMesh, RefusesWhatContradictsTheFile) {
   MeshFile withCrs = oneTriangle();
   withCrs.crsWkt = "EPSG:32611";

@@ -201,6 +201,22 @@ TEST_F(Scenes, ObjectsStandOnTheGroundOrAtTheirHeightAndTurnClockwise) {
   expectStands(at(4, {0, 2, 0}), there(1020, 1980, 2));
 }
 
+// A degree of longitude at 60 degrees is half as long as at the equator.
+TEST_F(Scenes, FurtherTerrainWhoseMapUnitsHaveAnotherLengthIsRefused) {
+  const auto put = [&](const char* name, double south) {
+    putScene(folder_.file(std::string(name) + ".asc"),
+             fmt::format("ncols 3\nnrows 3\nxllcorner 10\nyllcorner {}\ncellsize 0.01\n"
+                         "0 1 2\n0 1 2\n0 1 2\n",
+                         south));
+    putScene(folder_.file(std::string(name) + ".prj"),
+             "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+             "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]");
+  };
+  put("equator", 0), put("beside", 0.5), put("north", 60);
+  EXPECT_EQ(refusal(R"({"file": "equator.asc"}, {"file": "beside.asc"})"), "opened");
+  EXPECT_SAYS(refusal(R"({"file": "equator.asc"}, {"file": "north.asc"})"), "map units that differ by 50 %");
+}
+
 TEST_F(Scenes, AMeshOnAMapOfItsOwnIsRemarkedOn) {
   putScene(folder_.file("far.obj"), "v 500000 5200000 0\nv 500001 5200000 0\nv 500000 5200001 3\nf 1 2 3\n");
   const auto far = open(R"({"file": "far.obj", "at": [1, 2]}, {"file": "mast.obj", "at": [1, 2]})");
