@@ -116,12 +116,12 @@ void DetailArguments::addTo(CLI::App& command, OptionKinds& kinds) {
           ->check(oneOf({"device", "processor"}))
           ->type_name("NAME")
           ->group(group));
-  kinds.ofTerrain(command
-                      .add_option("--frame-time", frameTime,
-                                  "Longest time of a frame in the window; the error grows to keep it")
-                      ->check(finiteAbove(0))
-                      ->type_name("MS")
-                      ->group(group));
+  command
+      .add_option("--frame-time", frameTime,
+                  "Longest time of a frame in the window; the error grows to keep it")
+      ->check(finiteAbove(0))
+      ->type_name("MS")
+      ->group(group);
   kinds.ofTerrain(
       command
           .add_option("--deadline", deadline,
@@ -129,9 +129,8 @@ void DetailArguments::addTo(CLI::App& command, OptionKinds& kinds) {
           ->check(finiteAbove(0))
           ->type_name("MS")
           ->group(group));
-  kinds.ofTerrain(
-      command.add_flag("--no-geomorph", isFixed, "Do not move new vertices gradually to their height")
-          ->group(group));
+  command.add_flag("--no-geomorph", isFixed, "Do not move new vertices gradually to their place")
+      ->group(group);
 }
 
 Status DetailArguments::findBudget(std::uint64_t finest) {

@@ -54,8 +54,9 @@ Json jsonOf(const FrameFigures& f, const Subject& subject) {
                {"isComplete", f.isComplete},
                {subject.isTerrain() ? "showsTerrain" : "showsSurface", f.isShown},
                {"cutMilliseconds", f.cutMilliseconds},
-               {"drawMilliseconds", f.drawMilliseconds}};
-  if (subject.isTerrain()) json.update({{"moving", f.moving}, {"jumpPixels", number(f.jumpPixels)}});
+               {"drawMilliseconds", f.drawMilliseconds},
+               {"moving", f.moving},
+               {"jumpPixels", number(f.jumpPixels)}};
   return json;
 }
 
@@ -151,10 +152,9 @@ Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView
   if (exceedsBudget(a, *figures))
     session.warn(fmt::format("--max-triangles {}: from there the coarsest cut has {}", a.detail.maxTriangles,
                              grouped(figures->triangles)));
-  session.say(fmt::format(
-      "{}: {}, {}{}\n", a.pictures.screenshot, grouped(figures->triangles, "triangle", "triangles"),
-      subject.isTerrain() ? grouped(figures->moving, "vertex", "vertices") + " on the move, " : "",
-      accuracyOf(*figures)));
+  session.say(fmt::format("{}: {}, {} on the move, {}\n", a.pictures.screenshot,
+                          grouped(figures->triangles, "triangle", "triangles"),
+                          grouped(figures->moving, "vertex", "vertices"), accuracyOf(*figures)));
   json["screenshot"] = {{"file", a.pictures.screenshot},
                         {"camera", jsonOf(camera, subject)},
                         {"figures", jsonOf(*figures, subject)}};

@@ -11,7 +11,7 @@
 #include "engine/base/caught_failure.h"
 #include "engine/criteria/view_error.h"
 #include "engine/follow/incremental_cut.h"
-#include "engine/morph/geomorphed_surface.h"
+#include "engine/morph/geomorphed_cut.h"
 #include "engine/mt/exaggerated_mt.h"
 #include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
@@ -41,10 +41,10 @@ class ViewMesh::State {
                           {.maxTriangles = o.maxTriangles, .deadline = o.deadline}, context));
     const bool budgetBinds = !updated.isComplete && o.maxTriangles.has_value();
     return withThreads(context, [&] {
-      const GeomorphedSurface::Update moved = surface_.update(camera, cut_, budgetBinds);
+      const GeomorphedTerrain::Update moved = surface_.update(camera, cut_, budgetBinds);
       takeTriangles();
       heights_.clear();
-      for (const GeomorphedSurface::Change& change : surface_.changes())
+      for (const GeomorphedTerrain::Change& change : surface_.changes())
         heights_.push_back({change.vertex.index(), position(change.vertex)[2]});
       Report report;
       report.triangles = static_cast<std::uint32_t>(triangles_.size());
@@ -129,7 +129,7 @@ class ViewMesh::State {
   // The cut and the surface go on from frame to frame; the vectors are copies of the last frame, with which
   // the next one is compared.
   IncrementalCut cut_;
-  GeomorphedSurface surface_;
+  GeomorphedTerrain surface_;
   Vec3 origin_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<std::uint32_t> ids_;

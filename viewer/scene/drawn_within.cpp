@@ -32,7 +32,7 @@ double drawnWithin(const Subject& subject, const Camera& cutFor, const ViewSetti
   const double drawn = pixels * reach / frustum.pixelsPerUnit();
   const double allowed = drawn / (settings.stretch * subject.space().metresPerHeight()) * kEdge;
   // Moving vertices have a part of the tolerance, and triangles the rest.
-  const bool moves = settings.isGeomorphed && subject.isTerrain();
+  const bool moves = settings.isGeomorphed && !settings.level;
   const double cut = moves ? allowed * MorphCamera::Options{}.cutShare : allowed;
   const double bound = subject.boundAt(pick, cut);
   // On a curved Earth a triangle is also as far below the ground between its corners as the error of the

@@ -7,13 +7,11 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/criteria/criterion.h"
-#include "engine/follow/incremental_cut.h"
 #include "engine/parallel/run_context.h"
 #include "surface/model/surface_model.h"
+#include "viewer/fronts/cut_worker.h"
+#include "viewer/fronts/morphing_front.h"
 #include "viewer/scene/drawable.h"
-#include "viewer/surface/blended_order.h"
-#include "viewer/surface/material_slots.h"
 #include "viewer/surface/surface_painter.h"
 #include "viewer/surface/surface_subject.h"
 
@@ -24,19 +22,23 @@ struct SurfaceAssets {
   /// The model outlives it. Errors: unsupported. O(size of the model).
   static Result<std::shared_ptr<SurfaceAssets>> create(const SurfaceModel& model, const ZUpFrame& upright);
 
+  std::shared_ptr<const DrawnVertices> drawn;
   SurfaceOnGpu vertices;
   MaterialsOnGpu materials;
   SurfacePainter painter;
 };
 
 /// Draws one surface in an OpenGL context, for one camera at a time, where its subject is placed. Each cut
-/// starts from the last one (engine/follow/incremental_cut.h).
+/// starts from the last one (viewer/fronts/morphing_front.h); if a picture does not wait for it, another
+/// thread takes it, and the last whole one is drawn.
 class SurfaceDrawable final : public Drawable {
  public:
   /// The model stays alive as long as this. Errors: unsupported. O(size of the model).
   static Result<SurfaceDrawable> create(const SurfaceModel& model, std::shared_ptr<SurfaceSubject> subject);
   /// One more object of a surface, as create() of the same model made them.
   SurfaceDrawable(std::shared_ptr<SurfaceAssets> assets, std::shared_ptr<SurfaceSubject> subject);
+  SurfaceDrawable(SurfaceDrawable&&) = default;
+  ~SurfaceDrawable() override;
   const SurfaceSubject& subject() const override { return *subject_; }
   Result<FrameView> frameOf(const Camera& camera, const ViewSettings& settings) const override;
   Result<FrameFigures> cut(const Camera& camera, const ViewSettings& settings,
@@ -55,28 +57,29 @@ class SurfaceDrawable final : public Drawable {
   Warnings warnings() const override { return assets_->materials.warnings(); }
 
  private:
-  std::uint32_t materialOf(std::uint32_t triangle) const;
-  /// Sends what changed since the last call.
-  void upload();
-  void send(std::uint32_t first, std::uint32_t count);
-  void listBlended(std::span<const std::uint32_t> front);
-  void displace(const BoundedCriterion& criterion);
+  /// A front's triangles that have a vertex of the object's own, and those vertices.
+  struct OwnOnGpu {
+    GlBuffer vertices, indices, errors;
+    std::vector<FrontChanges::Range> ranges;
+    BlendedOrder blended;
+  };
+  /// Sends what changed.
+  void upload(FrontChanges&& changes);
+  void stopWork();
+  VertexStreams restingStreams() const;
 
-  const SurfaceModel* model_;  // the subject's
   std::shared_ptr<SurfaceSubject> subject_;
-  IncrementalCut cut_;
   std::shared_ptr<SurfaceAssets> assets_;
-  MaterialSlots slots_;  // what indices_ and errors_ hold
-  bool hasBlendedMaterials() const;
+  std::shared_ptr<MorphingFront> front_;
+  std::shared_ptr<CutWorker> worker_;  // null: none was needed yet
+  bool hasFront_ = false;
   GlQuery anySample_ = makeQuery(GL_ANY_SAMPLES_PASSED), anyBlended_ = makeQuery(GL_ANY_SAMPLES_PASSED);
   bool hasDrawnBlended_ = false;  // in the last picture
-  BlendedOrder blended_;          // of the last cut
   double pixels_ = 1;             // of the last cut
-  bool isUploaded_ = false;
-  GlBuffer indices_, errors_;
-  std::vector<DrawnSurface::Range> ranges_;
-  std::vector<float> positions_;  // of a displaced model: its own
-  GlBuffer displaced_;            // the same in graphics memory
+  GlBuffer indices_, errors_;     // of resting triangles
+  std::vector<FrontChanges::Range> ranges_;
+  OwnOnGpu own_;
+  GlBuffer displaced_;  // positions of a displaced model
 };
 
 }  // namespace arete

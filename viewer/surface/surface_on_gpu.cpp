@@ -1,156 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viewer/surface/surface_on_gpu.h"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include "io/formats/common/colors.h"
-#include "viewer/surface/shading_normals.h"
+#include <cstddef>
 
 namespace arete {
-namespace {
 
-/// By drawn vertex: the vertex of the MT.
-std::vector<std::uint32_t> drawnVertices(const SurfaceModel& model) {
-  const MultiTriangulation& mt = model.mt;
-  std::vector<std::uint32_t> vertexOf(model.hasWedges() ? model.attributes.wedgeCount : mt.vertexCount());
-  if (!model.hasWedges()) {
-    for (std::uint32_t v = 0; v < vertexOf.size(); ++v) vertexOf[v] = v;
-    return vertexOf;
-  }
-  for (std::uint32_t t = 0; t < model.wedgesOf.size(); ++t) {
-    const NodeId creator = mt.creator(TriangleId(t));
-    if (creator.isValid() && mt.remover(TriangleId(t)) == creator) continue;  // a slot that is no triangle
-    const auto corners = mt.corners(TriangleId(t), creator);
-    for (std::size_t i = 0; i < 3; ++i) vertexOf[model.wedgesOf[t][i]] = corners[i];
-  }
-  return vertexOf;
-}
-
-/// An attribute of drawn vertices: the wedges' own, or that of their vertices.
-class DrawnAttribute {
- public:
-  DrawnAttribute(const SurfaceModel& model, const std::vector<std::uint32_t>& vertexOf, std::string_view name,
-                 AttributeMeaning meaning)
-      : vertexOf_(vertexOf) {
-    const auto find = [&](const std::vector<Attribute>& list) -> const Attribute* {
-      for (const Attribute& a : list)
-        if (a.meaning == meaning && a.name == name) return &a;
-      return nullptr;
-    };
-    if (model.hasWedges()) attribute_ = find(model.attributes.wedgeAttributes);
-    isOfWedges_ = attribute_ != nullptr;
-    if (!attribute_) attribute_ = find(model.attributes.vertexAttributes);
-  }
-  explicit operator bool() const { return attribute_ != nullptr; }
-  const Attribute& attribute() const { return *attribute_; }
-  std::size_t elementOf(std::size_t drawn) const { return isOfWedges_ ? drawn : vertexOf_[drawn]; }
-
- private:
-  const std::vector<std::uint32_t>& vertexOf_;
-  const Attribute* attribute_ = nullptr;
-  bool isOfWedges_ = false;
-};
-
-/// Integers of normals and texture coordinates stand for fractions.
-double scaleOf(const Attribute& a) {
-  if (!a.isNormalized) return 1;
-  const bool isSigned = a.type == ScalarType::int8 || a.type == ScalarType::int16;
-  return 1 / (std::exp2(8 * double(sizeOf(a.type)) - (isSigned ? 1 : 0)) - 1);
-}
-
-struct DrawnNormals {
-  std::vector<float> stated, smooth;  // smooth: empty where no other ones are stated
-};
-
-DrawnNormals normalsOf(const SurfaceModel& model, const ZUpFrame& upright,
-                       const std::vector<std::uint32_t>& vertexOf) {
-  const std::vector<Vec3> own = shadingNormals(model);
-  const DrawnAttribute stated(model, vertexOf, kNormalName, AttributeMeaning::normal);
-  const bool isStated = stated && stated.attribute().components >= 3;
-  DrawnNormals normals;
-  const auto add = [&](std::vector<float>& to, const Vec3& normal) {
-    const Vec3 n = upright.turned(normal);
-    to.insert(to.end(), {float(n.x), float(n.y), float(n.z)});
-  };
-  for (std::size_t i = 0; i < vertexOf.size(); ++i) {
-    Vec3 n = own[vertexOf[i]];
-    if (isStated) {
-      add(normals.smooth, n);
-      const std::vector<double> numbers = stated.attribute().numbers(stated.elementOf(i));
-      const Vec3 said{numbers[0], numbers[1], numbers[2]};
-      const double length = norm(said);
-      if (std::isfinite(length) && length > 0) n = said / length;
-    }
-    add(normals.stated, n);
-  }
-  return normals;
-}
-
-std::vector<float> textureCoordsOf(const SurfaceModel& model, const std::vector<std::uint32_t>& vertexOf) {
-  std::vector<float> coords;
-  for (const std::size_t set : {0u, 1u}) {
-    const std::string name = std::string(kTexcoordName) + (set == 0 ? "" : std::to_string(set));
-    const DrawnAttribute stated(model, vertexOf, name, AttributeMeaning::textureCoords);
-    if (!stated || stated.attribute().components < 2) continue;
-    coords.resize(4 * vertexOf.size(), 0);
-    const double scale = scaleOf(stated.attribute());
-    for (std::size_t i = 0; i < vertexOf.size(); ++i) {
-      const std::vector<double> numbers = stated.attribute().numbers(stated.elementOf(i));
-      const double v = numbers[1] * scale;
-      coords[4 * i + 2 * set] = float(numbers[0] * scale);
-      coords[4 * i + 2 * set + 1] = float(stated.attribute().isFromTop ? v : 1 - v);
-    }
-  }
-  return coords;
-}
-
-std::vector<std::uint8_t> colorsOf(const SurfaceModel& model, const std::vector<std::uint32_t>& vertexOf) {
-  const DrawnAttribute stated(model, vertexOf, kColorName, AttributeMeaning::color);
-  if (!stated) return {};
-  bool isRounded = false;
-  const Attribute bytes = toSrgb8(stated.attribute(), isRounded);
-  std::vector<std::uint8_t> colors;
-  colors.reserve(4 * vertexOf.size());
-  for (std::size_t i = 0; i < vertexOf.size(); ++i) {
-    const auto element = bytes.element(stated.elementOf(i));
-    for (std::size_t c = 0; c < 4; ++c) {
-      // Grey has one number, and perhaps alpha.
-      const bool isGrey = element.size() < 3;
-      const std::size_t from = !isGrey ? c : c < 3 ? 0 : 1;
-      colors.push_back(from < element.size() ? static_cast<std::uint8_t>(element[from]) : 255);
-    }
-  }
-  return colors;
-}
-
-}  // namespace
-
-std::vector<float> drawnPositions(const SurfaceModel& model, const ZUpFrame& upright) {
-  std::vector<float> positions;
-  for (const std::uint32_t v : drawnVertices(model)) {
-    const Vec3 p = upright.fromFile(model.mt.position(VertexId(v)));
-    positions.insert(positions.end(), {float(p.x), float(p.y), float(p.z)});
-  }
-  return positions;
-}
-
-SurfaceOnGpu uploadSurface(const SurfaceModel& model, const ZUpFrame& upright) {
-  const std::vector<std::uint32_t> vertexOf = drawnVertices(model);
+SurfaceOnGpu uploadSurface(const DrawnVertices& drawn) {
   SurfaceOnGpu gpu;
   const auto upload = []<class T>(const std::vector<T>& data) {
     return makeBuffer(std::span<const T>(data));
   };
-  gpu.positions = upload(drawnPositions(model, upright));
-  const DrawnNormals normals = normalsOf(model, upright, vertexOf);
-  gpu.normals = upload(normals.stated);
-  if (!normals.smooth.empty()) gpu.smoothNormals = upload(normals.smooth);
-  if (const auto coords = textureCoordsOf(model, vertexOf); !coords.empty())
-    gpu.textureCoords = upload(coords);
-  if (const auto colors = colorsOf(model, vertexOf); !colors.empty()) gpu.colors = upload(colors);
+  gpu.positions = upload(drawn.positions);
+  gpu.normals = upload(drawn.normals);
+  if (!drawn.smoothNormals.empty()) gpu.smoothNormals = upload(drawn.smoothNormals);
+  if (!drawn.textureCoords.empty()) gpu.textureCoords = upload(drawn.textureCoords);
+  if (!drawn.colors.empty()) gpu.colors = upload(drawn.colors);
   return gpu;
+}
+
+VertexStreams SurfaceOnGpu::streams() const {
+  VertexStreams all;
+  all.positions = {positions, 0, 12};
+  all.normals = {normals, 0, 12};
+  all.smoothNormals = {smoothNormals, 0, 12};
+  all.textureCoords = {textureCoords, 0, 16};
+  all.colors = {colors, 0, 4};
+  return all;
+}
+
+VertexStreams streamsOf(GLuint ownVertices, const SurfaceOnGpu& surface) {
+  constexpr GLsizei stride = sizeof(OwnVertex);
+  VertexStreams all;
+  all.positions = {ownVertices, offsetof(OwnVertex, position), stride};
+  all.normals = {ownVertices, offsetof(OwnVertex, normal), stride};
+  if (surface.smoothNormals != 0)
+    all.smoothNormals = {ownVertices, offsetof(OwnVertex, smoothNormal), stride};
+  if (surface.textureCoords != 0)
+    all.textureCoords = {ownVertices, offsetof(OwnVertex, textureCoords), stride};
+  if (surface.colors != 0) all.colors = {ownVertices, offsetof(OwnVertex, color), stride};
+  return all;
 }
 
 }  // namespace arete

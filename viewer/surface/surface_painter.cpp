@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A draw call for each material of the front, or for each run of triangles of one material, and as many for
-// its wireframe. Light is added up in proportion to
-// light and written as sRGB.
+// its wireframe. Light is added up in proportion to light and written as sRGB.
 #include "viewer/surface/surface_painter.h"
 
 #include <glm/vec4.hpp>
@@ -70,22 +69,23 @@ Result<SurfacePainter> SurfacePainter::create() {
 
 // What is switched off leaves what it is multiplied by: without its picture nothing is metal, and what glows
 // in places does not glow.
-SurfacePainter::Look SurfacePainter::lookOf(const DrawnMaterial& material, const SurfaceOnGpu& surface,
+SurfacePainter::Look SurfacePainter::lookOf(const DrawnMaterial& material, const VertexStreams& vertices,
                                             const ViewLook& look) {
   const SurfaceLook& own = look.surface;
   Look now;
-  const bool hasPictures = own.hasTextures && surface.textureCoords != 0;
+  const bool hasPictures = own.hasTextures && vertices.textureCoords.buffer != 0;
   const auto has = [&](DrawnPicture::Role role) {
     return hasPictures && material.pictures[role].texture != 0;
   };
   const auto lacks = [&](DrawnPicture::Role role) {
     return !hasPictures && material.pictures[role].texture != 0;
   };
-  const bool hasColors = own.hasVertexColors && surface.colors != 0;
+  const bool hasColors = own.hasVertexColors && vertices.colors.buffer != 0;
   now.baseColor = material.baseColor;
   if (!own.hasMaterialColors)
     now.baseColor = hasColors || has(DrawnPicture::color) ? glm::vec4(1) : kUncolored;
-  else if (surface.colors != 0 && !hasColors && !has(DrawnPicture::color) && now.baseColor == glm::vec4(1))
+  else if (vertices.colors.buffer != 0 && !hasColors && !has(DrawnPicture::color) &&
+           now.baseColor == glm::vec4(1))
     now.baseColor = kUncolored;
   for (std::size_t i = 0; i < material.pictures.size(); ++i) {
     const PictureLookup& lookup = material.pictures[i].lookup;
@@ -117,9 +117,8 @@ void SurfacePainter::drawRange(const DrawnSurface::Range& range, const Look& loo
                  reinterpret_cast<const void*>(std::size_t(12) * range.first));
 }
 
-void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials,
-                          const DrawnSurface& front, const FrameView& frame, const ViewLook& look,
-                          const Similarity& turned, bool isBlended) {
+void SurfacePainter::draw(const MaterialsOnGpu& materials, const DrawnSurface& front, const FrameView& frame,
+                          const ViewLook& look, const Similarity& turned, bool isBlended) {
   const FrameBlock block = frameBlock(frame, MetricFrame{});
   glNamedBufferSubData(frame_, 0, sizeof block, &block);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
@@ -131,21 +130,22 @@ void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& mat
   glProgramUniform1ui(surface_, 0, errorColors_.place(0));
   const GLuint array = surfaceArray_;
   // An attribute that the surface lacks is disabled, and a constant takes its place: no coordinates, white.
-  const auto attribute = [&](GLuint index, GLuint buffer, GLint size, GLenum type) {
-    if (buffer == 0) {
+  const auto attribute = [&](GLuint index, const VertexStreams::Stream& stream, GLint size, GLenum type) {
+    if (stream.buffer == 0) {
       glDisableVertexArrayAttrib(array, index);
       return;
     }
-    glVertexArrayVertexBuffer(array, index, buffer, 0, (type == GL_FLOAT ? 4 : 1) * size);
+    glVertexArrayVertexBuffer(array, index, stream.buffer, stream.first, stream.stride);
     glVertexArrayAttribFormat(array, index, size, type, type == GL_FLOAT ? GL_FALSE : GL_TRUE, 0);
     glVertexArrayAttribBinding(array, index, index);
     glEnableVertexArrayAttrib(array, index);
   };
-  attribute(0, front.positions != 0 ? front.positions : GLuint(surface.positions), 3, GL_FLOAT);
-  const bool isSmooth = look.surface.shading == SurfaceShading::smooth && surface.smoothNormals != 0;
-  attribute(1, isSmooth ? surface.smoothNormals : surface.normals, 3, GL_FLOAT);
-  attribute(2, surface.textureCoords, 4, GL_FLOAT);
-  attribute(3, look.surface.hasVertexColors ? GLuint(surface.colors) : 0, 4, GL_UNSIGNED_BYTE);
+  const VertexStreams& vertices = front.vertices;
+  attribute(0, vertices.positions, 3, GL_FLOAT);
+  const bool isSmooth = look.surface.shading == SurfaceShading::smooth && vertices.smoothNormals.buffer != 0;
+  attribute(1, isSmooth ? vertices.smoothNormals : vertices.normals, 3, GL_FLOAT);
+  attribute(2, vertices.textureCoords, 4, GL_FLOAT);
+  attribute(3, look.surface.hasVertexColors ? vertices.colors : VertexStreams::Stream{}, 4, GL_UNSIGNED_BYTE);
   glVertexArrayElementBuffer(array, front.indices);
   glBindVertexArray(array);
   glVertexAttrib4f(2, 0, 0, 0, 0);
@@ -162,7 +162,7 @@ void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& mat
   }
   for (const DrawnSurface::Range& range : front.ranges) {
     const DrawnMaterial& m = materials.materials()[range.material];
-    Look now = lookOf(m, surface, look);
+    Look now = lookOf(m, vertices, look);
     now.sun = {float(sun.x), float(sun.y), float(sun.z), now.sun.w};
     now.zenith = {float(up.x), float(up.y), float(up.z), 0};
     now.more.z = float(range.first);

@@ -22,8 +22,7 @@ struct DrawnSurface {
   };
   GLuint indices = 0;  ///< three drawn vertices a triangle
   GLuint errors = 0;   ///< a float a triangle; 0: none
-  /// Positions of the drawn vertices instead of the surface's; 0: none.
-  GLuint positions = 0;
+  VertexStreams vertices;
   std::span<const Range> ranges = {};
 };
 
@@ -37,9 +36,8 @@ class SurfacePainter {
   /// are drawn in their order over what is there, and leave depths as they are.
   ///
   /// @param turned how the surface is turned out of east, north and up, which the sun stands in.
-  void draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials, const DrawnSurface& front,
-            const FrameView& frame, const ViewLook& look, const Similarity& turned = {},
-            bool isBlended = false);
+  void draw(const MaterialsOnGpu& materials, const DrawnSurface& front, const FrameView& frame,
+            const ViewLook& look, const Similarity& turned = {}, bool isBlended = false);
   void drawBackground();
 
   /// Whether a material lets light through, by the colours that are shown.
@@ -50,7 +48,7 @@ class SurfacePainter {
  private:
   SurfacePainter() = default;
   struct Look;
-  static Look lookOf(const DrawnMaterial& material, const SurfaceOnGpu& surface, const ViewLook& look);
+  static Look lookOf(const DrawnMaterial& material, const VertexStreams& vertices, const ViewLook& look);
   void drawRange(const DrawnSurface::Range& range, const Look& look);
 
   GlProgram surface_, background_;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "surface/model/surface_model.h"
-#include "viewer/surface/z_up_frame.h"
+#include "viewer/fronts/z_up_frame.h"
 
 namespace arete {
 

@@ -4,10 +4,10 @@
 #include <memory>
 #include <string>
 
+#include "viewer/fronts/z_up_frame.h"
 #include "viewer/scene/placement.h"
 #include "viewer/scene/subject.h"
 #include "viewer/surface/surface_picker.h"
-#include "viewer/surface/z_up_frame.h"
 
 namespace arete {
 

@@ -84,7 +84,7 @@ void Panel::frameSection(ViewerSession& s) {
                                           : fmt::format("{} of {}", grouped(f.triangles), grouped(f.asked)));
   row("tolerance", fmt::format("{:.2f} px asked, {:.2f} {}", s.wanted.pixels, f.pixels,
                                f.isComplete ? "kept" : "not kept"));
-  if (s.tools && s.settings.isGeomorphed) {
+  if (s.settings.isGeomorphed) {
     row("moving", fmt::format("{} vertices", grouped(f.moving)));
     if (f.jumpPixels > 0) row("jump", fmt::format("{:.2f} px at most", f.jumpPixels));
   }
@@ -111,10 +111,8 @@ void Panel::detailSection(ViewerSession& s) {
       "camera is at rest.");
   ImGui::Checkbox("freeze cut", &s.isFrozen);
   tip("The cut stays as it is while the camera flies on.");
-  if (s.tools) {
-    ImGui::SameLine(9.5f * em());
-    ImGui::Checkbox("geomorphing", &s.settings.isGeomorphed);
-  }
+  ImGui::SameLine(9.5f * em());
+  ImGui::Checkbox("geomorphing", &s.settings.isGeomorphed);
   if (s.isFrozen) ImGui::Checkbox("show what the frozen camera sees", &s.shows.frustum);
   if (!s.tools) return;
   // A device that cannot compute cuts leaves the processor as the only choice: the reason replaces the menu.

@@ -75,7 +75,7 @@ bool isSameCrs(const std::string& a, const std::string& b) {
   return one && other && one->IsSame(&*other);
 }
 
-/// By how much the map units of two terrains of one CRS differ in length, as a part of one: those of degrees
+/// By how much the map units of two terrains of one CRS differ in length, as a part of one: degrees
 /// and of Web Mercator have their length in the middle of each DEM.
 double differenceOfUnits(const TerrainModel& a, const TerrainModel& b) {
   const Vec2 corner = a.toSource({0, 0});
@@ -113,10 +113,9 @@ Status checkTerrains(OpenScene& scene) {
     } else if (const double part = differenceOfUnits(*terrain, *scene.terrainModel()); part > kMostOfUnits) {
       return wrongPlace(
           scene.file, i, "file",
-          fmt::format(
-              "has map units that differ by {:.2g} % in length from those of the first terrain, '{}'; "
-              "in a projected CRS they do not",
-              100 * part, scene.file.objects[*scene.terrain].name));
+          fmt::format("has map units that differ by {:.2g} % in length from the first terrain's, '{}'; "
+                      "in a projected CRS they do not",
+                      100 * part, scene.file.objects[*scene.terrain].name));
     }
   }
   return {};

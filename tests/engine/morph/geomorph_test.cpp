@@ -12,7 +12,7 @@
 #include "datasets/families.h"
 #include "engine/cut_promises.h"
 #include "engine/family_models.h"
-#include "engine/morph/geomorphed_surface.h"
+#include "engine/morph/geomorphed_cut.h"
 #include "engine/morph_flight.h"
 #include "engine/morph_oracle.h"
 
@@ -81,7 +81,7 @@ TEST(MorphNodes, StandOnTheirFloorsAmongPointsAndOnRimsThatWereStraightened) {
       const MorphFlight flight(mt, 100, random);
       const MorphCamera camera({.view = flight.view, .pixels = flight.pixels}, mt.arrays().metric);
       IncrementalCut cut(mt);
-      GeomorphedSurface surface(mt);
+      GeomorphedTerrain surface(mt);
       follow(cut, flight.view, camera);
       surface.update(camera, cut);
       const auto over = heightsOver(m.model, cut.triangles(), [&](std::uint32_t v) {

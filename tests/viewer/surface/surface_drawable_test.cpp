@@ -11,8 +11,8 @@
 #include "surface/builder/build.h"
 #include "surface/families.h"
 #include "viewer/drawn_mesh.h"
+#include "viewer/fronts/shading_normals.h"
 #include "viewer/headless/headless.h"
-#include "viewer/surface/shading_normals.h"
 
 namespace arete {
 namespace {

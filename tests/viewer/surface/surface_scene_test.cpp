@@ -8,6 +8,7 @@
 
 #include "engine/criteria/view_error.h"
 #include "engine/follow/incremental_cut.h"
+#include "engine/morph/geomorph.h"
 #include "surface/builder/build.h"
 #include "surface/families.h"
 #include "terrain/builder/build.h"
@@ -116,8 +117,9 @@ TEST(SurfaceScene, EachObjectHasTheCutOfItsOwnDistance) {
     const SurfaceSubject& ball = *scene.balls[i];
     const View seen = viewedBy(ball.pose({}), *scene.ground->viewOf(camera, {}));
     IncrementalCut alone(scene.ball.mt);
-    ASSERT_TRUE(
-        alone.update(ViewError({.view = scene.form->upright.turnedBack(seen)}, scene.ball.mt.metric())));
+    const View own = scene.form->upright.turnedBack(seen);
+    const double pixels = MorphCamera({.view = own}, scene.ball.mt.metric()).tolerance().cut;
+    ASSERT_TRUE(alone.update(ViewError({.view = own, .pixels = pixels}, scene.ball.mt.metric())));
     EXPECT_EQ(objects[1 + i].figures.triangles, alone.triangles().size());
     const Vec3 eye = Vec3{1110, 1900, 260} - ball.inFile(placed(ball.placement(), scene.ground.get())({}));
     EXPECT_GT(norm(eye), 0);

@@ -96,7 +96,6 @@ TEST_F(SurfaceSession, WhatIsForTerrainIsRefusedByName) {
   const Camera before = s_.rig.camera();
   for (const auto& [action, sentence] : {std::pair{Action::contours, "contours are for terrain"},
                                          {Action::follow, "following the ground is"},
-                                         {Action::geomorph, "geomorphing is for terrain"},
                                          {Action::colorSlope, "colours by slope are"},
                                          {Action::colorAspect, "colours by aspect are"}}) {
     s_.apply(action);
@@ -107,6 +106,8 @@ TEST_F(SurfaceSession, WhatIsForTerrainIsRefusedByName) {
   EXPECT_TRUE(layers_.list().empty());
   EXPECT_EQ(s_.settings.look.coloring, Coloring::material);
   EXPECT_EQ(s_.rig.camera().xy, before.xy);
+  s_.apply(Action::geomorph);
+  EXPECT_FALSE(s_.settings.isGeomorphed);
   s_.apply(Action::wireframe);
   EXPECT_TRUE(s_.settings.look.hasWireframe);
   s_.apply(Action::colorPlain);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/surface/z_up_frame.h"
+#include "viewer/fronts/z_up_frame.h"
 
 namespace arete {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Members are listed in the order in which they entered, so parents precede children: a member that leaves
-// has no children, and one that enters is appended. A member's MorphNode is computed when it enters. One pass
-// over the list computes the scale of every member's ball, in parallel; a second, in order, moves those that
-// are not at rest.
+// has no children, and one that enters is appended. A member's node of its motion is computed when it enters.
+// One pass over the list computes the scale of every member's ball, in parallel; a second, in order, moves
+// those that are not at rest.
 //
 // Popping. A node that left gets the offset that it would have now, so that the cuts before and after are
 // surfaces over the same moved vertices, which differ where nodes entered or left. At any point the triangle
@@ -11,7 +11,7 @@
 // other, and the distances of their floors and ceilings add up along the chain: the distance at a node is its
 // own plus the largest of its parents' in the same update. On the screen it is bounded over the hull of the
 // last star of the chain, extended by the vertices' offsets and by the distance itself.
-#include "engine/morph/geomorphed_surface.h"
+#include "engine/morph/geomorphed_cut.h"
 
 #include <tsl/robin_map.h>
 
@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "engine/base/scattered_id.h"
-#include "engine/morph/popping_bound.h"
+#include "engine/memory/paged_array.h"
 #include "engine/parallel/parallel_loops.h"
 
 namespace arete {
@@ -32,17 +32,18 @@ constexpr std::size_t kMembersPerTask = 2048, kChangesPerTask = 64;
 
 }  // namespace
 
-class GeomorphedSurface::State {
+template <class Motion>
+class GeomorphedCut<Motion>::State {
  public:
   explicit State(MultiTriangulation multitriangulation)
-      : mt(std::move(multitriangulation)), offsets_(mt.nodeCount(), 0), isMember_(mt.nodeCount(), false) {}
+      : mt(std::move(multitriangulation)), offsets_(mt.nodeCount()), isMember_(mt.nodeCount()) {}
 
   Update update(const MorphCamera& given, const IncrementalCut& cut, bool budgetBinds) {
     changes.clear();
     takeSteps(cut);
     pixels_.resize(members_.size());
     parallelFor(IndexRange<std::size_t>(0, members_.size(), kMembersPerTask), [&](const auto& range) {
-      given.pixelsPerHeight(std::span(balls_).subspan(range.begin(), range.size()),
+      given.pixelsPerHeight(std::span<const Sphere>(balls_).subspan(range.begin(), range.size()),
                             std::span(pixels_).subspan(range.begin(), range.size()));
     });
     MorphCamera camera = given;
@@ -59,17 +60,18 @@ class GeomorphedSurface::State {
     return made;
   }
 
-  double offset(std::uint32_t v) const {
-    return v < mt.rootVertexCount() ? 0 : offsets_[v - mt.rootVertexCount()];
+  Offset offset(std::uint32_t v) const {
+    return v < mt.rootVertexCount() ? Offset{} : offsets_[v - mt.rootVertexCount()];
   }
 
   const MultiTriangulation mt;
   std::vector<Change> changes;
+  std::vector<Moving> moving;
 
  private:
   struct Member {
     std::uint32_t node;
-    MorphNode morph;
+    Node morph;
   };
 
   void takeSteps(const IncrementalCut& cut) {
@@ -80,8 +82,8 @@ class GeomorphedSurface::State {
       const std::uint32_t n = step.node.index();
       // A node may enter and leave in the same update, so the cut decides and not the step.
       const bool isIn = cut.contains(step.node);
-      if (isIn == isMember_[n]) continue;
-      isMember_[n] = isIn;
+      if (isIn == (isMember_[n] != 0)) continue;
+      isMember_[n] = isIn ? 1 : 0;
       if (!isIn) {
         haveLeft = true;
         continue;
@@ -95,7 +97,7 @@ class GeomorphedSurface::State {
     const std::span<Member> entered = std::span(members_).last(entered_);
     parallelFor(IndexRange<std::size_t>(0, entered.size(), kChangesPerTask), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i)
-        entered[i].morph = morphNode(mt, NodeId(entered[i].node));
+        entered[i].morph = Motion::nodeOf(mt, NodeId(entered[i].node));
     });
   }
 
@@ -103,7 +105,7 @@ class GeomorphedSurface::State {
   void dropLeft() {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < members_.size(); ++i) {
-      if (!isMember_[members_[i].node]) {
+      if (isMember_[members_[i].node] == 0) {
         left_.push_back(members_[i]);
         continue;
       }
@@ -116,32 +118,32 @@ class GeomorphedSurface::State {
     errors_.resize(kept);
   }
 
-  float offsetOf(const MorphCamera& camera, const MorphNode& m, double rho, double pixelsPerHeight) const {
-    return static_cast<float>(camera.offset(m, rho, pixelsPerHeight, offset(m.corner[0]), offset(m.corner[1]),
-                                            offset(m.corner[2])));
+  Offset offsetOf(const MorphCamera& camera, const Node& m, double rho, double pixelsPerUnit) const {
+    return Motion::offset(camera, m, rho, pixelsPerUnit, offset(m.corner[0]), offset(m.corner[1]),
+                          offset(m.corner[2]));
   }
 
   std::uint32_t move(const MorphCamera& camera) {
-    std::uint32_t moving = 0;
+    moving.clear();
     const std::size_t count = members_.size();
     for (std::size_t i = 0; i < count; ++i) {
       const auto& [n, morph] = members_[i];
       const double rho = errors_[i] * pixels_[i];
-      float now = 0;
-      if (camera.share(rho) > 0) {
+      Offset now{};
+      if (const double share = camera.share(rho); share > 0) {
         now = offsetOf(camera, morph, rho, pixels_[i]);
-        ++moving;
+        moving.push_back({NodeId(n), static_cast<float>(share), &morph});
       }
       if (now == offsets_[n]) continue;
       offsets_[n] = now;
       changes.push_back({mt.apex(NodeId(n)), now});
     }
-    return moving;
+    return static_cast<std::uint32_t>(moving.size());
   }
 
   double jump(const MorphCamera& camera) {
     // Offsets of nodes that left are not part of the result: they are restored.
-    std::vector<float> before;
+    std::vector<Offset> before;
     for (const auto& [n, morph] : left_) {
       before.push_back(offsets_[n]);
       const double pixels = camera.pixelsPerHeight(mt.sphere(NodeId(n)));
@@ -152,15 +154,12 @@ class GeomorphedSurface::State {
     return most;
   }
 
-  /// The star of a node over moved vertices, in metric space, moved up and down by `room`.
+  /// The star of a node over moved vertices, in metric space, moved by up to `room` as vertices move.
   void hullOf(std::uint32_t n, double room, std::vector<Vec3>& hull) const {
     hull.clear();
     const MetricFrame& metric = mt.metric();
     const auto add = [&](std::uint32_t v) {
-      Vec3 p = mt.position(VertexId(v));
-      p.z += offset(v);
-      hull.push_back(metric.toMetric({p.x, p.y, p.z - room}));
-      if (room > 0) hull.push_back(metric.toMetric({p.x, p.y, p.z + room}));
+      Motion::addPlaces(Motion::moved(mt.position(VertexId(v)), offset(v)), room, metric, hull);
     };
     add(mt.apex(NodeId(n)).index());
     for (const std::uint32_t v : mt.link(NodeId(n))) add(v);
@@ -203,8 +202,8 @@ class GeomorphedSurface::State {
     parallelFor(IndexRange<std::size_t>(0, nodes.size(), kChangesPerTask), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i)
         if (changed[i].isNeeded)
-          changed[i].own = poppingBound(mt, NodeId(nodes[i].node), nodes[i].morph,
-                                        [&](std::uint32_t v) { return offset(v); });
+          changed[i].own = Motion::popping(mt, NodeId(nodes[i].node), nodes[i].morph,
+                                           [&](std::uint32_t v) { return offset(v); });
     });
     for (const auto& [child, parent] : pairs)
       changed[child].before = std::max(changed[child].before, changed[parent].before + changed[parent].own);
@@ -219,37 +218,53 @@ class GeomorphedSurface::State {
     return most;
   }
 
-  std::vector<float> offsets_;  // by node
-  std::vector<bool> isMember_;
-  std::vector<Member> members_;  // in the order in which they entered
-  std::size_t entered_ = 0;      // how many of the last members entered in the last update
-  std::vector<Member> left_;     // those that left in the last update, parents first
-  std::vector<Sphere> balls_;    // of members
-  std::vector<float> errors_;    // of members
-  std::vector<double> pixels_;   // of members: per unit of height
+  PagedArray<Offset> offsets_;         // by node
+  PagedArray<std::uint8_t> isMember_;  // by node
+  std::vector<Member> members_;        // in the order in which they entered
+  std::size_t entered_ = 0;            // how many of the last members entered in the last update
+  std::vector<Member> left_;           // those that left in the last update, parents first
+  std::vector<Sphere> balls_;          // of members
+  std::vector<float> errors_;          // of members
+  std::vector<double> pixels_;         // of members: per unit of height
 };
 
-GeomorphedSurface::GeomorphedSurface(MultiTriangulation mt)
+template <class Motion>
+GeomorphedCut<Motion>::GeomorphedCut(MultiTriangulation mt)
     : state_(std::make_unique<State>(std::move(mt))) {}
-GeomorphedSurface::~GeomorphedSurface() = default;
-GeomorphedSurface::GeomorphedSurface(GeomorphedSurface&&) noexcept = default;
-GeomorphedSurface& GeomorphedSurface::operator=(GeomorphedSurface&&) noexcept = default;
+template <class Motion>
+GeomorphedCut<Motion>::~GeomorphedCut() = default;
+template <class Motion>
+GeomorphedCut<Motion>::GeomorphedCut(GeomorphedCut&&) noexcept = default;
+template <class Motion>
+GeomorphedCut<Motion>& GeomorphedCut<Motion>::operator=(GeomorphedCut&&) noexcept = default;
 
-GeomorphedSurface::Update GeomorphedSurface::update(const MorphCamera& camera, const IncrementalCut& cut,
-                                                    bool budgetBinds) {
+template <class Motion>
+auto GeomorphedCut<Motion>::update(const MorphCamera& camera, const IncrementalCut& cut, bool budgetBinds)
+    -> Update {
   return state_->update(camera, cut, budgetBinds);
 }
 
-double GeomorphedSurface::offset(VertexId v) const {
+template <class Motion>
+auto GeomorphedCut<Motion>::offset(VertexId v) const -> Offset {
   return state_->offset(v.index());
 }
 
-std::span<const GeomorphedSurface::Change> GeomorphedSurface::changes() const {
+template <class Motion>
+auto GeomorphedCut<Motion>::changes() const -> std::span<const Change> {
   return state_->changes;
 }
 
-const MultiTriangulation& GeomorphedSurface::mt() const {
+template <class Motion>
+auto GeomorphedCut<Motion>::moving() const -> std::span<const Moving> {
+  return state_->moving;
+}
+
+template <class Motion>
+const MultiTriangulation& GeomorphedCut<Motion>::mt() const {
   return state_->mt;
 }
+
+template class GeomorphedCut<HeightMotion>;
+template class GeomorphedCut<SpaceMotion>;
 
 }  // namespace arete

@@ -16,7 +16,7 @@ namespace arete {
 /// @param node morphNode() of n.
 /// @param offset offset(vertex index) returns a height.
 template <class Offset>
-double poppingBound(const MultiTriangulation& mt, NodeId n, const MorphNode& node, const Offset& offset) {
+double heightPopping(const MultiTriangulation& mt, NodeId n, const MorphNode& node, const Offset& offset) {
   struct Corner {
     std::uint32_t id;
     double x, y, z;  // from the vertex, moved

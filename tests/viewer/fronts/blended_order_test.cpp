@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/surface/blended_order.h"
+#include "viewer/fronts/blended_order.h"
 
 #include <gtest/gtest.h>
 

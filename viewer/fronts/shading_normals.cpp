@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/surface/shading_normals.h"
+#include "viewer/fronts/shading_normals.h"
 
 #include <cmath>
 #include <numbers>

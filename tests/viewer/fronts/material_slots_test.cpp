@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The oracle is a copy of the buffer to which only the changed slots are written.
-#include "viewer/surface/material_slots.h"
+#include "viewer/fronts/material_slots.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 //
 // The oracle is morph_oracle.h. Tolerances and jumps are checked at every sample of generated terrains, from
 // random cameras and along slow flights.
-#include "engine/morph/geomorphed_surface.h"
+#include "engine/morph/geomorphed_cut.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@
 namespace arete {
 namespace {
 
-TEST(GeomorphedSurface, KeepsTheToleranceAtEverySampleInSight) {
+TEST(GeomorphedTerrain, KeepsTheToleranceAtEverySampleInSight) {
   std::mt19937_64 random(61);
   std::size_t seen = 0;
   double closest = 0;
@@ -26,7 +26,7 @@ TEST(GeomorphedSurface, KeepsTheToleranceAtEverySampleInSight) {
     const MultiTriangulation& mt = m.model.mt;
     const RasterHeightfield field = m.model.rasterSamples();
     IncrementalCut cut(mt);
-    GeomorphedSurface surface(mt);
+    GeomorphedTerrain surface(mt);
     View view;
     for (int round = 0; round < 24; ++round) {
       view = round % 4 ? moved(view, Extent(mt), 0.02, random) : randomView(Extent(mt), random);
@@ -53,14 +53,14 @@ TEST(GeomorphedSurface, KeepsTheToleranceAtEverySampleInSight) {
   std::printf("%zu samples in sight, at most %.3f of the tolerance\n", seen, closest);
 }
 
-TEST(GeomorphedSurface, ShowsAVertexFirstOnTheSurfaceThatItRefinesAndAtLastAtItsOwnHeight) {
+TEST(GeomorphedTerrain, ShowsAVertexFirstOnTheSurfaceThatItRefinesAndAtLastAtItsOwnHeight) {
   std::mt19937_64 random(62);
   std::size_t appeared = 0, clamped = 0, resting = 0;
   for (const FamilyModel& m : familyModels()) {
     const MultiTriangulation& mt = m.model.mt;
     const Extent extent(mt);
     IncrementalCut cut(mt);
-    GeomorphedSurface surface(mt);
+    GeomorphedTerrain surface(mt);
     MorphFlight flight(mt, 100, random);
     for (int round = 0; round < 30; ++round) {
       flight.fly();
@@ -94,7 +94,7 @@ TEST(GeomorphedSurface, ShowsAVertexFirstOnTheSurfaceThatItRefinesAndAtLastAtIts
   std::printf("%zu just appeared, %zu of them clamped; %zu at rest\n", appeared, clamped, resting);
 }
 
-TEST(GeomorphedSurface, JumpsNowhereByMoreThanItReports) {
+TEST(GeomorphedTerrain, JumpsNowhereByMoreThanItReports) {
   std::mt19937_64 random(63);
   std::size_t updates = 0;
   for (const bool moves : {true, false}) {
@@ -103,7 +103,7 @@ TEST(GeomorphedSurface, JumpsNowhereByMoreThanItReports) {
       const MultiTriangulation& mt = m.model.mt;
       const MetricFrame& metric = mt.arrays().metric;
       IncrementalCut cut(mt);
-      GeomorphedSurface surface(mt);
+      GeomorphedTerrain surface(mt);
       std::optional<MorphFlight> flight;
       for (int round = 0; round < 80; ++round) {
         // Slow flights; now and then a leap.
@@ -144,12 +144,12 @@ TEST(GeomorphedSurface, JumpsNowhereByMoreThanItReports) {
   EXPECT_GT(updates, 1000u);
 }
 
-TEST(GeomorphedSurface, ReportsItsChangesAndRestsWhenTheCameraRests) {
+TEST(GeomorphedTerrain, ReportsItsChangesAndRestsWhenTheCameraRests) {
   std::mt19937_64 random(64);
   for (const FamilyModel& m : familyModels()) {
     const MultiTriangulation& mt = m.model.mt;
     IncrementalCut cut(mt);
-    GeomorphedSurface surface(mt);
+    GeomorphedTerrain surface(mt);
     std::vector<float> mine(mt.vertexCount(), 0);
     View view = randomView(Extent(mt), random);
     for (int round = 0; round < 12; ++round) {
