@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "engine/base/caught_failure.h"
+#include "surface/attributes/attribute_names.h"
 #include "surface/model/wedges.h"
 
 namespace arete {
@@ -25,14 +26,19 @@ std::vector<std::string> droppableNames(const MeshAttributes& mesh) {
 
 Status dropAttributes(SurfaceMesh& mesh, std::span<const std::string> names) try {
   const std::vector<std::string> known = droppableNames(mesh);
+  const auto isOne = [](std::string_view inFile, const std::string& name) {
+    return inFile == name || optionNameOf(inFile) == name;
+  };
   for (const std::string& name : names)
-    if (std::ranges::find(known, name) == known.end())
+    if (std::ranges::none_of(known, [&](const std::string& one) { return isOne(one, name); }))
       return failure(ErrorCode::usage,
                      known.empty()
                          ? std::string("is no attribute: the mesh has none")
                          : fmt::format("is no attribute of the mesh, which has {}", fmt::join(known, ", ")),
                      name);
-  const auto isNamed = [&](const std::string& name) { return std::ranges::find(names, name) != names.end(); };
+  const auto isNamed = [&](std::string_view inFile) {
+    return std::ranges::any_of(names, [&](const std::string& name) { return isOne(inFile, name); });
+  };
   const auto isDropped = [&](const Attribute& attribute) { return isNamed(attribute.name); };
   std::erase_if(mesh.vertexAttributes, isDropped);
   std::erase_if(mesh.triangleAttributes, isDropped);

@@ -17,7 +17,8 @@ inline constexpr const char *kObjectsName = "objects", *kGroupsName = "groups", 
 /// then "objects", "groups" and "materials" where there are any.
 std::vector<std::string> droppableNames(const MeshAttributes& mesh);
 
-/// Leaves out the attributes of these names, of vertices, corners and faces. Corners of a vertex that
+/// Leaves out the attributes of these names, the file's own or an option's (surface/attributes/
+/// attribute_names.h), of vertices, corners and faces. Corners of a vertex that
 /// differed in nothing else are one again. Positions and triangles stay. A mesh whose parts are left out is
 /// one part.
 ///

@@ -76,7 +76,7 @@ bool isSameCrs(const std::string& a, const std::string& b) {
 }
 
 /// By how much the map units of two terrains of one CRS differ in length, as a part of one: degrees
-/// and of Web Mercator have their length in the middle of each DEM.
+/// and Web Mercator have their length in the middle of each DEM.
 double differenceOfUnits(const TerrainModel& a, const TerrainModel& b) {
   const Vec2 corner = a.toSource({0, 0});
   const auto step = [&](const TerrainModel& model, Vec2 by) {
