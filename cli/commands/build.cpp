@@ -54,7 +54,7 @@ struct BuildArguments {
   double creaseAngleDegrees = -1;  // < 0: not stated
   double minimumAspect = -1;       // < 0: not stated
   std::string kind;                // --as; empty: the file says
-  bool keepsBorders = false, isDisplaced = false;
+  bool keepsBorders = false, isDisplaced = false, boundsAttributes = false;
   const CLI::App* command = nullptr;
   std::vector<std::string> dropAttributes;
   OptionKinds kinds;
@@ -203,6 +203,7 @@ Status runSurfaceBuild(const BuildArguments& arguments, MeshInput input, double 
                                           "--as terrain takes its vertices as samples of a terrain"));
   SurfaceBuildArguments surface{arguments.dem.path, arguments.output, {}};
   surface.options.build.keepsBorders = arguments.keepsBorders;
+  surface.options.build.boundsAttributes = arguments.boundsAttributes;
   surface.isPacked = arguments.isPacked;
   surface.positionBits = arguments.positionBits;
   surface.options.isDisplaced = arguments.isDisplaced;
@@ -364,6 +365,10 @@ void addBuildCommand(CLI::App& app, Session& session) {
       command->add_flag("--displacement", arguments->isDisplaced,
                         "Also find where coarse cuts are drawn nearer to it, at the same errors\n"
                         "(8 bytes a vertex more, packed 4)"));
+  kinds.ofSurfaces(
+      command->add_flag("--attributes", arguments->boundsAttributes,
+                        "Bound what attributes are off by, and let them count: colours, normals, texture\n"
+                        "coordinates, numbers of vertices and corners (2 bytes a triangle and attribute)"));
   arguments->dem.addTo(*command);
   kinds.groupOfTerrain(*command, DemArguments::kGroup);
   arguments->command = command;

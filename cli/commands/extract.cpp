@@ -66,6 +66,7 @@ struct ExtractArguments {
   std::string certificate, errorRaster, map;
   std::string dropParts;
   std::vector<std::string> dropAttributes;
+  std::string attributeErrors = {};
   bool measuresBothWays = false, staysUndisplaced = false;
   PlaceTarget place;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
@@ -203,6 +204,7 @@ Status runSurfaceExtract(const ExtractArguments& arguments, const AmtContainer& 
                          .dropParts = arguments.dropParts,
                          .dropAttributes = arguments.dropAttributes,
                          .measuresBothWays = arguments.measuresBothWays,
+                         .attributeErrors = arguments.attributeErrors,
                          .staysUndisplaced = arguments.staysUndisplaced},
                         file, session);
 }
@@ -321,6 +323,11 @@ void addExtractCommand(CLI::App& app, Session& session) {
                        "or in % of the whole diagonal")
           ->type_name("D"));
   kinds.ofSurfaces(addDropAttributesTo(*command, arguments->dropAttributes));
+  kinds.ofSurfaces(
+      command
+          ->add_option("--attribute-error", arguments->attributeErrors,
+                       "What attributes may be off by: uv:2px,normal:10,color:8 (build --attributes)")
+          ->type_name("NAME:E,..."));
   kinds.ofSurfaces(command->add_flag("--both-ways", arguments->measuresBothWays,
                                      "Also measure how far the result is from the source"));
   kinds.ofSurfaces(command->add_flag(

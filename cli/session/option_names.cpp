@@ -15,8 +15,10 @@ using Name = std::pair<std::string_view, std::string_view>;
 // Sorted by field: optionOfField() searches by bisection.
 constexpr std::array kNames = {
     Name{"allowCoveredNodata", "--allow-covered-nodata"},
+    Name{"attributeErrors", "--attribute-error"},
     Name{"band", "--band"},
     Name{"bands", "--drape-bands"},
+    Name{"boundsAttributes", "--attributes"},
     Name{"box", "--box"},
     Name{"camera", "--camera"},
     Name{"clusterVertices", "--cluster-vertices"},

@@ -59,6 +59,14 @@ Result<Requests> requestsOf(const SurfaceExtractArguments& arguments, const Surf
   ARETE_CHECK(arguments.outputs.check(several));
   ARETE_TRY(CutRequest common, readSurfaceRequest(asked, model, context));
   common.isDisplaced = !arguments.staysUndisplaced;
+  if (!arguments.attributeErrors.empty()) {
+    auto stated = parseAttributeNumbers(arguments.attributeErrors);
+    if (!stated) {
+      stated.error().culprit = "--attribute-error " + stated.error().culprit;
+      return tl::unexpected(stated.error());
+    }
+    common.attributeErrors = std::move(*stated);
+  }
   if (!arguments.dropParts.empty()) {
     ARETE_TRY(const auto least, parseSurfaceTolerances("--drop-parts", arguments.dropParts, model.diagonal,
                                                        spaceUnitOf(model)));
@@ -105,6 +113,9 @@ Error named(Error error, const SurfaceExtractArguments& arguments, const Extract
                     whyNotFewer(model, without, context));
     error.culprit = fmt::format("--max-triangles {}", *request.criterion.maxTriangles);
   }
+  constexpr std::string_view kBounded = "attributeErrors ";
+  if (error.culprit.starts_with(kBounded))
+    error.culprit = "--attribute-error " + error.culprit.substr(kBounded.size());
   constexpr std::string_view kDropped = "dropAttributes ";
   if (error.culprit.starts_with(kDropped))
     error.culprit = "--drop-attributes " + error.culprit.substr(kDropped.size());

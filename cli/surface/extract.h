@@ -18,8 +18,9 @@ struct SurfaceExtractArguments {
   CriterionArguments::OfSurface asked;
   std::string dropParts;  ///< --drop-parts; empty: none
   std::vector<std::string> dropAttributes = {};
-  bool measuresBothWays = false;  ///< the distance from the result to the source, too
-  bool staysUndisplaced = false;  ///< vertices of a displaced model stay where they are in the source
+  bool measuresBothWays = false;     ///< the distance from the result to the source, too
+  std::string attributeErrors = {};  ///< --attribute-error; empty: none
+  bool staysUndisplaced = false;     ///< vertices of a displaced model stay where they are in the source
 };
 
 /// `arete extract` of a surface: one mesh for each tolerance and each budget. Errors: as

@@ -54,6 +54,10 @@ std::string extractText(const ExtractRequest& request, const ExtractedSurface& f
                             : fmt::format("; {:.3g} of each move, to keep the tolerance", found.fit->part));
   else if (found.isDisplaced)
     text += "  displaced  to where the distances are smaller (--no-displacement: as in the source)\n";
+  for (const AttributeNumber& of : found.attributeErrors)
+    text += std::isfinite(of.number) ? fmt::format("  {:<10} at most {:.4g}{}{} off within that distance\n",
+                                                   of.name, of.number, of.unit.empty() ? "" : " ", of.unit)
+                                     : fmt::format("  {:<10} not bounded\n", of.name);
   if (found.otherWay)
     text += fmt::format("  other way  no point of the result farther than {}\n",
                         withShare(*found.otherWay, diagonal));

@@ -2,9 +2,13 @@
 #include "cli/surface/info.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/columns_json.h"
@@ -15,6 +19,7 @@
 #include "engine/cut/cut.h"
 #include "io/geo/crs/names.h"
 #include "io/store/amt/surface_file.h"
+#include "surface/attributes/attribute_names.h"
 
 namespace arete {
 namespace {
@@ -92,6 +97,12 @@ Status sayAboutSurface(const AmtContainer& file, const std::string& at, std::siz
   text += mendedText(model.mending, fmt::format("  {:<14} ", "mended"));
   line("attributes", fmt::format("{} of vertices, {} of corners, {} of faces", a.vertexAttributes.size(),
                                  a.wedgeAttributes.size(), a.triangleAttributes.size()));
+  std::vector<std::string> names, bounded;
+  for (const NamedAttribute& one : namedAttributes(a))
+    if (std::ranges::find(names, one.name) == names.end()) names.push_back(one.name);
+  for (const AttributeErrors& errors : model.attributeErrors) bounded.push_back(errors.name);
+  if (!names.empty()) line("names", fmt::format("{}", fmt::join(names, ", ")));
+  if (!bounded.empty()) line("bounded", fmt::format("{}", fmt::join(bounded, ", ")));
   if (!a.objects.empty()) line("objects", grouped(a.objects.size()));
   if (!a.materials.empty())
     line("materials",
@@ -128,6 +139,8 @@ Status sayAboutSurface(const AmtContainer& file, const std::string& at, std::siz
                   {"rootVertices", mt.rootVertexCount()},
                   {"rootError", mt.largestError()},
                   {"levels", model.levels},
+                  {"attributes", names},
+                  {"boundedAttributes", bounded},
                   {"mended", mendedJson(model.mending)},
                   {"columns", std::move(columns)},
                   {"curve", std::move(points)}});

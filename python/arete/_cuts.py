@@ -75,6 +75,11 @@ class Tin(Mesh):
         return self._tin.error
 
     @property
+    def attribute_errors(self) -> Dict[str, float]:
+        """Of a surface built with attributes: what each is off by at most, within `error`; infinite: not bounded."""
+        return self._tin.attribute_errors
+
+    @property
     def pixels(self) -> Optional[float]:
         """Of a cut for a camera: the largest error in its picture."""
         return self._tin.pixels

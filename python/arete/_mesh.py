@@ -39,6 +39,26 @@ class Mesh:
         return self._tin.source_vertices
 
     @property
+    def vertex_attributes(self) -> Dict[str, NDArray[Any]]:
+        """By name ("color", "normal", "uv", the file's own): (n, components), in the type of the file."""
+        return self._tin.vertex_attributes
+
+    @property
+    def wedges(self) -> NDArray[np.uint32]:
+        """(m, 3): the wedge of each corner, for wedge_attributes; empty where corners of a vertex do not differ."""
+        return self._tin.wedges
+
+    @property
+    def wedge_attributes(self) -> Dict[str, NDArray[Any]]:
+        """By name: (wedges, components). A wedge is what corners at one vertex share that have the same attributes."""
+        return self._tin.wedge_attributes
+
+    @property
+    def triangle_attributes(self) -> Dict[str, NDArray[Any]]:
+        """By name: (m, components)."""
+        return self._tin.triangle_attributes
+
+    @property
     def crs(self) -> Optional[str]:
         """WKT, as pyproj, rasterio and geopandas take it; None where the source has no CRS."""
         return self._tin.crs_wkt or None

@@ -3,7 +3,7 @@
 
 import math
 import os
-from typing import Any, Dict, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Mapping, Optional, Sequence, Tuple, Union
 
 from numpy.typing import ArrayLike
 
@@ -29,7 +29,7 @@ class Surface(Stored):
             displaced: bool = True, fit: Optional[str] = None, progress: Progress = None,
             focus: Optional[Sequence[float]] = None, error_growth: Optional[float] = None, deadline: Optional[float] = None,
             order: Optional[str] = None, drop_parts: Size = 0, method: str = "minimal",
-            where: Optional[Where] = None) -> Tin:
+            where: Optional[Where] = None, attribute_error: Union[str, Mapping[str, Union[float, str]]] = "") -> Tin:
         """The fewest triangles of which no point of the source is farther than `max_error`, or the best of at most
         `max_triangles`.
 
@@ -44,6 +44,8 @@ class Surface(Stored):
         order: what is refined first under max_triangles or a deadline: "worst", "breadth", "depth", or "two-queues"; by
             default, without a place, where the mean square distance is large.
         drop_parts: leaves out the components whose box has a smaller diagonal; the error is that of the rest.
+        attribute_error: what attributes may be off by, each within max_error: {"uv": "2px", "normal": 10, "color": 8}; of a
+            model built with attributes.
         displaced: where the model was built with displacement, draw it nearer to the source at the same error.
         fit: "rms" moves vertices to where the mean square distance is small; within max_error, if it is stated.
 
@@ -69,6 +71,10 @@ class Surface(Stored):
         request = asked.request()
         request.displaced = displaced
         request.drop_parts = dropped or 0
+        errors = attribute_error if isinstance(attribute_error, str) else ",".join(
+            f"{name}:{most}" for name, most in attribute_error.items())
+        if errors:
+            request.set_attribute_errors(errors)
         where_it_holds, text = self._region(region, where, progress)
         tin = self._surface.cut(request, where_it_holds, numbers, progress)
 
@@ -151,7 +157,8 @@ class Surface(Stored):
 
 def build_surface(source: Any, triangles: Optional[ArrayLike] = None, *, displacement: bool = False,
                   keep_borders: bool = False, drop_attributes: Union[str, Sequence[str]] = (),
-                  progress: Progress = None, ratio: Optional[float] = None, max_degree: Optional[int] = None) -> Surface:
+                  progress: Progress = None, ratio: Optional[float] = None, max_degree: Optional[int] = None,
+                  attributes: bool = False) -> Surface:
     """Builds the multitriangulation of a triangle mesh.
 
     source: a file that `arete build` takes for a surface; vertices (n, 3) with triangles (m, 3); or a mesh of meshio
@@ -160,6 +167,7 @@ def build_surface(source: Any, triangles: Optional[ArrayLike] = None, *, displac
     keep_borders: vertices of borders stay in every cut.
     drop_attributes: names of attributes of a file to leave out, and "objects", "groups", "materials": seams and edges
         between parts keep vertices in every cut.
+    attributes: bound what attributes of vertices and corners are off by, and let them count (Surface.cut(attribute_error=)).
     ratio, max_degree: how levels grow, and the most neighbours of a vertex that is removed.
     """
     names = names_of(drop_attributes)
@@ -168,7 +176,10 @@ def build_surface(source: Any, triangles: Optional[ArrayLike] = None, *, displac
         if triangles is not None:
             raise TypeError("triangles are for arrays: a file says its own")
         path = os.fspath(source)
-        return Surface(_arete.build_surface_file(path, displacement, keep_borders, growth, degree, names, progress), files=[path])
+        return Surface(_arete.build_surface_file(path, displacement, keep_borders, growth, degree, names, attributes,
+                                                 progress), files=[path])
     if names:
         raise ValueError("drop_attributes is for files: arrays have no attributes")
+    if attributes:
+        raise ValueError("attributes is for files: arrays have no attributes")
     return Surface(_arete.build_surface_arrays(*mesh_of(source, triangles), displacement, keep_borders, growth, degree, progress))

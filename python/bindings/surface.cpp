@@ -224,8 +224,9 @@ void defineModel(py::module_& module) {
 
 SurfaceFileOptions optionsOf(bool isDisplaced, bool keepsBorders, std::optional<double> ratio,
                              std::optional<std::uint32_t> maxDegree,
-                             std::vector<std::string> dropAttributes = {}) {
+                             std::vector<std::string> dropAttributes = {}, bool boundsAttributes = false) {
   SurfaceBuildOptions build{.keepsBorders = keepsBorders};
+  build.boundsAttributes = boundsAttributes;
   build.thresholdRatio = ratio.value_or(build.thresholdRatio);
   build.maxDegree = maxDegree.value_or(build.maxDegree);
   return {.build = build, .isDisplaced = isDisplaced, .dropAttributes = std::move(dropAttributes)};
@@ -238,9 +239,11 @@ void defineSurface(py::module_& module) {
   defineModel(module);
   module.def("build_surface_file", [](const std::string& path, bool isDisplaced, bool keepsBorders,
                                       std::optional<double> ratio, std::optional<std::uint32_t> maxDegree,
-                                      const std::vector<std::string>& dropAttributes,
+                                      const std::vector<std::string>& dropAttributes, bool boundsAttributes,
                                       const py::object& progress) {
-    return buildFile(path, optionsOf(isDisplaced, keepsBorders, ratio, maxDegree, dropAttributes), progress);
+    return buildFile(path,
+                     optionsOf(isDisplaced, keepsBorders, ratio, maxDegree, dropAttributes, boundsAttributes),
+                     progress);
   });
   module.def("build_surface_arrays", [](const Doubles& vertices, const Indices& triangles, bool isDisplaced,
                                         bool keepsBorders, std::optional<double> ratio,

@@ -33,6 +33,38 @@ py::ssize_t sizeOf(const auto& array) {
   return static_cast<py::ssize_t>(array.size());
 }
 
+py::dtype typeOf(ScalarType type) {
+  switch (type) {
+    case ScalarType::int8:
+      return py::dtype::of<std::int8_t>();
+    case ScalarType::uint8:
+      return py::dtype::of<std::uint8_t>();
+    case ScalarType::int16:
+      return py::dtype::of<std::int16_t>();
+    case ScalarType::uint16:
+      return py::dtype::of<std::uint16_t>();
+    case ScalarType::int32:
+      return py::dtype::of<std::int32_t>();
+    case ScalarType::uint32:
+      return py::dtype::of<std::uint32_t>();
+    case ScalarType::float32:
+      return py::dtype::of<float>();
+    default:
+      return py::dtype::of<double>();
+  }
+}
+
+/// Copies of attributes by the names that options have, each in the type of the file: (n, components).
+py::dict arraysOf(const std::vector<Attribute>& attributes) {
+  py::dict arrays;
+  for (const Attribute& a : attributes) {
+    const auto count = static_cast<py::ssize_t>(a.elementCount());
+    arrays[py::str(optionNameOf(a.name))] =
+        py::array(typeOf(a.type), {count, py::ssize_t{a.components}}, a.values.data());
+  }
+  return arrays;
+}
+
 }  // namespace
 
 CutTin::CutTin(Tin taken) : tin(std::move(taken)), errors(tin.errors) {
@@ -51,6 +83,12 @@ void defineRequest(py::module_& module) {
       .def_readwrite("deadline", &CutRequest::deadlineMilliseconds)
       .def_readwrite("displaced", &CutRequest::isDisplaced)
       .def_readwrite("drop_parts", &CutRequest::dropParts)
+      .def("set_attribute_errors",
+           [](CutRequest& request, const std::string& list) {
+             auto numbers = parseAttributeNumbers(list);
+             if (!numbers) raise(numbers.error());
+             request.attributeErrors = std::move(*numbers);
+           })
       .def("set_focus",
            [](CutRequest& request, double x, double y, std::optional<double> z, double growth) {
              request.focus = {.xy = {x, y}, .growth = growth, .z = z};
@@ -174,6 +212,25 @@ void defineTin(py::module_& module) {
                                return viewOf(tin.errors.data(), {sizeOf(tin.errors)}, self);
                              })
       .def_property_readonly("error", [](const CutTin& self) { return self.tin.error; })
+      .def_property_readonly("attribute_errors",
+                             [](const CutTin& self) {
+                               py::dict errors;
+                               for (const AttributeNumber& of : self.tin.attributeErrors)
+                                 errors[py::str(of.name)] = of.number;
+                               return errors;
+                             })
+      .def_property_readonly("vertex_attributes",
+                             [](const CutTin& self) { return arraysOf(self.tin.mesh.vertexAttributes); })
+      .def_property_readonly("wedge_attributes",
+                             [](const CutTin& self) { return arraysOf(self.tin.mesh.wedgeAttributes); })
+      .def_property_readonly("triangle_attributes",
+                             [](const CutTin& self) { return arraysOf(self.tin.mesh.triangleAttributes); })
+      .def_property_readonly(
+          "wedges",
+          [](const py::object& self) {
+            const auto& wedges = self.cast<const CutTin&>().tin.mesh.wedges;
+            return viewOf(reinterpret_cast<const std::uint32_t*>(wedges.data()), {sizeOf(wedges), 3}, self);
+          })
       .def_property_readonly("is_complete", [](const CutTin& self) { return self.tin.isComplete; })
       .def_property_readonly("pixels", [](const CutTin& self) { return self.tin.pixels; })
       .def_property_readonly("crs_wkt", [](const CutTin& self) { return self.tin.crsWkt; })

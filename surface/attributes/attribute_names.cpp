@@ -65,8 +65,8 @@ Result<std::vector<NamedAttribute>> findAttributes(const MeshAttributes& mesh, s
   if (found.empty())
     return failure(ErrorCode::usage,
                    names.empty()
-                       ? std::string("is no attribute: the mesh has none")
-                       : fmt::format("is no attribute of the mesh, which has {}", fmt::join(names, ", ")),
+                       ? std::string("is not an attribute: the mesh has none")
+                       : fmt::format("is not an attribute of the mesh, which has {}", fmt::join(names, ", ")),
                    std::string(name));
   return found;
 }

@@ -21,6 +21,7 @@
 #include "engine/mt/hole_limit.h"
 #include "engine/parallel/with_threads.h"
 #include "surface/builder/prepare.h"
+#include "surface/error/attribute_field.h"
 #include "surface/error/original.h"
 #include "surface/error/samples.h"
 #include "surface/model/face_successors.h"
@@ -94,6 +95,12 @@ VertexArrays placesOf(std::span<const Vec3> positions, std::span<const std::uint
   return vertices;
 }
 
+/// An error beyond what two values are apart is not one of this attribute.
+OutwardScale::Code codeOf(float error, const OutwardScale& scale) {
+  if (!(error < scale.decode(AttributeErrors::kUnbounded - 1))) return AttributeErrors::kUnbounded;
+  return scale.encode(error);
+}
+
 /// The order of the faces and of everything that is by face.
 void sortFaces(PreparedSurface& prepared, std::span<const std::uint32_t> order) {
   const auto sorted = [&](auto& array) {
@@ -149,6 +156,8 @@ class SurfaceBuild {
     MetricFrame metric;
     metric.origin = low / 2 + high / 2;
     MtRecorder recorder(faceCount, vertexCount, OutwardScale(prepared_.diagonal), metric);
+    const AttributeField field =
+        options_.boundsAttributes ? AttributeField(prepared_.mesh, prepared_.diagonal) : AttributeField();
     SurfaceState state{.mesh = live,
                        .original = original,
                        .samples = *samples,
@@ -158,7 +167,8 @@ class SurfaceBuild {
                        .thresholdRatio = options_.thresholdRatio,
                        .fewEnough = fewEnough_,
                        .unit = std::ldexp(1.0, -std::ilogb(prepared_.diagonal)),
-                       .parts = {prepared_.mesh.hasWedges(), prepared_.partOf}};
+                       .parts = {prepared_.mesh.hasWedges(), prepared_.partOf},
+                       .field = field};
     model_.boundsLines = state.parts.hasLines();
     // A label is what a triangle inherits: a face of the source, and the wedges of its corners.
     state.labels.resize(faceCount);
@@ -205,13 +215,28 @@ class SurfaceBuild {
       model_.faceOf[t] = prepared_.faceOf[labels.face];
       if (mesh.hasWedges()) model_.wedgesOf[t] = labels.wedges;
     };
-    for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) put(t, root.labels[t]);
+    const auto& entries = state.field.entries();
+    for (const AttributeField::Entry& e : entries)
+      model_.attributeErrors.push_back({e.name, e.inFile, e.ofWedges, e.length,
+                                        OutwardScale(1.01 * e.largest),
+                                        std::vector<std::uint16_t>(mt.triangleIdCount(), 0)});
+    const auto putErrors = [&](std::uint32_t t, const auto& errorOf) {
+      for (std::size_t a = 0; a < entries.size(); ++a)
+        model_.attributeErrors[a].codes[t] = codeOf(errorOf(a), model_.attributeErrors[a].scale);
+    };
+    for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) {
+      put(t, root.labels[t]);
+      putErrors(t, [&](std::size_t a) { return root.attributeErrors[entries.size() * t + a]; });
+    }
     // Stars were labelled as vertices were removed; nodes have another order, so the vertex finds its labels.
     for (std::uint32_t n = 0; n < mt.nodeCount(); ++n) {
       const VertexId removed(order[mt.apex(NodeId(n)).index()]);
       const std::uint32_t from = state.firstStarLabel[removed];
-      for (std::uint32_t i = 0; i < mt.ceilingSize(NodeId(n)); ++i)
-        put(mt.slotTriangle(NodeId(n), i).index(), state.starLabels[from + i]);
+      for (std::uint32_t i = 0; i < mt.ceilingSize(NodeId(n)); ++i) {
+        const std::uint32_t t = mt.slotTriangle(NodeId(n), i).index();
+        put(t, state.starLabels[from + i]);
+        putErrors(t, [&](std::size_t a) { return state.starAttributeErrors.get(from + i, a); });
+      }
     }
     model_.levels = root.levels;
     describe(order);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <span>
@@ -30,6 +31,13 @@ inline Vec3 placeOf(const FacePoint& p, const SpaceTriangle& face) {
     return face[2];
   }
   return face[0] + (face[1] - face[0]) * (p.u * kUnit) + (face[2] - face[0]) * (p.v * kUnit);
+}
+
+/// The shares of the corners of a face at a point of it.
+inline std::array<double, 3> sharesOf(const FacePoint& p) {
+  constexpr double kUnit = 1.0 / FacePoint::kOne;
+  const double u = p.u * kUnit, v = p.v * kUnit;
+  return {1 - u - v, u, v};
 }
 
 /// Corners of a convex polygon in a face, counter-clockwise in (u, v).

@@ -36,22 +36,29 @@ void SurfaceSamples::append(const Piece& piece, std::vector<SurfaceSample>& samp
   if (piece.isWhole()) {
     for (std::size_t i = 0; i < 3; ++i)
       if (const std::uint32_t v = original_.faces[piece.face][i]; faceOf_[v] == piece.face)
-        samples.push_back({face[i], areaOf_[v]});
-    samples.push_back({(face[0] + face[1] + face[2]) / 3.0, faceArea_[piece.face]});
+        samples.push_back(
+            {face[i], areaOf_[v], piece.face, {double(i == 0), double(i == 1), double(i == 2)}});
+    constexpr double kThird = 1.0 / 3;
+    samples.push_back(
+        {(face[0] + face[1] + face[2]) / 3.0, faceArea_[piece.face], piece.face, {kThird, kThird, kThird}});
     return;
   }
   Vec3 middle;
+  std::array<double, 3> shares{};
   for (const FacePoint& p : piece.polygon) {
     const Vec3 place = placeOf(p, face);
     middle = middle + place;
+    const std::array<double, 3> here = sharesOf(p);
+    for (std::size_t i = 0; i < 3; ++i) shares[i] += here[i] / double(piece.polygon.size());
     const int corner = p == wholeFace()[0] ? 0 : p == wholeFace()[1] ? 1 : p == wholeFace()[2] ? 2 : 3;
     if (corner == 3) continue;
     const std::uint32_t v = original_.faces[piece.face][static_cast<std::size_t>(corner)];
-    if (faceOf_[v] == piece.face) samples.push_back({place, areaOf_[v]});
+    if (faceOf_[v] == piece.face) samples.push_back({place, areaOf_[v], piece.face, here});
   }
   constexpr double kUnit = 1.0 / FacePoint::kOne;
   const double part = double(twiceArea(piece.polygon)) * kUnit * kUnit;
-  samples.push_back({middle / double(piece.polygon.size()), faceArea_[piece.face] * part});
+  samples.push_back(
+      {middle / double(piece.polygon.size()), faceArea_[piece.face] * part, piece.face, shares});
 }
 
 }  // namespace arete

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace arete {
 struct SurfaceSample {
   Vec3 place;
   double area = 0;
+  std::uint32_t face = 0;
+  std::array<double, 3> shares{};  ///< of the face's corners
 };
 
 /// Samples of the original for integrals over it: every vertex, and the middle of every piece. Over a face

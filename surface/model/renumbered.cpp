@@ -59,6 +59,7 @@ SurfaceModel renumbered(const SurfaceModel& model, const MultiTriangulation& mt,
   if (!model.displacement.isEmpty())
     result.displacement = {reordered(model.displacement.directions, vertexOf),
                            reordered(model.displacement.reaches, triangleOf)};
+  for (AttributeErrors& errors : result.attributeErrors) errors.codes = reordered(errors.codes, triangleOf);
   reorder(result.attributes.vertexAttributes, vertexOf);
   if (!model.hasWedges()) return result;
   result.wedgesOf = reordered(model.wedgesOf, triangleOf);

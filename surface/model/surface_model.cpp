@@ -52,6 +52,9 @@ Status SurfaceModel::validate() const {
   if (!displacement.isEmpty() && (displacement.directions.size() != mt.vertexCount() ||
                                   displacement.reaches.size() != mt.triangleIdCount()))
     return refuse("its displacement is of another number of vertices or triangles");
+  for (const AttributeErrors& errors : attributeErrors)
+    if (errors.codes.size() != mt.triangleIdCount())
+      return refuse(fmt::format("the errors of {} are of another number of triangles", errors.name));
   if (hasWedges() == (a.wedgeCount == 0))
     return refuse("wedges are counted and not listed, or the other way");
   for (const Attribute& attribute : a.vertexAttributes)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/mt/multitriangulation.h"
+#include "surface/model/attribute_error.h"
 #include "surface/model/displacement.h"
 #include "surface/model/surface_mesh.h"
 
@@ -20,6 +21,10 @@ struct SurfaceBuildOptions {
   std::uint32_t maxDegree = 24;
   /// Growth of the threshold from level to level: > 1. Smaller steps make smaller cuts and take longer.
   double thresholdRatio = 1.1;
+
+  /// Attributes of vertices and corners count: they are bounded (SurfaceModel::attributeErrors), and what
+  /// changes them least goes first.
+  bool boundsAttributes = false;
 
   bool operator==(const SurfaceBuildOptions&) const = default;
 };
@@ -69,6 +74,9 @@ struct SurfaceModel {
   }
   /// By triangle of the MT: the wedges of its corners. Empty without wedges.
   std::vector<std::array<std::uint32_t, 3>> wedgesOf;
+
+  /// Of attributes of vertices and wedges, where the build has bounded them.
+  std::vector<AttributeErrors> attributeErrors;
 
   /// Where coarse cuts are drawn; empty: where the source's vertices are.
   SurfaceDisplacement displacement;

@@ -48,17 +48,38 @@ void SurfaceCost::collectSamples() {
     for (SurfaceSample& sample : samples_) sample.area *= double(step);
 }
 
+double SurfaceCost::squaredOf(const SurfaceSample& sample) {
+  if (s_.field.isEmpty()) return fan_.nearest(sample.place);
+  FloorDistance::Squares squares;
+  fan_.squares(sample.place, squares);
+  const auto nearest = static_cast<std::size_t>(
+      std::min_element(squares.begin(), squares.begin() + fan_.size()) - squares.begin());
+  wanted_.resize(s_.field.components());
+  found_.resize(s_.field.components());
+  s_.field.mean(s_.field.cornersOf(sample.face), sample.shares, wanted_);
+  s_.field.mean(fanDrawn_[nearest], nearestShares(sample.place, fanPlaces_[nearest]), found_);
+  return squares[nearest] + s_.field.weighedSquares(wanted_, found_);
+}
+
 double SurfaceCost::integralOver(int corner, double limit) {
   const HoleTriangulation fan = fanAround(corner, hole_.corners());
   const StarLine& line = hole_.line();
   double sum = 0;
   for (int side = 0; side < (line.isThere() ? 2 : 1); ++side) {
     fan_.clear();
+    fanDrawn_.clear();
+    fanPlaces_.clear();
     for (const auto& corners : fan.view()) {
       if (line.sideOf(corners) != side) continue;
       const auto& [i, j, m] = corners;
       const SpaceTriangle triangle{hole_.corner(i), hole_.corner(j), hole_.corner(m)};
       fan_.add(triangle);
+      if (!s_.field.isEmpty()) {
+        fanPlaces_.push_back(triangle);
+        const auto vertex = [&](int c) { return hole_.star().link[c].index(); };
+        fanDrawn_.push_back(s_.parts.hasWedges ? hole_.labelsOf(s_, corners).wedges
+                                               : std::array{vertex(i), vertex(j), vertex(m)});
+      }
       sum += star_[static_cast<std::size_t>(side)].nearest((triangle[0] + triangle[1] + triangle[2]) / 3.0) *
              norm(fan_.normal(fan_.size() - 1)) / 2;
     }
@@ -66,7 +87,7 @@ double SurfaceCost::integralOver(int corner, double limit) {
     if (fan_.size() == 0) continue;  // what goes across a line: integralAlongLine()
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       if ((i >= otherSide_[0] && i < otherSide_[1]) != (side == 1)) continue;
-      sum += fan_.nearest(samples_[i].place) * samples_[i].area;
+      sum += squaredOf(samples_[i]) * samples_[i].area;
       if (sum > limit) return sum;
     }
   }

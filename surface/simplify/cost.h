@@ -34,6 +34,9 @@ class SurfaceCost {
   bool isStillValid(VertexId v, const RemovalRecord& record);
 
  private:
+  /// The squared distance of a sample to the fan, and how far its attributes are from what they are at the
+  /// nearest point there.
+  double squaredOf(const SurfaceSample& sample);
   /// The integral over the samples; some value above `limit` if it exceeds that.
   double integralOver(int corner, double limit);
   void collectSamples();
@@ -47,7 +50,10 @@ class SurfaceCost {
   const SurfaceState& s_;
   SurfaceHole hole_;
   std::vector<SurfaceSample> samples_;
-  std::array<std::size_t, 2> otherSide_{};  // in samples_: those of side 1 of a line
+  std::array<std::size_t, 2> otherSide_{};              // in samples_: those of side 1 of a line
+  std::vector<std::array<std::uint32_t, 3>> fanDrawn_;  // by triangle of fan_, where attributes count
+  std::vector<SpaceTriangle> fanPlaces_;
+  std::vector<double> wanted_, found_;
   FloorDistance fan_;
   std::array<FloorDistance, 2> star_;  // by side of a line
 };

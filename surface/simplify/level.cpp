@@ -101,6 +101,7 @@ void SurfaceLevels::remove(MtRecorder::BatchOrder order) {
   for (std::size_t i = 0; i < chosen_.size(); ++i) linkSizes_[i] = s_.records[chosen_[i]].linkSize;
   batch_.begin(order, linkSizes_);
   s_.starLabels.resize(s_.recorder.firstSlot(batch_.removal(chosen_.size())));
+  s_.starAttributeErrors.resize(s_.recorder.firstSlot(batch_.removal(chosen_.size())));
   PerThread<SurfaceRemover> removers([&] { return SurfaceRemover(s_); });
   forRanges(LoopThreads::all, chosen_.size(), shareOf(chosen_.size(), 64),
             [&](std::size_t begin, std::size_t end) {

@@ -34,6 +34,8 @@ bool SurfaceRemover::remove(VertexId v, RemovalId removal, std::span<Seam> seams
     std::rotate(labels.wedges.begin(), labels.wedges.begin() + LiveMesh::sideOf(star.outgoing[i]),
                 labels.wedges.end());
     s_.starLabels.set(firstLabel + static_cast<std::uint32_t>(i), labels);
+    s_.starAttributeErrors.copy(star.slot(i).index(), s_.attributeErrors,
+                                firstLabel + static_cast<std::size_t>(i));
   }
   for (int f = 0; f < floor.size; ++f) labels_[f] = hole_.labelsOf(s_, floor.triangles[f]);
 
@@ -43,6 +45,7 @@ bool SurfaceRemover::remove(VertexId v, RemovalId removal, std::span<Seam> seams
     s_.pieces[star.slot(f)] = f < floor.size ? division_.takePieces(f) : PieceList();
     if (f < floor.size) s_.labels.set(star.slot(f).index(), labels_[f]);
   }
+  if (!s_.field.isEmpty()) boundAttributes(floor);
   updateLink();
   s_.mesh.vertexHalfedge[v] = HalfedgeId();
   return star.isOpen;
@@ -66,6 +69,27 @@ void SurfaceRemover::dividePieces(const HoleTriangulation& floor) {
     else
       s_.pieces[slot].forEach(take);
   });
+}
+
+/// After the pieces are divided and stored. The slots of the floor are the first ones of the star.
+void SurfaceRemover::boundAttributes(const HoleTriangulation& floor) {
+  const Star& star = hole_.star();
+  attributeErrors_.resize(s_.field.entries().size());
+  for (int f = 0; f < floor.size; ++f) {
+    AttributeBound::Triangle triangle;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int corner = floor.triangles[f][c];
+      triangle.places[c] = hole_.corner(corner);
+      triangle.vertices[c] = star.link[corner].index();
+    }
+    triangle.drawn = s_.parts.hasWedges ? labels_[f].wedges : triangle.vertices;
+    triangle.error = division_.bound(f);
+    attributeBound_.bound(triangle, s_.pieces[star.slot(f)], attributeErrors_);
+    // Rounded upwards, so that a float bounds what a double did.
+    for (std::size_t a = 0; a < attributeErrors_.size(); ++a)
+      s_.attributeErrors.set(star.slot(f).index(), a,
+                             static_cast<float>(attributeErrors_[a] * (1 + 0x1p-22)));
+  }
 }
 
 void SurfaceRemover::record(RemovalId removal, int floorSize) {

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "engine/simplify/live_mesh.h"
+#include "surface/error/attribute_bound.h"
 #include "surface/error/piece_division.h"
 #include "surface/simplify/fans.h"
 #include "surface/simplify/state.h"
@@ -14,7 +16,8 @@ namespace arete {
 /// Removes vertices, on one thread.
 class SurfaceRemover {
  public:
-  explicit SurfaceRemover(SurfaceState& state) : s_(state), division_(state.original) {}
+  explicit SurfaceRemover(SurfaceState& state)
+      : s_(state), division_(state.original), attributeBound_(state.original, state.field) {}
 
   /// Removes v, whose cost is known exactly: fills the hole with the fan of its record, divides the pieces,
   /// records the modification, rewrites the star, updates the records of its link.
@@ -25,11 +28,14 @@ class SurfaceRemover {
  private:
   void dividePieces(const HoleTriangulation& floor);
   void record(RemovalId removal, int floorSize);
+  void boundAttributes(const HoleTriangulation& floor);
   void updateLink();
 
   SurfaceState& s_;
   SurfaceHole hole_;
   PieceDivision division_;
+  AttributeBound attributeBound_;
+  std::vector<double> attributeErrors_;
   std::array<FloorCodes, kMaxHoleCorners> codes_;
   std::array<RecorderId, kMaxHoleCorners> ceiling_;
   std::array<RemovalId, kMaxHoleCorners> creator_;

@@ -21,9 +21,13 @@ constexpr double kFirstThreshold = 1e-14;
 constexpr double kGap = 2;
 
 SurfaceRoot labelledRootOf(const SurfaceState& s, std::uint32_t levels) {
-  SurfaceRoot root{rootOf(s.mesh, levels), {}};
-  for (std::uint32_t i = 0; i < s.mesh.triangles.size(); ++i)
-    if (!s.mesh.triangles[SlotId(i)].isDead()) root.labels.push_back(s.labelsOf(SlotId(i)));
+  SurfaceRoot root{rootOf(s.mesh, levels), {}, {}};
+  for (std::uint32_t i = 0; i < s.mesh.triangles.size(); ++i) {
+    if (s.mesh.triangles[SlotId(i)].isDead()) continue;
+    root.labels.push_back(s.labelsOf(SlotId(i)));
+    for (std::size_t a = 0; a < s.field.entries().size(); ++a)
+      root.attributeErrors.push_back(s.attributeErrors.get(i, a));
+  }
   return root;
 }
 
@@ -33,10 +37,12 @@ void compact(SurfaceState& s) {
     if (from == to) return;
     s.pieces[to] = std::move(s.pieces[from]);
     s.labels.set(to.index(), s.labelsOf(from));
+    s.attributeErrors.copy(from.index(), s.attributeErrors, to.index());
   });
   s.pieces.resize(map.liveCount());
   s.pieces.shrink_to_fit();
   s.labels.resize(map.liveCount());
+  s.attributeErrors.resize(map.liveCount());
   giveFreeHeapBack();
 }
 
@@ -108,6 +114,10 @@ Result<SurfaceRoot> simplifySurface(SurfaceState& s, const std::vector<std::uint
   s.borderNext = borderNextOf(s.mesh);
   s.lineNext = lineNextOf(s);
   s.starLabels.reserve(kMaxHoleCorners * s.mesh.vertexCount());
+  s.starAttributeErrors.reserve(kMaxHoleCorners * s.mesh.vertexCount());
+  s.attributeErrors.resize(s.mesh.triangles.size());
+  for (std::size_t i = 0; i < s.mesh.triangles.size(); ++i)
+    for (std::size_t a = 0; a < s.field.entries().size(); ++a) s.attributeErrors.set(i, a, 0);
   s.records.resize(s.mesh.vertexCount());
   forRanges(LoopThreads::all, s.records.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v != end; ++v) {

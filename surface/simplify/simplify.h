@@ -14,6 +14,7 @@ namespace arete {
 /// What the levels leave over, with the labels of its triangles.
 struct SurfaceRoot : SimplifiedRoot {
   std::vector<TriangleLabels> labels;
+  std::vector<float> attributeErrors;  ///< by triangle, by entry of the state's field
 };
 
 /// Removes every vertex that can be removed, or until no more than state.fewEnough triangles are left.

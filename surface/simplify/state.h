@@ -12,9 +12,11 @@
 #include "engine/simplify/independent_set.h"
 #include "engine/simplify/live_mesh.h"
 #include "engine/simplify/threshold_list.h"
+#include "surface/error/attribute_field.h"
 #include "surface/error/original.h"
 #include "surface/error/pieces.h"
 #include "surface/error/samples.h"
+#include "surface/simplify/attribute_error_array.h"
 #include "surface/simplify/labels.h"
 
 namespace arete {
@@ -33,11 +35,15 @@ struct SurfaceState {
   double unit = 1;
 
   SurfaceParts parts = {};
+  /// What is bounded beside distances, and counts in costs. Empty: nothing is.
+  const AttributeField& field;
 
   IdArray<SlotId, std::vector<PieceList>> pieces = {};
   LabelArray labels{parts.hasWedges};  ///< by slot of the mesh
   /// Of the triangles of removed stars: by slot of the recorder (MtRecorder::firstSlot()).
   LabelArray starLabels{parts.hasWedges};
+  /// By slot of the mesh, and of the recorder as starLabels; by entry of the field.
+  AttributeErrorArray attributeErrors{field.entries().size()}, starAttributeErrors{field.entries().size()};
   /// The first of those of a removed vertex.
   IdArray<VertexId, std::vector<std::uint32_t>> firstStarLabel = {};
   /// Of a vertex on a border of the original: the next one along it, the surface on the left. Empty without

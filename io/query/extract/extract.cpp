@@ -69,6 +69,11 @@ Json surfaceJson(const ExtractRequest& request, const ExtractedSurface& found) {
     json["dropped"] = {{"components", *found.droppedComponents},
                        {"faces", *found.droppedFaces},
                        {"distance", found.droppedDistance ? Json(*found.droppedDistance) : Json()}};
+  if (!found.attributeErrors.empty()) {
+    json["attributeErrors"] = Json::object();
+    for (const AttributeNumber& of : found.attributeErrors)
+      json["attributeErrors"][of.name] = std::isfinite(of.number) ? Json(of.number) : Json();
+  }
   if (found.leftByRounding > 0) json["leftByRounding"] = found.leftByRounding;
   if (found.otherWay) json["otherWay"] = *found.otherWay;
   if (found.fit)

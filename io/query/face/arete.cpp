@@ -87,6 +87,7 @@ Result<Tin> cutSurface(const SurfaceModel& model, const CutRequest& request, con
   tin.error = taken.error;
   tin.isComplete = taken.whole.isComplete && taken.leftByRounding == 0;
   tin.pixels = taken.pixels;
+  tin.attributeErrors = std::move(taken.attributeErrors);
   tin.crsWkt = model.crsWkt;
   tin.verticalUnit = model.verticalUnit;
   tin.up = model.up == "y" ? MeshUp::y : model.up == "z" ? MeshUp::z : MeshUp::unknown;

@@ -45,6 +45,8 @@ struct Tin {
   MeshUp up = MeshUp::z;
   std::string note = {};                     ///< what it is, as a comment in files
   std::vector<std::uint32_t> vertexOf = {};  ///< of a surface, by vertex: the source's
+  /// Of a surface whose attributes are bounded: what they are off by at most, each within `error`.
+  std::vector<AttributeNumber> attributeErrors = {};
   Warnings warnings = {};
 };
 

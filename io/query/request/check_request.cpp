@@ -2,6 +2,7 @@
 #include "io/query/request/check_request.h"
 
 #include <array>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -19,10 +20,13 @@ Status checkKind(const CutRequest& r, ModelKind kind) {
   const std::array ofTerrain = {Field{"planRegion", r.planRegion != nullptr},
                                 Field{"camera", r.camera.has_value()}, Field{"distance", r.distance != 0},
                                 Field{"fit", fitsHeights}};
-  const std::array ofSurface = {Field{"spaceRegion", r.spaceRegion != nullptr},
-                                Field{"spaceCamera", r.spaceCamera.has_value()},
-                                Field{"dropParts", r.dropParts != 0}, Field{"fit", r.fit == CutFit::rms}};
-  for (const auto& [name, isStated] : kind == ModelKind::terrain ? ofSurface : ofTerrain)
+  const std::array ofSurface = {
+      Field{"spaceRegion", r.spaceRegion != nullptr}, Field{"spaceCamera", r.spaceCamera.has_value()},
+      Field{"dropParts", r.dropParts != 0}, Field{"attributeErrors", !r.attributeErrors.empty()},
+      Field{"fit", r.fit == CutFit::rms}};
+  const std::span<const Field> ofOther =
+      kind == ModelKind::terrain ? std::span<const Field>(ofSurface) : std::span<const Field>(ofTerrain);
+  for (const auto& [name, isStated] : ofOther)
     if (isStated)
       return refused(name, kind == ModelKind::terrain ? "is for surfaces, and the model is of terrain"
                                                       : "is for terrain, and the model is of a surface");
@@ -43,6 +47,10 @@ Status checkRequest(const CutRequest& r, ModelKind kind) {
   if (r.pixelError && !r.hasCamera()) return refused("pixelError", "requires a camera");
   if (r.order == CutOrder::twoQueues && !r.hasCamera())
     return refused("order", "twoQueues requires a camera");
+  if (!r.attributeErrors.empty() && r.method == CutMethod::saturated)
+    return refused("attributeErrors", "cannot be combined with the saturated method");
+  if (!r.attributeErrors.empty() && r.fit != CutFit::none)
+    return refused("attributeErrors", "cannot be combined with a fit: it moves what is bounded");
   if (r.fit == CutFit::none) return {};
   if (r.hasCamera() || r.focus || r.deadlineMilliseconds)
     return refused("fit", "cannot be combined with a camera, a focus or a deadline");

@@ -13,6 +13,7 @@
 #include "engine/criteria/refine_order.h"
 #include "engine/criteria/space_region.h"
 #include "engine/criteria/view_error.h"
+#include "surface/front/attribute_criterion.h"
 
 namespace arete {
 namespace {
@@ -187,7 +188,9 @@ Result<CutOptions> engineOptions(const CutRequest& request, const SurfaceModel& 
   const bool isLimited = request.maxTriangles || request.deadlineMilliseconds;
   const bool isEverywhere = !request.spaceRegion && !request.spaceCamera && !request.focus;
   if (request.order == CutOrder::usual && isLimited && isEverywhere && request.method == CutMethod::minimal)
-    options.order = std::make_shared<LargestSquaresFirst>();
+    options.order = model.attributeErrors.empty()
+                        ? std::shared_ptr<const RefineOrder>(std::make_shared<LargestSquaresFirst>())
+                        : std::make_shared<LargestChangesFirst>(model);
   return options;
 } catch (...) {
   return caughtFailure();

@@ -7,11 +7,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/base/vec.h"
 #include "engine/criteria/region.h"
 #include "engine/criteria/space_region.h"
 #include "engine/cut/cut.h"
+#include "surface/attributes/attribute_names.h"
 #include "surface/model/camera.h"
 #include "terrain/model/camera.h"
 
@@ -70,6 +72,10 @@ struct CutRequest {
   std::optional<double> deadlineMilliseconds = {};
   CutOrder order = CutOrder::usual;
   CutFit fit = CutFit::none;
+
+  /// What attributes of a surface may be off by, beside its shape; of a model that bounds them
+  /// (SurfaceBuildOptions::boundsAttributes). Then no vertex is displaced.
+  std::vector<AttributeNumber> attributeErrors = {};
 
   bool isDisplaced = true;  ///< of a surface: where the model has a displacement, vertices are displaced
   /// Components of a surface are left out if their box has a smaller diagonal.

@@ -150,6 +150,7 @@ Result<ExtractedSurface> SurfaceExtractor::extract(const ExtractRequest& request
   result.isDisplaced = taken.isDisplaced;
   result.pixels = taken.pixels;
   result.fit = taken.fit;
+  result.attributeErrors = taken.attributeErrors;
   result.leftByRounding = taken.leftByRounding;
   result.triangles = taken.front.mesh.triangles.size();
   result.vertices = taken.front.mesh.positions.size();

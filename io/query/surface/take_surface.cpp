@@ -13,8 +13,10 @@
 #include "engine/base/float_bounds.h"
 #include "io/query/request/check_request.h"
 #include "io/query/request/criterion.h"
+#include "io/query/surface/attribute_tolerances.h"
 #include "surface/diagnosis/diagnosis.h"
 #include "surface/displacement/displaced_places.h"
+#include "surface/front/attribute_criterion.h"
 
 namespace arete {
 namespace {
@@ -62,8 +64,11 @@ Result<TakenSurface> takeSurface(const SurfaceModel& model, const CutRequest& re
                                  const DroppedComponents* dropped, const RunContext& context) try {
   ARETE_CHECK(checkRequest(request, ModelKind::surface));
   ARETE_TRY(const auto criterion, engineCriterion(request, model));
+  ARETE_TRY(const auto tolerances, attributeTolerances(model, request.attributeErrors));
+  const AttributeCriterion ofBoth(*criterion, model, tolerances);
+  const Criterion& asked = tolerances.empty() ? static_cast<const Criterion&>(*criterion) : ofBoth;
   TakenSurface taken;
-  ARETE_TRY(Cut whole, cutOf(request, model, *criterion, dropped, context));
+  ARETE_TRY(Cut whole, cutOf(request, model, asked, dropped, context));
   taken.whole = std::move(whole);
   if (dropped) {
     KeptCut rest = withoutDropped(model.mt, taken.whole, *dropped);
@@ -84,11 +89,13 @@ Result<TakenSurface> takeSurface(const SurfaceModel& model, const CutRequest& re
                                           model.positionError));
     taken.fit = fitted;
     taken.error = fitted.distance;
-  } else if (!model.displacement.isEmpty() && request.isDisplaced) {
+  } else if (!model.displacement.isEmpty() && request.isDisplaced && request.attributeErrors.empty()) {
     const std::vector<double> promised = promisedErrors(model.mt, taken.cut, criterion.get());
     taken.front.mesh.positions = displacedPlaces(model.mt, model.displacement, taken.cut, promised);
     for (std::size_t t = 0; t < promised.size(); ++t) taken.front.errors[t] = floatAtLeast(promised[t]);
     taken.isDisplaced = true;
+  } else {
+    taken.attributeErrors = statedAttributeErrors(model, taken.cut);
   }
   // A fit is measured by itself, and may keep what the stored errors cannot promise.
   const bool isKeptByFit = taken.fit && request.maxError && taken.fit->distance <= *request.maxError;

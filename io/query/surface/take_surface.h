@@ -10,6 +10,7 @@
 #include "engine/parallel/run_context.h"
 #include "io/query/request/cut_request.h"
 #include "io/query/surface/fit_front.h"
+#include "surface/attributes/attribute_names.h"
 #include "surface/front/front.h"
 #include "surface/front/model_components.h"
 #include "surface/model/surface_model.h"
@@ -26,6 +27,9 @@ struct TakenSurface {
   SurfaceFront front;  ///< of the cut, fitted or displaced
   std::optional<FitOutcome> fit = {};
   bool isDisplaced = false;
+  /// For every point of the source there is one of the cut within `error` whose attributes are at most this
+  /// far off (statedAttributeErrors()). Empty where they are not bounded, or no longer hold.
+  std::vector<AttributeNumber> attributeErrors = {};
   double error = 0;                   ///< no point of the source (but what is left out) is farther than this
   std::optional<double> pixels = {};  ///< with a camera: the worst error in its picture
   /// The largest error that rounding (SurfaceModel::positionError) leaves above what is asked for; 0: none.

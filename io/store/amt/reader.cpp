@@ -275,6 +275,13 @@ class SurfaceReading {
                                                 model_.mt.vertexCount(), model_);
         !taken)
       return all_.corrupt(taken.error().message);
+    const AmtChunk* const errors = all_.find(amt_tag::kAttributeErrors);
+    if (const Status taken =
+            takeAttributeErrorCodes(errors ? all_.elements<std::uint16_t>(amt_tag::kAttributeErrors)
+                                           : std::span<const std::uint16_t>(),
+                                    model_);
+        !taken)
+      return all_.corrupt(taken.error().message);
     const auto bytes = all_.elements<std::byte>(amt_tag::kPictures);
     std::size_t at = 0;
     for (std::size_t i = 0; i < pictureBytes.size(); ++i) {

@@ -162,6 +162,8 @@ class SurfaceWriting {
     file_.make(amt_tag::kLooks, bytesOf(looks_));
     file_.make(amt_tag::kAttributes, bytesOf(values_));
     file_.make(amt_tag::kPictures, bytesOf(pictures_));
+    attributeErrors_ = attributeErrorCodesOf(model());
+    if (!attributeErrors_.empty()) file_.make(amt_tag::kAttributeErrors, bytesOf(attributeErrors_));
   }
 
   const std::string& path_;
@@ -174,6 +176,7 @@ class SurfaceWriting {
   std::vector<std::byte> numbers_, displacement_;
   std::vector<std::uint32_t> finestFaces_;
   std::vector<std::byte> values_, pictures_;
+  std::vector<std::uint16_t> attributeErrors_;
 };
 
 }  // namespace

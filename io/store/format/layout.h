@@ -113,6 +113,7 @@ inline constexpr AmtTag kFaceNumbers = {'F', 'N', 'U', 'M'};
 inline constexpr AmtTag kWedges = {'W', 'E', 'D', 'G'};
 inline constexpr AmtTag kLeftOutFaces = {'L', 'E', 'F', 'T'};
 inline constexpr AmtTag kAttributes = {'A', 'T', 'T', 'R'};
+inline constexpr AmtTag kAttributeErrors = {'A', 'E', 'R', 'R'};
 inline constexpr AmtTag kDirections = {'D', 'I', 'R', 'S'};
 inline constexpr AmtTag kReaches = {'R', 'E', 'A', 'C'};
 inline constexpr AmtTag kLooks = {'L', 'O', 'O', 'K'};

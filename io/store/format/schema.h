@@ -141,6 +141,8 @@ inline constexpr std::array kLookRows = {
     made<SurfaceModel, std::byte>(amt_tag::kLooks, AmtPer::any, AmtCoding::raw, {.since = 3}),
     made<SurfaceModel, std::byte>(amt_tag::kAttributes, AmtPer::any, AmtCoding::raw, {.since = 3}),
     made<SurfaceModel, std::byte>(amt_tag::kPictures, AmtPer::any, AmtCoding::raw, {.since = 3}),
+    made<SurfaceModel, std::uint16_t>(amt_tag::kAttributeErrors, AmtPer::any, AmtCoding::raw,
+                                      {.need = AmtNeed::whereFound, .since = 3}),
     ofModel<SurfaceModel, &SurfaceModel::leftOutFaces>(amt_tag::kLeftOutFaces, AmtPer::any, AmtCoding::raw,
                                                        {.need = AmtNeed::whereFound, .since = 3}),
 };

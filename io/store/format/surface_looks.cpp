@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -65,6 +66,14 @@ void visitTexture(Visitor& visitor, T& t) {
   visitor.field("textureCoords", t.textureCoords);
 }
 
+template <class Visitor, class E>
+void visitErrors(Visitor& visitor, E& e) {
+  visitor.field("name", e.name);
+  visitor.field("attribute", e.inFile);
+  visitor.flag("ofWedges", e.ofWedges);
+  visitor.field("length", e.length);
+}
+
 // This makes an object of one element of a list, with the fields that a visitor writes.
 nlohmann::ordered_json written(const auto& visit) {
   nlohmann::ordered_json object = nlohmann::ordered_json::object();
@@ -117,6 +126,11 @@ std::string toLooksJson(const SurfaceModel& model) {
         visitAttribute(w, attribute);
         w.field("components", std::uint32_t{attribute.components});
       }));
+  for (const AttributeErrors& errors : model.attributeErrors)
+    looks["attributeErrors"].push_back(written([&](auto& w) {
+      visitErrors(w, errors);
+      w.field("scale", errors.scale.base());
+    }));
   top.optional("objects", a.objects);
   top.optional("groups", a.groups);
   for (const auto& [key, list] : faceLists(a)) top.flag(key, !list->empty());
@@ -162,6 +176,17 @@ Status fromLooksJson(std::string_view text, std::uint64_t attributeBytes, Surfac
         problem = fmt::format("attribute {} has {} components", attribute.name, components);
       attribute.components = static_cast<std::uint8_t>(components);
     });
+  readRow(looks, "attributeErrors", problem, [&](json_fields::Reader& r, const Json&) {
+    AttributeErrors& errors = model.attributeErrors.emplace_back();
+    visitErrors(r, errors);
+    std::uint32_t base = 0;
+    r.field("scale", base);
+    errors.scale = OutwardScale::fromBase(base);
+    if (!(errors.length >= 0 && std::isfinite(errors.length)) && problem.empty())
+      problem = fmt::format("the errors of {} have a length of {}", errors.name, errors.length);
+    if (!std::isfinite(errors.scale.decode(OutwardScale::kMaxCode)) && problem.empty())
+      problem = fmt::format("the errors of {} have the scale {}", errors.name, base);
+  });
   top.optional("objects", a.objects);
   top.optional("groups", a.groups);
   for (const auto& [key, list] : faceLists(a)) {
@@ -191,6 +216,25 @@ Status fromLooksJson(std::string_view text, std::uint64_t attributeBytes, Surfac
     r.field("bytes", pictureBytes.emplace_back());
   });
   if (!problem.empty()) return failure(ErrorCode::corrupt, fmt::format("chunk LOOK: {}", problem));
+  return {};
+}
+
+std::vector<std::uint16_t> attributeErrorCodesOf(const SurfaceModel& model) {
+  std::vector<std::uint16_t> codes;
+  for (const AttributeErrors& errors : model.attributeErrors)
+    codes.insert(codes.end(), errors.codes.begin(), errors.codes.end());
+  return codes;
+}
+
+Status takeAttributeErrorCodes(std::span<const std::uint16_t> codes, SurfaceModel& model) {
+  const std::size_t triangles = model.mt.triangleIdCount();
+  if (codes.size() != model.attributeErrors.size() * triangles)
+    return failure(ErrorCode::corrupt, fmt::format("chunk AERR has {} codes instead of {}", codes.size(),
+                                                   model.attributeErrors.size() * triangles));
+  for (std::size_t a = 0; a < model.attributeErrors.size(); ++a) {
+    const auto own = codes.subspan(a * triangles, triangles);
+    model.attributeErrors[a].codes.assign(own.begin(), own.end());
+  }
   return {};
 }
 

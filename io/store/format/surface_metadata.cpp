@@ -62,6 +62,7 @@ void visitSurfaceMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
     build.field("maxDegree", model.options.maxDegree);
     build.field("thresholdRatio", model.options.thresholdRatio);
     build.field("levels", model.levels);
+    build.flag("boundsAttributes", model.options.boundsAttributes);
   });
   top.object("mending", [&](auto& mending) {
     mending.field("duplicateFaces", model.mending.duplicateFaces);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,14 +31,19 @@ std::string toAmtJson(const SurfaceMetadata& metadata);
 Result<SurfaceMetadata> fromSurfaceJson(std::string_view text);
 AmtFacts amtFactsOf(const SurfaceMetadata& metadata);
 
-/// What a file says of the looks of a surface: declarations of attributes, objects, groups, materials,
-/// pictures, as JSON. The values are in chunks of their own.
+/// What a file says of the looks of a surface: declarations of attributes and of their errors, objects,
+/// groups, materials, pictures, as JSON. The values are in chunks of their own.
 std::string toLooksJson(const SurfaceModel& model);
 /// Reads it into model.attributes, without values. Errors: corrupt.
 /// @param attributeBytes the size of the values, which memory for them is held against.
 /// @param pictureBytes receives the sizes of the pictures.
 Status fromLooksJson(std::string_view text, std::uint64_t attributeBytes, SurfaceModel& model,
                      std::vector<std::uint64_t>& pictureBytes);
+
+/// The codes of all errors of attributes, one attribute after the other.
+std::vector<std::uint16_t> attributeErrorCodesOf(const SurfaceModel& model);
+/// Takes them apart. Errors: corrupt: another number than the declarations need.
+Status takeAttributeErrorCodes(std::span<const std::uint16_t> codes, SurfaceModel& model);
 
 /// The values of all attributes one after the other, then the objects, groups, materials and file's faces of
 /// the faces, as far as there are.

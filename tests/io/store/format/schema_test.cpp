@@ -78,11 +78,11 @@ TEST(Schema, ListsTheChunksInTheOrderOfTheFile) {
   facts.hasWedges = facts.hasDisplacement = true;
   EXPECT_EQ(tagsOf<SurfaceModel>(facts),
             "META RTRI SLOT LINK RMVR ERRR RMSE FLOR SERR SPHR BERR BSPH HINT SURF VNUM FNUM WEDG DIRS REAC "
-            "LOOK ATTR PICT LEFT PSUM ");
+            "LOOK ATTR PICT AERR LEFT PSUM ");
   facts.isPacked = true;
   facts.segments.reset();
   EXPECT_EQ(tagsOf<TerrainModel>(facts), "META PDIR PTAB PNOD ISAM IHGT FIXV ");
-  EXPECT_EQ(tagsOf<SurfaceModel>(facts), "META PDIR PTAB PNOD PNUM PDSP LOOK ATTR PICT LEFT ");
+  EXPECT_EQ(tagsOf<SurfaceModel>(facts), "META PDIR PTAB PNOD PNUM PDSP LOOK ATTR PICT AERR LEFT ");
 }
 
 TEST(Schema, KnowsTheTypeAndTheNumberOfTheElements) {

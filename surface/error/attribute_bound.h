@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "surface/error/attribute_field.h"
+#include "surface/error/original.h"
+#include "surface/error/pieces.h"
+
+namespace arete {
+
+/// Bounds how far the attributes of a triangle are from what the pieces have that it stands for.
+///
+/// Every corner p of a piece gets a point q of the triangle within the triangle's error of it: the nearest
+/// one, moved towards where the attributes are alike as far as the error allows. A point x of the piece is a
+/// mean of its corners, and the same mean y of their points lies in the triangle, for the triangle is convex.
+/// Attributes are linear in the face and in the triangle. So |x - y| and the distances of attributes, which
+/// are norms, are at most the largest at a corner. Two unit vectors whose means are at least r long and at
+/// most d apart are within asin(d / r) of each other.
+class AttributeBound {
+ public:
+  AttributeBound(const OriginalSurface& original, const AttributeField& field)
+      : original_(original), field_(field) {}
+
+  struct Triangle {
+    SpaceTriangle places;
+    std::array<std::uint32_t, 3> vertices{};  ///< of the original
+    std::array<std::uint32_t, 3> drawn{};     ///< wedges, or the vertices
+    double error = 0;
+  };
+  /// The largest distance of each attribute over the pieces, by entry of the field; infinite where none is
+  /// known. O(corners of the pieces).
+  void bound(const Triangle& triangle, const PieceList& pieces, std::span<double> errors);
+
+ private:
+  void addPiece(const Triangle& triangle, const Piece& piece, std::span<double> errors);
+  void addAcross(const Triangle& triangle, const Piece& piece, std::span<double> errors);
+  /// The shares of the point for a corner of a piece at p.
+  std::array<double, 3> partner(const Triangle& triangle, const Vec3& p, std::span<const double> wanted);
+  void compare(std::size_t corners, std::span<double> errors);
+
+  const OriginalSurface& original_;
+  const AttributeField& field_;
+  std::vector<double> ofPiece_, ofTriangle_;  // by corner of the piece, components() each
+};
+
+}  // namespace arete

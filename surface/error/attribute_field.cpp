@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Weights. Texture coordinates count as far as a picture slides along the surface: a unit of them is as long
+// as the root of the area that it covers, in the mean. Other attributes have no length; a whole range of a
+// colour or of numbers counts as kRangeAsPart of the diagonal, a right angle between normals as
+// kRightAngleAsPart.
+#include "surface/error/attribute_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "surface/attributes/attribute_distance.h"
+#include "surface/attributes/attribute_names.h"
+#include "surface/model/charts.h"
+#include "surface/model/labels.h"
+
+namespace arete {
+namespace {
+
+constexpr double kRangeAsPart = 0.08, kRightAngleAsPart = 0.02;
+
+using Corners = std::array<std::uint32_t, 3>;
+
+/// By wedge: its vertex.
+std::vector<std::uint32_t> verticesOfWedges(const SurfaceMesh& mesh) {
+  std::vector<std::uint32_t> vertexOf(mesh.wedgeCount, 0);
+  for (std::size_t f = 0; f < mesh.wedges.size(); ++f)
+    for (std::size_t c = 0; c < 3; ++c) vertexOf[mesh.wedges[f][c]] = mesh.triangles[f][c];
+  return vertexOf;
+}
+
+double areaOf(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return norm(cross(b - a, c - a)) / 2;
+}
+
+}  // namespace
+
+std::array<double, 3> nearestShares(const Vec3& p, const SpaceTriangle& t) {
+  const Vec3 q = nearestOnTriangle(p, t), normal = areaNormal(t);
+  const double squared = dot(normal, normal);
+  std::array<double, 3> shares{};
+  if (squared > 0) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 &b = t[(i + 1) % 3], &c = t[(i + 2) % 3];
+      sum += shares[i] = std::max(0.0, dot(cross(b - q, c - q), normal));
+    }
+    if (sum > 0) {
+      for (double& s : shares) s /= sum;
+      return shares;
+    }
+  }
+  std::size_t longest = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if (squaredDistance(t[i], t[(i + 1) % 3]) > squaredDistance(t[longest], t[(longest + 1) % 3]))
+      longest = i;
+  const Vec3 a = t[longest], along = t[(longest + 1) % 3] - a;
+  const double length = dot(along, along),
+               at = length > 0 ? std::clamp(dot(q - a, along) / length, 0.0, 1.0) : 0;
+  shares[longest] = 1 - at;
+  shares[(longest + 1) % 3] = at;
+  return shares;
+}
+
+AttributeField::AttributeField(const SurfaceMesh& mesh, double diagonal)
+    : faces_(mesh.triangles), wedges_(mesh.wedges) {
+  const std::size_t drawn = mesh.hasWedges() ? mesh.wedgeCount : mesh.positions.size();
+  const std::vector<std::uint32_t> vertexOf =
+      mesh.hasWedges() ? verticesOfWedges(mesh) : std::vector<std::uint32_t>{};
+  struct Source {
+    const Attribute* attribute;
+    AttributeDistance distance;
+    bool ofWedges;
+  };
+  std::vector<Source> sources;
+  const auto take = [&](const Attribute& a, bool ofWedges) {
+    const AttributeDistance distance(a);
+    Entry e;
+    e.name = optionNameOf(a.name);
+    e.inFile = a.name;
+    e.ofWedges = ofWedges;
+    const bool isDirection =
+        (a.meaning == AttributeMeaning::normal || a.meaning == AttributeMeaning::tangent) &&
+        a.components >= 3;
+    e.kind = isDirection                            ? Entry::Kind::direction
+             : !distance.isLinear()                 ? Entry::Kind::labels
+             : a.meaning == AttributeMeaning::color ? Entry::Kind::color
+                                                    : Entry::Kind::numbers;
+    e.first = components_;
+    // The sign of a tangent says on which side its chart is; it does not change within one.
+    e.count = isDirection ? 3 : a.components;
+    components_ += e.count;
+    entries_.push_back(e);
+    sources.push_back({&a, distance, ofWedges});
+  };
+  for (const Attribute& a : mesh.wedgeAttributes)
+    if (mesh.hasWedges()) take(a, true);
+  for (const Attribute& a : mesh.vertexAttributes) {
+    // Corners say more than vertices.
+    const bool isHidden = mesh.hasWedges() && std::ranges::any_of(mesh.wedgeAttributes, [&](const auto& w) {
+                            return w.name == a.name;
+                          });
+    if (!isHidden) take(a, false);
+  }
+  values_.resize(components_ * drawn);
+  for (std::size_t i = 0; i < drawn; ++i)
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+      const Source& s = sources[k];
+      const std::size_t element = s.ofWedges || !mesh.hasWedges() ? i : vertexOf[i];
+      std::vector<double> numbers = s.distance.values(*s.attribute, element);
+      if (entries_[k].kind == Entry::Kind::direction) {
+        const double length = std::hypot(numbers[0], numbers[1], numbers[2]);
+        if (length > 0)
+          for (double& n : numbers) n /= length;
+      }
+      std::copy_n(numbers.begin(), entries_[k].count,
+                  values_.begin() + std::ptrdiff_t(components_ * i + entries_[k].first));
+    }
+  for (Entry& e : entries_) {
+    if (e.kind == Entry::Kind::labels) continue;
+    double squares = 0, widest = 0;
+    for (std::size_t c = 0; c < e.count; ++c) {
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (std::size_t i = 0; i < drawn; ++i) {
+        const double x = values_[components_ * i + e.first + c];
+        if (!std::isfinite(x)) continue;
+        low = std::min(low, x);
+        high = std::max(high, x);
+      }
+      if (!(low < high)) continue;
+      squares += (high - low) * (high - low);
+      widest = std::max(widest, high - low);
+    }
+    e.largest = e.kind == Entry::Kind::direction ? 180 : std::min(std::sqrt(squares), 1e36);
+    if (e.kind == Entry::Kind::color)
+      e.length = kRangeAsPart * diagonal / 255;
+    else if (e.kind == Entry::Kind::direction)
+      e.length = kRightAngleAsPart * diagonal / 90;
+    else if (widest > 0)
+      e.length = kRangeAsPart * diagonal / widest;
+    const Attribute& a = *sources[std::size_t(&e - entries_.data())].attribute;
+    if (a.meaning != AttributeMeaning::textureCoords || e.count < 2) continue;
+    double inSpace = 0, inPicture = 0;
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      const Corners& t = faces_[f];
+      const auto uv = [&](std::size_t i) {
+        const auto v = at(cornersOf(std::uint32_t(f))[i]);
+        return Vec3{v[e.first], v[e.first + 1], 0};
+      };
+      const double covered = areaOf(uv(0), uv(1), uv(2));
+      if (!std::isfinite(covered) || !(covered > 0)) continue;
+      inPicture += covered;
+      inSpace += areaOf(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+    }
+    if (inPicture > 0) e.length = std::sqrt(inSpace / inPicture);
+  }
+  if (!mesh.hasWedges()) return;
+  chartOf_ = chartsOf(mesh);
+  // The wedges of each vertex, each with one of its faces: a wedge is of one chart.
+  std::vector<std::uint32_t> faceOf(mesh.wedgeCount, MeshAttributes::kNone);
+  for (std::uint32_t f = 0; f < mesh.wedges.size(); ++f)
+    for (const std::uint32_t w : mesh.wedges[f]) faceOf[w] = f;
+  wedgeBegin_.assign(mesh.positions.size() + 1, 0);
+  for (std::uint32_t w = 0; w < mesh.wedgeCount; ++w)
+    if (faceOf[w] != MeshAttributes::kNone) ++wedgeBegin_[vertexOf[w] + 1];
+  for (std::size_t v = 0; v + 1 < wedgeBegin_.size(); ++v) wedgeBegin_[v + 1] += wedgeBegin_[v];
+  wedgesAt_.resize(wedgeBegin_.back());
+  faceAt_.resize(wedgeBegin_.back());
+  std::vector<std::uint32_t> next(wedgeBegin_.begin(), wedgeBegin_.end() - 1);
+  for (std::uint32_t w = 0; w < mesh.wedgeCount; ++w)
+    if (faceOf[w] != MeshAttributes::kNone) {
+      wedgesAt_[next[vertexOf[w]]] = w;
+      faceAt_[next[vertexOf[w]]++] = faceOf[w];
+    }
+}
+
+void AttributeField::mean(const Corners& drawn, const std::array<double, 3>& shares,
+                          std::span<double> to) const {
+  const auto a = at(drawn[0]), b = at(drawn[1]), c = at(drawn[2]);
+  // A corner is itself, to the bit, whatever the others are.
+  for (std::size_t i = 0; i < 3; ++i)
+    if (shares[i] == 1) {
+      std::ranges::copy(at(drawn[i]), to.begin());
+      return;
+    }
+  for (std::size_t i = 0; i < components_; ++i)
+    to[i] = shares[0] * a[i] + shares[1] * b[i] + shares[2] * c[i];
+}
+
+std::vector<std::uint32_t> AttributeField::drawnOf(std::uint32_t vertex, std::uint32_t face) const {
+  if (!hasWedges()) return {vertex};
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t i = wedgeBegin_[vertex]; i < wedgeBegin_[vertex + 1]; ++i)
+    if (chartOf_.empty() || chartOf_[faceAt_[i]] == chartOf_[face]) found.push_back(wedgesAt_[i]);
+  return found;
+}
+
+double AttributeField::weighedSquares(std::span<const double> a, std::span<const double> b) const {
+  double sum = 0;
+  for (const Entry& e : entries_) {
+    if (e.length == 0) continue;
+    double squares = 0;
+    for (std::size_t i = e.first; i < e.first + e.count; ++i) squares += (a[i] - b[i]) * (a[i] - b[i]);
+    // The chord between two unit vectors is about their angle in radians.
+    constexpr double kDegrees = 57.29577951308232;
+    const double unit = e.kind == Entry::Kind::direction ? kDegrees * e.length : e.length;
+    if (std::isfinite(squares)) sum += unit * unit * squares;
+  }
+  return sum;
+}
+
+}  // namespace arete
