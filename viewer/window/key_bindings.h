@@ -20,6 +20,7 @@ enum class Action {
   contours,
   freeze,
   geomorph,
+  parallel,
   colorUsual,
   colorSlope,
   colorAspect,
