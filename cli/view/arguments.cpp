@@ -97,6 +97,23 @@ Result<Turn> ViewpointArguments::turnAngles() const {
   return Turn{angles[0], angles[1], angles[2]};
 }
 
+void ViewpointArguments::addBesideTo(CLI::App& command) {
+  const std::string group = "Two models";
+  CLI::Option* other =
+      command
+          .add_option(
+              "--beside", beside,
+              "Show another file of the same kind beside it, under the same camera, in the coordinates "
+              "of both; error=E or triangles=N: it is drawn at this level, whatever the camera sees")
+          ->type_name("FILE[,KEY=VALUE]")
+          ->group(group);
+  command
+      .add_flag("--distances", hasDistances,
+                "Of two surfaces: colour each by how far its vertices are from the other, at full resolution")
+      ->needs(other)
+      ->group(group);
+}
+
 void DetailArguments::addTo(CLI::App& command, OptionKinds& kinds) {
   const std::string group = "Detail";
   command.add_option("--pixel-error", pixelError, "Largest error in the picture, in pixels (default 1)")
@@ -345,6 +362,7 @@ void ViewArguments::addTo(CLI::App& command) {
       ->required()
       ->type_name("");
   viewpoint.addTo(command, kinds);
+  viewpoint.addBesideTo(command);
   detail.addTo(command, kinds);
   appearance.addTo(command, kinds);
   pictures.addTo(command);

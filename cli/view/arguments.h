@@ -25,15 +25,18 @@ namespace arete {
 
 /// Where the picture is taken from.
 struct ViewpointArguments {
-  std::string camera;  ///< "X,Y,H[,AZIMUTH,PITCH[,FOV]]"; empty = `home`
-  std::string home;    ///< name of a view of the whole terrain; empty = overview
-  std::string path;    ///< file of a flight; empty = none
-  std::string up;      ///< of a surface: the axis that points up; empty: as the file says
-  std::string turn;    ///< of a surface: "HEADING,PITCH,ROLL"; empty: as it is
+  std::string camera;         ///< "X,Y,H[,AZIMUTH,PITCH[,FOV]]"; empty = `home`
+  std::string home;           ///< name of a view of the whole terrain; empty = overview
+  std::string path;           ///< file of a flight; empty = none
+  std::string up;             ///< of a surface: the axis that points up; empty: as the file says
+  std::string beside;         ///< another file of the same kind, drawn beside it; empty: none
+  bool hasDistances = false;  ///< the two are coloured by how far each is from the other
+  std::string turn;           ///< of a surface: "HEADING,PITCH,ROLL"; empty: as it is
   bool isLonLat = false, isRound = false, isParallel = false;
   double parallelHeight = 0;  ///< of a parallel picture; 0: as the view of the whole, or what is ahead, takes
 
   void addTo(CLI::App& command, OptionKinds& kinds);
+  void addBesideTo(CLI::App& command);
   bool statesCamera() const { return !camera.empty() || !home.empty(); }
   HomeView homeView() const;
   /// Errors: usage: not three numbers.

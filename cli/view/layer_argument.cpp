@@ -24,13 +24,6 @@ tl::unexpected<Error> wrong(std::string message, const std::string& text) {
   return failure(ErrorCode::usage, std::move(message), text);
 }
 
-std::optional<double> numberIn(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 /// Where ",word=" begins in a text at or behind `from`, and where its value does.
 struct Key {
   std::size_t begin, value;
@@ -82,6 +75,13 @@ Result<FileWithKeys> readFileWithKeys(const std::string& text, const std::vector
     key = next;
   }
   return read;
+}
+
+std::optional<double> numberIn(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
 }
 
 Result<double> readOpacity(const std::string& text, std::string_view key) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,9 @@ struct FileWithKeys {
 ///
 /// Errors, with the text as culprit: usage: an unknown key or one stated twice; lists the keys.
 Result<FileWithKeys> readFileWithKeys(const std::string& text, const std::vector<std::string_view>& keys);
+
+/// The number that a whole text states, or nothing.
+std::optional<double> numberIn(std::string_view text);
 
 /// A number of 0 to 1. Errors: usage.
 Result<double> readOpacity(const std::string& text, std::string_view key = "opacity");

@@ -18,6 +18,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/view/arguments.h"
+#include "cli/view/beside.h"
 #include "cli/view/pictures.h"
 #include "cli/view/viewed.h"
 #include "cli/view/window_script.h"
@@ -86,7 +87,7 @@ Status refuseOtherKinds(const ViewArguments& a, ModelKind kind) {
 Status refuseForScenes(const ViewArguments& a, const OpenScene& scene) {
   for (const auto& [option, text] :
        {std::pair{"--turn ", a.viewpoint.turn}, std::pair{"--up ", a.viewpoint.up}})
-    if (!text.empty())
+    if (!text.empty() && (a.viewpoint.beside.empty() || option == std::string_view("--turn ")))
       return failure(ErrorCode::usage, "is of one surface; a scene states it for each of its objects",
                      option + text);
   return scene.terrain ? Status() : refuseOtherKinds(a, ModelKind::surface);
@@ -126,6 +127,12 @@ Result<std::optional<Opened>> openModelOf(const ViewArguments& a, std::optional<
   const bool mayBuild = !file && !isSceneFile(a.model);
   std::optional<Opening> opening;
   const auto openIt = [&](const RunContext& context) -> Status {
+    if (!a.viewpoint.beside.empty()) {
+      ARETE_TRY(OpenScene both, openBeside(a, context));
+      Warnings warnings = std::move(both.warnings);
+      opening = Opening{.opened = std::move(both), .warnings = std::move(warnings)};
+      return {};
+    }
     ARETE_TRY(opening, open(a.model, std::move(file), context));
     return {};
   };
@@ -255,11 +262,16 @@ Status runView(ViewArguments a, Session& session) {
   ARETE_TRY(ViewSettings settings, a.settings(subject.colorings()));
   settings.maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);
   settings.look.colors = viewed.colors;
+  if (a.viewpoint.hasDistances) {
+    settings.look.coloring = Coloring::material;
+    settings.look.surface.hasTextures = settings.look.surface.hasMaterialColors = false;
+    settings.look.surface.hasHighlights = false;
+  }
   ARETE_CHECK(subject.check(settings));
 
   // A home view depends on the shape of the picture, so its size comes first.
   Camera camera = viewed.camera.value_or(Camera());
-  camera.widthPixels = size.first;
+  camera.widthPixels = a.viewpoint.beside.empty() ? size.first : size.first / 2.0;
   camera.heightPixels = size.second;
   if (a.viewpoint.statesParallel()) camera.parallelHeight = heightAhead(camera, subject);
   if (!viewed.camera) camera = subject.home(a.viewpoint.homeView(), camera, settings);
@@ -310,6 +322,7 @@ Status runView(ViewArguments a, Session& session) {
   Json json = {{"model", a.model}, {"kind", subject.kind()}, {"renderer", view.description()}};
   a.detail.addBudgetTo(json, viewed.finestTriangles);
   if (!viewed.ground->is_null()) json["heights"] = *viewed.ground;
+  if (!viewed.distances->is_null()) json["distances"] = *viewed.distances;
   if (viewed.layers) viewed.layers->describe(view.scene(), json);
   if (!a.pictures.screenshot.empty()) {
     ARETE_CHECK(takeScreenshot(a, start, view, session, json));

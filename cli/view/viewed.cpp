@@ -14,8 +14,10 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/surface/camera.h"
+#include "cli/view/beside.h"
 #include "io/geo/crs/data_unit.h"
 #include "io/query/extract/camera_argument.h"
+#include "viewer/beside/distance_colors.h"
 #include "viewer/gl/terrain_drawable.h"
 #include "viewer/heights/contour_labels.h"
 #include "viewer/layers/contour_heights.h"
@@ -210,7 +212,12 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
     ARETE_TRY(viewed.camera, statedCamera(a, parts->all->space(), [](const Vec3& p) { return p; }));
   }
 
-  viewed.addModel = [&a, &session, parts, addGround](Scene& shown) -> Status {
+  viewed.addModel = [&a, &session, parts, addGround, distances = viewed.distances](Scene& shown) -> Status {
+    ColoredDistances colored;
+    if (a.viewpoint.hasDistances) {
+      ARETE_TRY(colored, distancesOf(parts->scene, session.context()));
+      *distances = colored.json;
+    }
     std::map<std::pair<std::size_t, bool>, std::shared_ptr<SurfaceAssets>> assets;
     for (std::size_t i = 0; i < parts->subjects.size(); ++i) {
       const PlacedObject& object = parts->scene.objects[i];
@@ -228,13 +235,20 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
         continue;
       }
       const auto& subject = parts->surfaces[i];
-      auto& shared = assets[{object.model, object.isYUp}];
+      std::shared_ptr<SurfaceAssets> own;  // colours are of one object
+      auto& shared = a.viewpoint.hasDistances ? own : assets[{object.model, object.isYUp}];
       if (!shared) {
-        ARETE_TRY(shared, SurfaceAssets::create(subject->model(), subject->upright()));
+        ARETE_TRY(shared, SurfaceAssets::create(
+                              subject->model(), subject->upright(),
+                              a.viewpoint.hasDistances ? colored.colors[i] : std::vector<std::uint8_t>()));
       }
       ARETE_CHECK(shown.add(std::make_unique<SurfaceDrawable>(shared, subject),
                             shownObjectOf(parts->scene.file.objects[i])));
     }
+    if (!a.viewpoint.beside.empty())
+      for (std::size_t i = 0; i < shown.objects().size(); ++i) shown.objects()[i].pane = int(i);
+    if (a.viewpoint.hasDistances)
+      shown.layers.put(kDistanceLayer, SpaceVertices{}).legend = std::move(colored.legend);
     return {};
   };
   return viewed;

@@ -36,6 +36,8 @@ struct Viewed {
   WriteHeights heightsOfContours = {};               ///< as addModel; empty of a surface
   /// Of the heights on the device; null until the model is added, and of a surface.
   std::shared_ptr<Json> ground = std::make_shared<Json>();
+  /// Of two surfaces beside each other; null until they are added, and where none were asked for.
+  std::shared_ptr<Json> distances = std::make_shared<Json>();
 };
 
 /// What `arete view` opens.

@@ -129,7 +129,14 @@ std::vector<std::uint8_t> colorsOf(const SurfaceModel& model, const std::vector<
 
 }  // namespace
 
-DrawnVertices drawnVertices(const SurfaceModel& model, const ZUpFrame& upright) {
+std::vector<Vec3> drawnPlaces(const SurfaceModel& model) {
+  std::vector<Vec3> places;
+  for (const std::uint32_t v : verticesOfDrawn(model)) places.push_back(model.mt.position(VertexId(v)));
+  return places;
+}
+
+DrawnVertices drawnVertices(const SurfaceModel& model, const ZUpFrame& upright,
+                            std::vector<std::uint8_t> colors) {
   const std::vector<std::uint32_t> vertexOf = verticesOfDrawn(model);
   DrawnVertices drawn;
   drawn.positions.reserve(3 * vertexOf.size());
@@ -141,7 +148,7 @@ DrawnVertices drawnVertices(const SurfaceModel& model, const ZUpFrame& upright) 
   drawn.normals = std::move(normals.stated);
   drawn.smoothNormals = std::move(normals.smooth);
   drawn.textureCoords = textureCoordsOf(model, vertexOf);
-  drawn.colors = colorsOf(model, vertexOf);
+  drawn.colors = colors.empty() ? colorsOf(model, vertexOf) : std::move(colors);
   return drawn;
 }
 

@@ -21,7 +21,10 @@ struct DrawnVertices {
   std::size_t size() const { return positions.size() / 3; }
 };
 
-/// O(vertices + triangles of the MT).
-DrawnVertices drawnVertices(const SurfaceModel& model, const ZUpFrame& upright);
+/// O(vertices + triangles of the MT). `colors`: 4 bytes a drawn vertex, instead of the model's.
+DrawnVertices drawnVertices(const SurfaceModel& model, const ZUpFrame& upright,
+                            std::vector<std::uint8_t> colors = {});
+/// The places of the drawn vertices in the file.
+std::vector<Vec3> drawnPlaces(const SurfaceModel& model);
 
 }  // namespace arete

@@ -5,6 +5,7 @@
 #include "viewer/gl/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -89,22 +90,50 @@ Result<FrameFigures> Scene::cut(const Camera& camera, const ViewSettings& settin
   return sum;
 }
 
+int Scene::panes() const {
+  int most = 0;
+  for (const ShownObject& object : objects()) most = std::max(most, object.pane);
+  return most + 1;
+}
+
 Status Scene::draw(const Camera& camera, const ViewSettings& settings) {
   for (const Layer& layer : layers.list())
     if (layer.isVisible) ARETE_CHECK(subject().check(layer));
+  const int count = panes();
+  if (count == 1) return drawPane(0, camera, settings);
+  std::array<GLint, 4> whole{};
+  glGetIntegerv(GL_VIEWPORT, whole.data());
+  Status drawn;
+  for (int pane = 0; pane < count && drawn; ++pane) {
+    const GLint from = whole[2] * pane / count, to = whole[2] * (pane + 1) / count;
+    glViewport(whole[0] + from, whole[1], to - from, whole[3]);
+    drawn = drawPane(pane, camera, settings);
+  }
+  glViewport(whole[0], whole[1], whole[2], whole[3]);
+  glEnable(GL_SCISSOR_TEST);
+  glClearColor(0.2f, 0.2f, 0.2f, 1);
+  for (int pane = 1; pane < count; ++pane) {
+    glScissor(whole[0] + whole[2] * pane / count - 1, whole[1], 2, whole[3]);
+    glClear(GL_COLOR_BUFFER_BIT);
+  }
+  glDisable(GL_SCISSOR_TEST);
+  return drawn;
+}
+
+Status Scene::drawPane(int pane, const Camera& camera, const ViewSettings& settings) {
   const ViewSettings shared = sharedOf(settings);
   for (std::size_t i = 0; i < drawables_.size(); ++i) {
-    if (!objects()[i].isShown) continue;
+    if (!isIn(pane, i)) continue;
     const bool isGround = drawables_[i]->subject().isTerrain();
     ARETE_CHECK(
         drawables_[i]->draw(camera, settingsOf(i, shared),
                             isGround ? std::span<const Layer>(layers.list()) : std::span<const Layer>()));
   }
-  drawBackground(settings);
-  ARETE_CHECK(drawBlended(camera, shared));
+  drawBackground(pane, settings);
+  ARETE_CHECK(drawBlended(pane, camera, shared));
   for (const Layer& layer : layers.list()) {
     const auto* space = std::get_if<SpaceVertices>(&layer.content);
-    if (!space || !layer.isVisible) continue;
+    if (!space || !layer.isVisible || space->vertices.empty()) continue;
     ARETE_TRY(const FrameView frame, frameOf(camera, settings));
     SpaceVertices drawn = *space;
     for (auto& vertex : drawn.vertices) vertex.place = subject().drawn(vertex.place, settings);
@@ -126,14 +155,13 @@ Result<FrameView> Scene::frameOf(const Camera& camera, const ViewSettings& setti
 }
 
 // The farthest object first, by the middle of its box.
-Status Scene::drawBlended(const Camera& camera, const ViewSettings& shared) {
+Status Scene::drawBlended(int pane, const Camera& camera, const ViewSettings& shared) {
   ARETE_TRY(const View view, subject().viewOf(camera, shared));
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < drawables_.size(); ++i) {
     const Subject& object = drawables_[i]->subject();
     // A further terrain has a space of its own; terrain is not blended.
-    if (objects()[i].isShown)
-      order.push_back({-norm(object.drawn(object.box().centre(), shared) - view.eye), i});
+    if (isIn(pane, i)) order.push_back({-norm(object.drawn(object.box().centre(), shared) - view.eye), i});
   }
   std::ranges::sort(order);
   for (const auto& [distance, i] : order)
@@ -142,11 +170,10 @@ Status Scene::drawBlended(const Camera& camera, const ViewSettings& shared) {
 }
 
 // A terrain that is hidden has set no frame, so its sky is not drawn.
-void Scene::drawBackground(const ViewSettings& settings) {
+void Scene::drawBackground(int pane, const ViewSettings& settings) {
   const auto shown = [&](bool isTerrain) -> Drawable* {
     for (std::size_t i = 0; i < drawables_.size(); ++i)
-      if (objects()[i].isShown && drawables_[i]->subject().isTerrain() == isTerrain)
-        return drawables_[i].get();
+      if (isIn(pane, i) && drawables_[i]->subject().isTerrain() == isTerrain) return drawables_[i].get();
     return nullptr;
   };
   for (Drawable* const drawable : {shown(true), shown(false)})

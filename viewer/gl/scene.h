@@ -23,6 +23,7 @@ struct ShownObject {
   double toleranceFactor = 1;           ///< its tolerance in pixels is the scene's times this, > 0
   std::optional<HandLevel> level = {};  ///< nothing: by the view
   bool isShown = true;
+  int pane = 0;               ///< of the scene's panes, from the left: where it is drawn
   FrameFigures figures = {};  ///< of its last cut
 };
 
@@ -37,6 +38,9 @@ class Scene {
   /// a scene. Errors: usage: a surface that stands nowhere beside another model.
   Status add(std::unique_ptr<Drawable> drawable, ShownObject object = {});
   const std::vector<std::unique_ptr<Drawable>>& drawables() const { return drawables_; }
+  /// How many parts of equal width the picture has, side by side under one camera, whose picture is one
+  /// of them.
+  int panes() const;
   /// By model.
   std::vector<ShownObject>& objects() { return *objects_; }
   const std::vector<ShownObject>& objects() const { return *objects_; }
@@ -68,8 +72,12 @@ class Scene {
   ViewSettings sharedOf(const ViewSettings& settings) const;
   /// What one model is drawn with. `shared`: sharedOf().
   ViewSettings settingsOf(std::size_t model, const ViewSettings& shared) const;
-  void drawBackground(const ViewSettings& settings);
-  Status drawBlended(const Camera& camera, const ViewSettings& shared);
+  Status drawPane(int pane, const Camera& camera, const ViewSettings& settings);
+  void drawBackground(int pane, const ViewSettings& settings);
+  bool isIn(int pane, std::size_t model) const {
+    return objects()[model].isShown && objects()[model].pane == pane;
+  }
+  Status drawBlended(int pane, const Camera& camera, const ViewSettings& shared);
   /// The layers that draw themselves.
   Status drawContents(const Camera& camera, const ViewSettings& settings);
   std::vector<std::unique_ptr<Drawable>> drawables_;

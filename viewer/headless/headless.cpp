@@ -60,7 +60,7 @@ Result<HeadlessView> HeadlessView::create(const TerrainModel& model, const Headl
 
 Result<FrameFigures> HeadlessView::draw(const Camera& stated, const RunContext& context) {
   Camera camera = stated;
-  camera.widthPixels = target_.width();
+  camera.widthPixels = double(target_.width()) / scene_.panes();
   camera.heightPixels = target_.height();
   ViewSettings settings = settings_;
   settings.waits = true;

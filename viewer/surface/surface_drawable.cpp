@@ -17,9 +17,10 @@ Result<SurfaceDrawable> SurfaceDrawable::create(const SurfaceModel& model,
 }
 
 Result<std::shared_ptr<SurfaceAssets>> SurfaceAssets::create(const SurfaceModel& model,
-                                                             const ZUpFrame& upright) {
+                                                             const ZUpFrame& upright,
+                                                             std::vector<std::uint8_t> colors) {
   ARETE_TRY(SurfacePainter painter, SurfacePainter::create());
-  auto drawn = std::make_shared<const DrawnVertices>(drawnVertices(model, upright));
+  auto drawn = std::make_shared<const DrawnVertices>(drawnVertices(model, upright, std::move(colors)));
   SurfaceOnGpu vertices = uploadSurface(*drawn);
   return std::make_shared<SurfaceAssets>(
       SurfaceAssets{std::move(drawn), std::move(vertices), MaterialsOnGpu::load(model), std::move(painter)});

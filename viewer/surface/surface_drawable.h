@@ -19,8 +19,10 @@ namespace arete {
 
 /// What all objects of one surface share in an OpenGL context.
 struct SurfaceAssets {
-  /// The model outlives it. Errors: unsupported. O(size of the model).
-  static Result<std::shared_ptr<SurfaceAssets>> create(const SurfaceModel& model, const ZUpFrame& upright);
+  /// The model outlives it. `colors`: as drawnVertices() takes them. Errors: unsupported. O(size of the
+  /// model).
+  static Result<std::shared_ptr<SurfaceAssets>> create(const SurfaceModel& model, const ZUpFrame& upright,
+                                                       std::vector<std::uint8_t> colors = {});
 
   std::shared_ptr<const DrawnVertices> drawn;
   SurfaceOnGpu vertices;

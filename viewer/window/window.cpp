@@ -131,7 +131,13 @@ class WindowLoop {
     // the picture shows it.
     const ImGuiIO& io = ImGui::GetIO();
     GlfwWindow::Events events = window_.poll(io.WantCaptureMouse, io.WantCaptureKeyboard);
-    session_.rig.setPicture(width, height);
+    const double pane = double(width) / scene_.panes();
+    session_.rig.setPicture(pane, height);
+    // One camera for all panes: a mouse in one is at the same place of each.
+    if (pane < width) {
+      events.input.mouse.x = std::fmod(events.input.mouse.x, pane);
+      if (events.click) events.click->x = std::fmod(events.click->x, pane);
+    }
     for (const Action action : events.actions) session_.apply(action);
     if (events.click) session_.click(*events.click);
     if (!events.dropped.empty()) session_.files.next = events.dropped.front();

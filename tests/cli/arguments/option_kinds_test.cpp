@@ -172,6 +172,8 @@ const std::map<std::string, Tried>& triedCommands() {
          {"--round", {"--round"}},
          {"--up", {"--up y"}},
          {"--turn", {"--turn 30,20,10"}},
+         {"--beside", {"--beside dem.amt", "", "--beside ball.amt"}},
+         {"--distances", {"--distances", "", "--distances --beside ball.amt"}},
          {"--parallel", {"--parallel"}},
          {"--parallel-height", {"--parallel-height 3"}},
          {"--without", {"--without materials"}},
