@@ -16,7 +16,6 @@
 #include "cli/arguments/criterion.h"
 #include "io/files/text_scan.h"
 #include "viewer/headless/headless.h"
-#include "viewer/looks/space_marks.h"
 
 namespace arete {
 namespace {
@@ -251,12 +250,6 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
       command.add_flag("--curvature", isCurved, "Draw the curvature of the Earth, by the CRS's ellipsoid")
           ->group(group));
   surface.addTo(command, group, kinds);
-  command
-      .add_option("--show", marks,
-                  "Show axes (of the file: red x, green y, blue z, with ticks), a grid below the model; both "
-                  "with a comma")
-      ->type_name("axes,grid")
-      ->group(group);
   command.add_flag("--wireframe", hasWireframe, "Draw the edges of the triangles")->group(group);
   command.add_flag("--unshaded", isUnshaded, "Draw without sunlight")->group(group);
   command
@@ -277,20 +270,6 @@ Result<DrapeOptions> AppearanceArguments::drapeOptions() const {
     options.read.bands.push_back(static_cast<int>(n));
   }
   return options;
-}
-
-Status AppearanceArguments::layMarks(Scene& scene) const {
-  if (marks.empty()) return {};
-  for (std::string_view rest = marks;;) {
-    const std::size_t comma = std::min(rest.find(','), rest.size());
-    const std::string_view word = rest.substr(0, comma);
-    if (word != kAxesLayer && word != kGridLayer)
-      return failure(ErrorCode::usage, "must be axes, grid, or both with a comma", "--show " + marks);
-    scene.layers.put(std::string(word),
-                     word == kAxesLayer ? axesOf(scene.subject()) : groundGridOf(scene.subject()));
-    if (comma == rest.size()) return {};
-    rest.remove_prefix(comma + 1);
-  }
 }
 
 Result<ViewLook> AppearanceArguments::look(std::span<const Coloring> colorings) const {

@@ -16,7 +16,6 @@
 #include "engine/base/similarity.h"
 #include "viewer/camera/home_view.h"
 #include "viewer/gl/drape_on_gpu.h"
-#include "viewer/gl/scene.h"
 #include "viewer/scene/subject.h"
 
 namespace arete {
@@ -71,7 +70,6 @@ struct AppearanceArguments {
   std::int64_t groundMebibytes = 512;          ///< of heights on the device
   std::string contoursWithUnit, hazeWithUnit;  // "OPTION TEXT"; then contours are in metres
   bool hasWireframe = false, isUnshaded = false, isCurved = false;
-  std::string marks;            ///< "axes,grid"; empty: none
   bool isPlainPicture = false;  ///< without legend, scale bar, north arrow and graticule
   ColorArguments colors;
   SurfaceLookArguments surface;
@@ -82,8 +80,6 @@ struct AppearanceArguments {
   /// @param colorings of the model, the usual one first.
   /// Errors: usage: `sun` is not two angles; as SurfaceLookArguments::look().
   Result<ViewLook> look(std::span<const Coloring> colorings) const;
-  /// Lays what `marks` names. Errors: usage: a word that is not in the list.
-  Status layMarks(Scene& scene) const;
 };
 
 /// Pictures and films, and the size of the window.

@@ -256,24 +256,11 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
 
 }  // namespace
 
-namespace {
-
-Result<Viewed> viewedModel(const ViewArguments& a, Opened opened, Session& session) {
+Result<Viewed> viewedOf(const ViewArguments& a, Opened opened, Session& session) {
   if (auto* terrain = std::get_if<TerrainModel>(&opened))
     return viewedTerrain(a, std::make_shared<const TerrainModel>(std::move(*terrain)), session);
   if (auto* surface = std::get_if<SurfaceModel>(&opened)) return viewedSurface(a, std::move(*surface));
   return viewedScene(a, std::get<OpenScene>(std::move(opened)), session);
-}
-
-}  // namespace
-
-Result<Viewed> viewedOf(const ViewArguments& a, Opened opened, Session& session) {
-  ARETE_TRY(Viewed viewed, viewedModel(a, std::move(opened), session));
-  viewed.addModel = [&a, addModel = std::move(viewed.addModel)](Scene& scene) -> Status {
-    ARETE_CHECK(addModel(scene));
-    return a.appearance.layMarks(scene);
-  };
-  return viewed;
 }
 
 }  // namespace arete

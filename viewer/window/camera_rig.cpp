@@ -125,13 +125,6 @@ void CameraRig::setParallelHeight(double metres) {
   enter(camera_);
 }
 
-std::optional<OrbitCamera::Orbit> CameraRig::orbit() const {
-  if (mode_ != CameraMode::orbit) return std::nullopt;
-  OrbitCamera::Orbit orbit = orbit_.orbit();
-  orbit.target.z /= stretch_;
-  return orbit;
-}
-
 void CameraRig::setStretch(double stretch) {
   if (stretch == stretch_) return;
   // What is orbited stays in the middle, at its own height.

@@ -52,8 +52,6 @@ class CameraRig {
   /// The lowest height above the ground in metres; 0 = no limit.
   double floorMetres() const { return floorMetres_; }
   void setFloorMetres(double metres);
-  /// What the camera orbits, in metric space as it is drawn without exaggeration; nothing in free flight.
-  std::optional<OrbitCamera::Orbit> orbit() const;
   /// Of free flight, metres per second.
   double metresPerSecond() const { return metresPerSecond_; }
   void setMetresPerSecond(double speed);

@@ -25,7 +25,6 @@ constexpr std::array kKeys = {
     KeyBinding{GLFW_KEY_C, false, Action::contours, "C", "contour lines", "contours are for terrain"},
     KeyBinding{GLFW_KEY_Z, false, Action::freeze, "Z", "freeze the cut"},
     KeyBinding{GLFW_KEY_G, false, Action::geomorph, "G", "geomorphing"},
-    KeyBinding{GLFW_KEY_KP_5, false, Action::parallel, "keypad 5", "parallel projection and back"},
     KeyBinding{GLFW_KEY_1, false, Action::colorUsual, "1", "colour by height; a surface by material"},
     KeyBinding{GLFW_KEY_2, false, Action::colorSlope, "2", "colour by slope",
                "colours by slope are for terrain"},

@@ -20,7 +20,6 @@ enum class Action {
   contours,
   freeze,
   geomorph,
-  parallel,
   colorUsual,
   colorSlope,
   colorAspect,

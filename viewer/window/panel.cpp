@@ -147,12 +147,6 @@ void Panel::lookSection(ViewerSession& s) {
   ImGui::Checkbox("shading", &look.isShaded);
   ImGui::SameLine(9.5f * em());
   ImGui::Checkbox("wireframe", &look.hasWireframe);
-  ImGui::Checkbox("axes", &s.shows.axes);
-  ImGui::SameLine(9.5f * em());
-  ImGui::Checkbox("grid", &s.shows.grid);
-  ImGui::SameLine(19 * em());
-  ImGui::Checkbox("orbit", &s.shows.orbit);
-  tip("Axes of the file (red x, green y, blue z), a grid below the model, what the camera orbits.");
   if (look.isShaded) {
     Sun sun = look.sun.value_or(Sun{});
     const bool isTurned = slider("sun azimuth", sun.azimuthDegrees, 0, 360, "%.0f°");

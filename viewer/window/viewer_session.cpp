@@ -47,8 +47,6 @@ ViewerSession::ViewerSession(const Subject& shown, Layers& shownLayers, const St
   if (const TerrainSubject* const terrain = shown.terrain()) tools.emplace(*terrain, layers);
   files.flight = start.flightPath;
   shows.decorations = start.showsDecorations;
-  shows.axes = layers.find(kAxesLayer) != nullptr;
-  shows.grid = layers.find(kGridLayer) != nullptr;
   rig.setStretch(settings.stretch);
   settings.waits = false;
   if (start.flight) deck.setPlan(*start.flight);
@@ -165,12 +163,6 @@ void ViewerSession::layMarks() {
     flight.addLine(subject.space().position(keys[i - 1]), subject.space().position(keys[i]),
                    {250, 200, 60, 255});
   lay(kMarks[1], std::move(flight));
-  if (shows.axes != (layers.find(kAxesLayer) != nullptr))
-    lay(kAxesLayer, shows.axes ? axesOf(subject) : SpaceVertices{});
-  if (shows.grid != (layers.find(kGridLayer) != nullptr))
-    lay(kGridLayer, shows.grid ? groundGridOf(subject) : SpaceVertices{});
-  const auto orbit = rig.orbit();
-  lay(kOrbitLayer, shows.orbit && orbit ? orbitMark(orbit->target, orbit->radius) : SpaceVertices{});
   lay(kMarks[2], frozen && shows.frustum
                      ? frustumEdges(subject.space(), *frozen, subject.box().diagonal() / 2, settings.stretch)
                      : SpaceVertices{});
@@ -226,11 +218,6 @@ void ViewerSession::apply(Action action) {
       break;
     case Action::freeze:
       isFrozen = !isFrozen;
-      break;
-    case Action::parallel:
-      if (settings.isCurved) return say("parallel projection shows the flat Earth");
-      rig.setParallel(!(rig.camera().parallelHeight > 0));
-      say(rig.camera().parallelHeight > 0 ? "parallel" : "perspective");
       break;
     case Action::geomorph:
       settings.isGeomorphed = !settings.isGeomorphed;

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "viewer/looks/space_marks.h"
 #include "viewer/objects/distance_picks.h"
 #include "viewer/objects/object_list.h"
 #include "viewer/panel/frame_history.h"
@@ -63,8 +62,8 @@ class ViewerSession {
   const std::string& message() const { return message_; }
 
   /// The layers that this window lays for its own hand, which no film has.
-  static constexpr std::array kMarks = {"line of sight",       "flight",        "frozen camera",
-                                        DistancePicks::kLayer, CropBox::kLayer, kOrbitLayer};
+  static constexpr std::array kMarks = {"line of sight", "flight", "frozen camera", DistancePicks::kLayer,
+                                        CropBox::kLayer};
 
   const Subject& subject;
   Layers& layers;
@@ -94,8 +93,7 @@ class ViewerSession {
   } device;
   struct Shows {
     bool panel = true, help = false, frustum = true;
-    bool decorations = true;                         ///< legend, scale bar, north arrow and graticule
-    bool axes = false, grid = false, orbit = false;  ///< viewer/looks/space_marks.h
+    bool decorations = true;  ///< legend, scale bar, north arrow and graticule
   } shows;
   struct Files {
     std::filesystem::path flight, framesFolder = "frames";
