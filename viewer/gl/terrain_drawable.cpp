@@ -186,7 +186,10 @@ std::optional<double> TerrainDrawable::drawnError(const Pick& pick, const Camera
   for (const std::uint32_t id : ids) {
     std::array<Vec2, 3> corners;
     const auto vertices = mt.corners(TriangleId(id));
-    for (std::size_t i = 0; i < 3; ++i) corners[i] = mt.vertices().plan[vertices[i]];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 p = mt.position(VertexId(vertices[i]));
+      corners[i] = {p.x, p.y};
+    }
     const auto side = [&](std::size_t i) {
       const Vec2 &a = corners[i], &b = corners[(i + 1) % 3];
       return (b.x - a.x) * (pick.plan.y - a.y) - (b.y - a.y) * (pick.plan.x - a.x);

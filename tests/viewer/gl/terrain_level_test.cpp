@@ -30,7 +30,7 @@ TEST(TerrainLevel, OfAnErrorIsTheCutOfThatErrorWhateverTheCameraAndTheExaggerati
   ASSERT_TRUE(view);
   const double largest = model.mt.largestError();
   for (const double stretch : {1.0, 3.0})
-    for (const double error : {largest / 3, largest / 30, largest / 300}) {
+    for (const double error : {largest / 3, largest / 60}) {
       ViewSettings settings;
       settings.stretch = stretch;
       settings.level = HandLevel{.error = error};
@@ -42,7 +42,7 @@ TEST(TerrainLevel, OfAnErrorIsTheCutOfThatErrorWhateverTheCameraAndTheExaggerati
         EXPECT_NEAR(double(figures->triangles), double(cut.triangles.size()), 0.01 * double(cut.ids.size()));
         EXPECT_TRUE(figures->isComplete);
         EXPECT_EQ(figures->moving, 0u);
-        EXPECT_EQ(whyNotConforming(readDrawn(*view)), "");
+        EXPECT_EQ(test::whyNotConforming(test::readDrawn(*view)), "");
       }
     }
 }
@@ -90,7 +90,7 @@ TEST(TerrainLevel, TheStoredErrorOfADrawnTriangleIsThatOfTheTriangleOverThePlace
     const double error = model.mt.largestError() / 20;
     if (isByHand) settings.level = HandLevel{.error = error};
     ASSERT_TRUE(view->cut(cameraOf(model, 5), settings));
-    const auto mesh = readDrawn(*view);
+    const auto mesh = test::readDrawn(*view);
     for (int i = 0; i < 50; ++i) {
       Pick pick;
       pick.plan = {double(3 + 5 * i), double(2 + 3 * i)};  // a sample

@@ -18,20 +18,20 @@
 namespace arete {
 namespace {
 
-constexpr int kSide = 160;
+constexpr int kErrorSide = 160;
 
-Result<HeadlessView> shown(const std::shared_ptr<SurfaceSubject>& subject, const ViewSettings& settings) {
+Result<HeadlessView> pictured(const std::shared_ptr<SurfaceSubject>& subject, const ViewSettings& settings) {
   return HeadlessView::create(
-      {.widthPixels = kSide, .heightPixels = kSide, .samples = 1, .settings = settings},
+      {.widthPixels = kErrorSide, .heightPixels = kErrorSide, .samples = 1, .settings = settings},
       [&](Scene& scene) -> Status {
         ARETE_TRY(SurfaceDrawable made, SurfaceDrawable::create(subject->model(), subject));
         return scene.add(std::make_unique<SurfaceDrawable>(std::move(made)));
       });
 }
 
-Camera pictureOf(const Subject& subject) {
+Camera wholeOf(const Subject& subject) {
   Camera picture;
-  picture.widthPixels = picture.heightPixels = kSide;
+  picture.widthPixels = picture.heightPixels = kErrorSide;
   return subject.home(HomeView::overview, picture, {});
 }
 
@@ -41,18 +41,19 @@ TEST(DrawnError, IsThatOfTheTriangleOfTheCutThatThePixelMeets) {
   for (const Turn& turn : {Turn{}, Turn{40, 20, 10}}) {
     const auto form = std::make_shared<const SurfaceForm>(model, ZUpFrame(model));
     const auto subject = std::make_shared<SurfaceSubject>(form, turn);
-    const ViewSettings settings;
-    auto view = shown(subject, settings);
+    ViewSettings settings;
+    settings.look.coloring = Coloring::material;
+    auto view = pictured(subject, settings);
     ASSERT_TRUE(view) << view.error().describe();
     ObjectList objects(view->scene());
-    const Camera camera = pictureOf(*subject);
+    const Camera camera = wholeOf(*subject);
     for (const double error : {0.2, 0.02}) {
       objects.setLevel(HandLevel{.error = error});
       ASSERT_TRUE(view->draw(camera));
       const Cut cut = *takeCut(model.mt, UniformError(error));
       int met = 0;
-      for (int y = 8; y < kSide; y += 12)
-        for (int x = 8; x < kSide; x += 12) {
+      for (int y = 8; y < kErrorSide; y += 12)
+        for (int x = 8; x < kErrorSide; x += 12) {
           const Vec2 pixel{x + 0.37, y + 0.41};
           const auto pick = subject->pick(camera, pixel, settings);
           const auto got = objects.drawnError(pick.value_or(Pick{}), camera, pixel, settings);
@@ -93,16 +94,17 @@ TEST(DrawnError, IsAlsoOfTrianglesThatMove) {
   const auto subject = std::make_shared<SurfaceSubject>(form, Turn{});
   ViewSettings settings;
   settings.pixels = 0.7;
-  auto view = shown(subject, settings);
+  settings.look.coloring = Coloring::material;
+  auto view = pictured(subject, settings);
   ASSERT_TRUE(view) << view.error().describe();
-  const Camera camera = pictureOf(*subject);
+  const Camera camera = wholeOf(*subject);
   const auto figures = view->draw(camera);
   ASSERT_TRUE(figures);
   ASSERT_GT(figures->moving, 0u);
   ObjectList objects(view->scene());
   int met = 0;
-  for (int y = 4; y < kSide; y += 8)
-    for (int x = 4; x < kSide; x += 8)
+  for (int y = 4; y < kErrorSide; y += 8)
+    for (int x = 4; x < kErrorSide; x += 8)
       if (const auto pick = subject->pick(camera, {double(x), double(y)}, settings))
         met += objects.drawnError(*pick, camera, {double(x), double(y)}, settings).has_value() ? 1 : 0;
   EXPECT_GT(met, 80);
@@ -118,10 +120,10 @@ TEST(KeptBox, TintsWhatLiesOutsideAndNothingElse) {
   ViewSettings settings;
   settings.look.coloring = Coloring::plain;
   settings.look.isShaded = false;
-  auto view = shown(subject, settings);
+  auto view = pictured(subject, settings);
   ASSERT_TRUE(view) << view.error().describe();
   Camera picture;
-  picture.widthPixels = picture.heightPixels = kSide;
+  picture.widthPixels = picture.heightPixels = kErrorSide;
   const Camera camera = subject->home(HomeView::fromAbove, picture, settings);
   ASSERT_TRUE(view->draw(camera));
   const Image plain = view->image();
@@ -132,8 +134,8 @@ TEST(KeptBox, TintsWhatLiesOutsideAndNothingElse) {
   ASSERT_TRUE(view->draw(camera));
   const Image tinted = view->image();
   int outside = 0, inside = 0;
-  for (int y = 0; y < kSide; y += 5)
-    for (int x = 0; x < kSide; x += 5) {
+  for (int y = 0; y < kErrorSide; y += 5)
+    for (int x = 0; x < kErrorSide; x += 5) {
       const auto pick = subject->pick(camera, {x + 0.5, y + 0.5}, settings);
       if (!pick || std::abs(pick->inObject.x - 2'600'004) < 0.1) continue;
       const Rgb before = plain.at(x, y), after = tinted.at(x, y);
