@@ -249,6 +249,12 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
   kinds.ofTerrain(
       command.add_flag("--curvature", isCurved, "Draw the curvature of the Earth, by the CRS's ellipsoid")
           ->group(group));
+  command
+      .add_option("--show", marks,
+                  "Marks in space among the models, with commas: axes (X red, Y green, Z blue, of the file), "
+                  "grid (level, with round spacing), orbit (the centre that the camera turns about)")
+      ->type_name("MARK,...")
+      ->group(group);
   surface.addTo(command, group, kinds);
   command.add_flag("--wireframe", hasWireframe, "Draw the edges of the triangles")->group(group);
   command.add_flag("--unshaded", isUnshaded, "Draw without sunlight")->group(group);
@@ -284,6 +290,17 @@ Result<ViewLook> AppearanceArguments::look(std::span<const Coloring> colorings) 
   if (sun.empty()) return look;
   ARETE_TRY(look.sun, readSun(sun));
   return look;
+}
+
+Result<SpaceMarks> AppearanceArguments::spaceMarks() const {
+  SpaceMarks shown;
+  if (marks.empty()) return shown;
+  static constexpr std::array<std::string_view, 3> kMarks{"axes", "grid", "orbit"};
+  ARETE_TRY(const auto words, wordsOf("--show", marks, kMarks));
+  shown.axes = words.contains("axes");
+  shown.grid = words.contains("grid");
+  shown.orbit = words.contains("orbit");
+  return shown;
 }
 
 void PictureArguments::addTo(CLI::App& command) {
@@ -392,6 +409,9 @@ Status ViewArguments::check() const {
   if (!appearance.sun.empty()) ARETE_CHECK(readSun(appearance.sun));
   ARETE_CHECK(appearance.surface.look());
   ARETE_CHECK(appearance.drapeOptions());
+  ARETE_TRY(const SpaceMarks marks, appearance.spaceMarks());
+  if (marks.orbit && p.isHeadless && p.screenshot.empty())
+    return refuse("orbit requires --screenshot; a flight turns about nothing", "--show " + appearance.marks);
   if (p.film.empty()) return {};
   // Drawing may take hours: a film that cannot be made is refused first.
   if (Status can = canEncodeFilm(p.film); !can)

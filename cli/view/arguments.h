@@ -16,6 +16,7 @@
 #include "engine/base/similarity.h"
 #include "viewer/camera/home_view.h"
 #include "viewer/gl/drape_on_gpu.h"
+#include "viewer/marks/space_marks.h"
 #include "viewer/scene/subject.h"
 
 namespace arete {
@@ -71,6 +72,7 @@ struct AppearanceArguments {
   std::string contoursWithUnit, hazeWithUnit;  // "OPTION TEXT"; then contours are in metres
   bool hasWireframe = false, isUnshaded = false, isCurved = false;
   bool isPlainPicture = false;  ///< without legend, scale bar, north arrow and graticule
+  std::string marks;            ///< axes, grid, orbit: a list with commas; empty: none of them
   ColorArguments colors;
   SurfaceLookArguments surface;
 
@@ -80,6 +82,8 @@ struct AppearanceArguments {
   /// @param colorings of the model, the usual one first.
   /// Errors: usage: `sun` is not two angles; as SurfaceLookArguments::look().
   Result<ViewLook> look(std::span<const Coloring> colorings) const;
+  /// Errors: usage: a word that no mark has.
+  Result<SpaceMarks> spaceMarks() const;
 };
 
 /// Pictures and films, and the size of the window.

@@ -18,7 +18,8 @@ namespace {
 constexpr std::array<std::string_view, 3> kParts{"textures", "materials", "vertex-colors"};
 constexpr std::array<std::string_view, 4> kLights{"sun", "sky", "headlight", "highlights"};
 
-/// The words of a list with commas, each of them known.
+}  // namespace
+
 Result<std::set<std::string_view>> wordsOf(const char* option, std::string_view list,
                                            std::span<const std::string_view> known) {
   std::set<std::string_view> words;
@@ -33,8 +34,6 @@ Result<std::set<std::string_view>> wordsOf(const char* option, std::string_view 
     rest.remove_prefix(comma + 1);
   }
 }
-
-}  // namespace
 
 void SurfaceLookArguments::addTo(CLI::App& command, const std::string& group, OptionKinds& kinds) {
   kinds.ofSurfaces(command

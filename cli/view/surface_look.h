@@ -2,13 +2,20 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <set>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "cli/arguments/option_kinds.h"
 #include "engine/base/result.h"
 #include "viewer/scene/view_settings.h"
 
 namespace arete {
+
+/// The words of a list with commas. Errors: usage: one that is not known, naming the option.
+Result<std::set<std::string_view>> wordsOf(const char* option, std::string_view list,
+                                           std::span<const std::string_view> known);
 
 /// What is shown of surfaces, and under what light.
 struct SurfaceLookArguments {

@@ -33,7 +33,9 @@
 #include "io/query/source/any_model.h"
 #include "viewer/camera/flight_json.h"
 #include "viewer/headless/headless.h"
+#include "viewer/marks/space_marks.h"
 #include "viewer/scene/heights_of_contours.h"
+#include "viewer/window/camera_rig.h"
 #include "viewer/window/opening.h"
 #include "viewer/window/window.h"
 
@@ -166,6 +168,15 @@ double heightAhead(const Camera& camera, const Subject& subject) {
   return height > 0 ? height : 1;
 }
 
+/// Marks as the window has them when it opens with this camera.
+void layMarksOf(const SpaceMarks& marks, const Subject& subject, const Camera& camera,
+                const ViewSettings& settings, Layers& layers) {
+  CameraRig rig(subject, camera);
+  rig.setStretch(settings.stretch);
+  rig.place(camera);
+  laySpaceMarks(layers, marks, subject, camera, OrbitPlace{rig.orbitCentre(), rig.orbitRadius()});
+}
+
 /// The program that runs, for commands of its own; empty where that cannot be told.
 std::string thisProgram() {
   std::error_code failed;
@@ -195,6 +206,7 @@ Result<bool> openOther(const std::string& path, OtherFile& other, GlfwWindow& sh
   ARETE_CHECK(a.detail.findBudget(other.viewed->finestTriangles));
   const Subject& subject = *other.viewed->subject;
   ARETE_TRY(other.window.start.settings, a.settings(subject.colorings()));
+  ARETE_TRY(other.window.start.marks, a.appearance.spaceMarks());
   other.window.start.settings.look.colors = other.viewed->colors;
   ARETE_CHECK(subject.check(other.window.start.settings));
   other.window.heightsOfContours = other.viewed->heightsOfContours;
@@ -283,6 +295,7 @@ Status runView(ViewArguments a, Session& session) {
     session.warn(fmt::format("the camera stands {} under the ground",
                              withUnit(ground->height - camera.height, viewed.georeference.verticalUnit)));
   ARETE_TRY(const auto flight, flightOf(a, viewed, camera, session));
+  ARETE_TRY(const SpaceMarks marks, a.appearance.spaceMarks());
   if (!a.pictures.frames.empty()) {
     if (const auto count = filmFrames(*flight, a.pictures.framesPerSecond); !count)
       return failure(
@@ -306,6 +319,7 @@ Status runView(ViewArguments a, Session& session) {
     if (!a.viewpoint.path.empty()) window.start.flightPath = a.viewpoint.path;
     window.samples = a.pictures.samples;
     window.start.showsDecorations = !a.appearance.isPlainPicture;
+    window.start.marks = marks;
     window.lastPicture = a.pictures.windowScreenshot;
     window.frames = a.pictures.windowFrames;
     window.heightsOfContours = viewed.heightsOfContours;
@@ -319,6 +333,7 @@ Status runView(ViewArguments a, Session& session) {
                                  viewed.addModel));
   session.warn(view.warnings(), a.model);
   ARETE_CHECK(HeightsOfContours(viewed.heightsOfContours).follow(view.scene().layers));
+  layMarksOf(marks, subject, start, settings, view.scene().layers);
   Json json = {{"model", a.model}, {"kind", subject.kind()}, {"renderer", view.description()}};
   a.detail.addBudgetTo(json, viewed.finestTriangles);
   if (!viewed.ground->is_null()) json["heights"] = *viewed.ground;
@@ -328,6 +343,7 @@ Status runView(ViewArguments a, Session& session) {
     ARETE_CHECK(takeScreenshot(a, start, view, session, json));
     if (viewed.layers) viewed.layers->warnOfLabels(view.scene(), session);
   }
+  view.scene().layers.remove(SpaceMarks::kOrbit);  // a flight turns about nothing
   if (!a.pictures.frames.empty()) ARETE_CHECK(makeFilm(a, *flight, view, session, json));
   session.answer(json);
   return {};

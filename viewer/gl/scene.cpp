@@ -59,6 +59,7 @@ ViewSettings Scene::settingsOf(std::size_t model, const ViewSettings& shared) co
   const ShownObject& object = objects()[model];
   own.pixels *= object.toleranceFactor;
   own.level = object.level;
+  own.look.kept = object.kept;
   if (drawables_.size() == 1) return own;
   const Subject& subject = drawables_[model]->subject();
   if (std::ranges::find(subject.colorings(), own.look.coloring) == subject.colorings().end())
@@ -204,8 +205,7 @@ bool Scene::isShown() const {
 }
 
 bool Scene::keepsBudget(const ViewSettings& settings) const {
-  return drawables_.size() == 1 &&
-         std::ranges::all_of(drawables_, [&](const auto& d) { return d->keepsBudget(settings); });
+  return drawables_.size() == 1 && drawables_.front()->keepsBudget(settingsOf(0, settings));
 }
 
 std::uint32_t Scene::capacity() const {

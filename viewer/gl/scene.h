@@ -23,8 +23,9 @@ struct ShownObject {
   double toleranceFactor = 1;           ///< its tolerance in pixels is the scene's times this, > 0
   std::optional<HandLevel> level = {};  ///< nothing: by the view
   bool isShown = true;
-  int pane = 0;               ///< of the scene's panes, from the left: where it is drawn
-  FrameFigures figures = {};  ///< of its last cut
+  int pane = 0;                      ///< of the scene's panes, from the left: where it is drawn
+  std::optional<KeptBox> kept = {};  ///< of a surface: outside it is tinted
+  FrameFigures figures = {};         ///< of its last cut
 };
 
 /// Models under one camera and the layers over them, in one OpenGL context. All keep one tolerance, times

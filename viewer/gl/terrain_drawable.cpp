@@ -5,6 +5,9 @@
 #include "viewer/gl/terrain_drawable.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
 
 #include "engine/base/stopwatch.h"
 #include "engine/morph/geomorph.h"
@@ -81,7 +84,7 @@ Result<FrameFigures> TerrainDrawable::cut(const Camera& camera, const ViewSettin
   FrameFigures figures;
   figures.pixels = settings.pixels;
   const Stopwatch watch;
-  if (settings.path == CutPath::device && device_) {
+  if (settings.path == CutPath::device && device_ && !settings.level) {
     // Vertices that the device's cut would leave moved are put at rest before it.
     if (hasRises_ && (!settings.isGeomorphed || drawn_ == CutPath::processor)) {
       glClearNamedBufferData(terrain_.rises, GL_R32F, GL_RED, GL_FLOAT, nullptr);
@@ -98,32 +101,102 @@ Result<FrameFigures> TerrainDrawable::cut(const Camera& camera, const ViewSettin
     figures.isComplete = counts.isComplete;
     drawn_ = CutPath::device;
   } else {
-    const double stretch = isBent_ ? 1 : settings.stretch;  // a curved one is exaggerated already
-    if (!processor_ || processorStretch_ != stretch) {
-      processor_.reset();
-      ARETE_TRY(ProcessorFront made, ProcessorFront::create(mt_, stretch));
-      processor_ = std::move(made);
-      processorStretch_ = stretch;
-      glClearNamedBufferData(terrain_.rises, GL_R32F, GL_RED, GL_FLOAT, nullptr);
-    }
-    processor_->ask({.view = frame.view,
-                     .pixels = settings.pixels,
-                     .maxTriangles = settings.maxTriangles,
-                     .deadlineMilliseconds = settings.cutMilliseconds,
-                     .geomorph = settings.isGeomorphed});
-    ARETE_TRY(const ProcessorFront::Done done, processor_->receive(terrain_, settings.waits));
-    figures.triangles = figures.asked = done.report.triangles;
-    figures.moving = done.report.moving;
-    figures.isComplete = done.report.isComplete;
-    figures.pixels = done.report.pixels;
-    figures.jumpPixels = done.report.jumpPixels;
-    figures.cutMilliseconds = done.milliseconds;
-    hasRises_ = true;
-    drawn_ = CutPath::processor;
-    return figures;
+    return cutByProcessor(frame, settings);
   }
   figures.cutMilliseconds = watch.milliseconds();
   return figures;
+}
+
+Result<FrameFigures> TerrainDrawable::cutByProcessor(const FrameView& frame, const ViewSettings& settings) {
+  FrameFigures figures;
+  const double stretch = isBent_ ? 1 : settings.stretch;  // a curved one is exaggerated already
+  if (!processor_ || processorStretch_ != stretch) {
+    processor_.reset();
+    ARETE_TRY(ProcessorFront made, ProcessorFront::create(mt_, stretch));
+    processor_ = std::move(made);
+    processorStretch_ = stretch;
+    glClearNamedBufferData(terrain_.rises, GL_R32F, GL_RED, GL_FLOAT, nullptr);
+  }
+  const ProcessorFront::Asked asked =
+      settings.level ? askedBy(*settings.level, settings)
+                     : ProcessorFront::Asked{.view = frame.view,
+                                             .pixels = settings.pixels,
+                                             .maxTriangles = settings.maxTriangles,
+                                             .deadlineMilliseconds = settings.cutMilliseconds,
+                                             .geomorph = settings.isGeomorphed};
+  processor_->ask(asked);
+  ARETE_TRY(const ProcessorFront::Done done, processor_->receive(terrain_, settings.waits));
+  figures.triangles = figures.asked = done.report.triangles;
+  figures.moving = done.report.moving;
+  figures.isComplete = settings.level || done.report.isComplete;
+  figures.pixels = done.report.pixels;
+  figures.jumpPixels = done.report.jumpPixels;
+  if (settings.level) {
+    // The error of the level as the camera sees it, at the nearest place that it may see.
+    const double error = done.report.pixels / Frustum(asked.view).pixelsPerUnit();
+    const Frustum seen(frame.view);
+    const Sphere all = ballAbout(*subject_, settings);
+    const Vec3 middle = seen.toView({all.x, all.y, all.z});
+    const double reach = seen.reach(middle, all.radius, std::max(middle.z - double(all.radius), 0.0));
+    figures.pixels = error > 0 ? error * seen.pixelsPerUnit() / reach : 0;
+    figures.jumpPixels = std::numeric_limits<double>::quiet_NaN();
+  }
+  figures.cutMilliseconds = done.milliseconds;
+  hasRises_ = true;
+  drawn_ = CutPath::processor;
+  return figures;
+}
+
+// In parallel projection every error has the same size in the picture, wherever it is: a tolerance in pixels
+// is one in the unit of heights.
+ProcessorFront::Asked TerrainDrawable::askedBy(const HandLevel& level, const ViewSettings& settings) const {
+  const Sphere all = ballAbout(*subject_, settings);
+  ProcessorFront::Asked asked;
+  asked.view.eye = {all.x, all.y, all.z};
+  asked.view.forward = {0, 0, -1};
+  asked.view.up = {0, 1, 0};
+  asked.view.widthPixels = asked.view.heightPixels = 1000;
+  asked.view.nearDistance = -std::numeric_limits<double>::infinity();
+  asked.view.parallelHeight = 4 * std::max(double(all.radius), 1e-3);
+  asked.geomorph = false;
+  // An error of 0 is that of what is not simplified at all; a tolerance is above it.
+  const double least = 1e-9 * std::max(model().mt.largestError(), 1e-9);
+  const double error = level.triangles > 0 ? least : std::max(level.error, least);
+  asked.pixels = error * model().mt.metric().scale.z * settings.stretch * Frustum(asked.view).pixelsPerUnit();
+  if (level.triangles > 0) asked.maxTriangles = std::max(level.triangles, model().mt.rootTriangleCount());
+  return asked;
+}
+
+// Triangles do not overlap in the plan, so the one over the place is the one that is seen there, though
+// heights of the cut may hide it from the eye.
+std::optional<double> TerrainDrawable::drawnError(const Pick& pick, const Camera&, Vec2,
+                                                  const ViewSettings&) const {
+  const DrawnFront drawn = front();
+  if (drawn.ids == 0) return std::nullopt;
+  std::uint32_t count = drawn.count;
+  if (drawn.indirect != 0) {
+    std::uint32_t corners = 0;
+    glGetNamedBufferSubData(drawn.indirect, 0, 4, &corners);
+    count = corners / 3;
+  }
+  std::vector<std::uint32_t> ids(count);
+  if (count > 0)
+    glGetNamedBufferSubData(drawn.ids, GLintptr(4) * drawn.first, GLsizeiptr(4) * count, ids.data());
+  const MultiTriangulation& mt = model().mt;
+  for (const std::uint32_t id : ids) {
+    std::array<Vec2, 3> corners;
+    const auto vertices = mt.corners(TriangleId(id));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 p = mt.position(VertexId(vertices[i]));
+      corners[i] = {p.x, p.y};
+    }
+    const auto side = [&](std::size_t i) {
+      const Vec2 &a = corners[i], &b = corners[(i + 1) % 3];
+      return (b.x - a.x) * (pick.plan.y - a.y) - (b.y - a.y) * (pick.plan.x - a.x);
+    };
+    if (side(0) >= 0 && side(1) >= 0 && side(2) >= 0) return mt.error(TriangleId(id));
+  }
+  return std::nullopt;
 }
 
 DrawnFront TerrainDrawable::front() const {

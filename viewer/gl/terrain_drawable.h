@@ -42,8 +42,10 @@ class TerrainDrawable final : public Drawable {
               std::span<const Layer> layers = {}) override;
   void drawBackground(const ViewSettings& settings) override { painter_.drawSky(settings.look); }
   bool isShown() const override;
+  std::optional<double> drawnError(const Pick& pick, const Camera& camera, Vec2 pixel,
+                                   const ViewSettings& settings) const override;
   bool keepsBudget(const ViewSettings& settings) const override {
-    return settings.path == CutPath::processor;
+    return settings.path == CutPath::processor || settings.level.has_value();
   }
   std::uint32_t capacity() const override { return device_ ? device_->capacity() : 0; }
   std::string deviceRefusal() const override { return terrain_.refusal; }
@@ -67,6 +69,10 @@ class TerrainDrawable final : public Drawable {
   bool isReadyFor(const ViewSettings& settings) const {
     return settings.isCurved == isBent_ && (!isBent_ || settings.stretch == bentStretch_);
   }
+  /// The processor's cut for a frame, or of a level that is chosen.
+  Result<FrameFigures> cutByProcessor(const FrameView& frame, const ViewSettings& settings);
+  /// What a level of detail asks of a cut for views: a parallel one from above that sees all of the terrain.
+  ProcessorFront::Asked askedBy(const HandLevel& level, const ViewSettings& settings) const;
   /// Makes the buffers that the settings need.
   Status prepare(const ViewSettings& settings);
 

@@ -9,6 +9,9 @@
 
 namespace arete {
 
+/// "drawn triangle: stored error 0.0123 m".
+std::string storedErrorText(double error, const std::string& unit);
+
 /// Places of surfaces that were clicked, and the straight line between two of them, which is a layer.
 class DistancePicks {
  public:

@@ -25,7 +25,6 @@ std::string ObjectList::select(std::size_t object) {
 }
 
 std::string ObjectList::setLevel(const std::optional<HandLevel>& level) {
-  if (level && !hasLevels()) return "levels by hand are for surfaces";
   object().level = level;
   if (!level) return nameOf(selected_) + ": level by the view";
   if (level->triangles > 0)
@@ -35,7 +34,6 @@ std::string ObjectList::setLevel(const std::optional<HandLevel>& level) {
 }
 
 std::string ObjectList::multiply(double factor) {
-  if (!hasLevels()) return setLevel(HandLevel{});
   const std::uint64_t finest = subject().facts().triangles;
   const double now = object().level && object().level->triangles > 0 ? object().level->triangles
                                                                      : object().figures.triangles;

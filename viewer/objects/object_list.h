@@ -27,8 +27,6 @@ class ObjectList {
   std::string coarsen() { return multiply(0.5); }
   /// Of the selected one; nothing: by the view again.
   std::string setLevel(const std::optional<HandLevel>& level);
-  /// Whether levels by hand are for it: for surfaces.
-  bool hasLevels() const { return !subject().isTerrain(); }
 
   /// Shows the selected one alone, or all again as they were shown.
   std::string toggleAlone();
@@ -42,6 +40,11 @@ class ObjectList {
   const Subject& subject() const { return drawable().subject(); }
   /// "rock"; of a model alone its kind.
   std::string nameOf(std::size_t i) const;
+  /// Drawable::drawnError() of the object that was picked.
+  std::optional<double> drawnError(const Pick& pick, const Camera& camera, Vec2 pixel,
+                                   const ViewSettings& settings) const {
+    return scene_.drawables()[pick.object]->drawnError(pick, camera, pixel, settings);
+  }
 
  private:
   std::string multiply(double factor);

@@ -75,8 +75,8 @@ void drawTurn(ObjectList& objects) {
 
 void drawObjectsSection(ObjectList& objects, const std::function<void(std::string)>& say) {
   const bool isOne = objects.count() == 1;
-  if (isOne && !objects.hasLevels()) return;
-  if (!widget::section(isOne ? "Surface" : "Objects", !widget::isNarrow() && !isOne)) return;
+  const char* const one = objects.subject().isTerrain() ? "Terrain" : "Surface";
+  if (!widget::section(isOne ? one : "Objects", !widget::isNarrow() && !isOne)) return;
   if (!isOne) drawList(objects, say);
   const SubjectFacts facts = objects.subject().facts();
   const ShownObject& object = objects.object();
@@ -94,7 +94,6 @@ void drawObjectsSection(ObjectList& objects, const std::function<void(std::strin
   const Vec3 size = box.high - box.low;
   row("box", fmt::format("{:.4g} x {:.4g} x {:.4g}", size.x, size.y, size.z));
   row("coarsest", fmt::format("within {:.4g}", facts.largestError));
-  if (!objects.hasLevels()) return;
   drawLevel(objects, say);
   drawTurn(objects);
 }
@@ -112,6 +111,7 @@ void drawDistanceSection(DistancePicks& distance, const ObjectList& objects, con
     if (objects.count() > 1) row("", objects.nameOf(pick.object));
     if (!pick.material.empty()) row("", pick.material);
     if (!pick.parts.empty()) row("", pick.parts);
+    if (pick.drawnError) row("", storedErrorText(*pick.drawnError, unit));
   }
   if (distance.picks().size() == 2) {
     const Vec3 way = distance.way();

@@ -42,6 +42,12 @@ class Drawable {
   }
   /// Draws what is behind all models, where nothing has been drawn. Precondition: draw() for the same frame.
   virtual void drawBackground(const ViewSettings& settings) = 0;
+  /// The error, as the model stores it, of the triangle of the last cut that a pixel of a camera meets first;
+  /// nothing where it meets none. Waits for the drawing. O(triangles drawn).
+  ///
+  /// @param pick the place of the model at full resolution there
+  virtual std::optional<double> drawnError(const Pick& pick, const Camera& camera, Vec2 pixel,
+                                           const ViewSettings& settings) const = 0;
   /// Whether a sample of the last picture shows the model. Waits for the drawing.
   virtual bool isShown() const = 0;
 

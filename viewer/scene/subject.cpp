@@ -15,6 +15,12 @@ std::string_view toString(Coloring coloring) {
   return kNames[std::size_t(coloring)];
 }
 
+Box3 Subject::fileBox() const {
+  Box3 all = Box3::empty();
+  for (const Vec3& corner : box().corners()) all.include(inFile(corner));
+  return all;
+}
+
 Status Subject::checkColoring(Coloring coloring) const {
   if (std::ranges::find(colorings(), coloring) != colorings().end()) return {};
   return failure(ErrorCode::usage, fmt::format("is for {}", isTerrain() ? "surfaces" : "terrain"),

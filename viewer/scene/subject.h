@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/box3.h"
 #include "engine/base/result.h"
 #include "engine/mt/multitriangulation.h"
 #include "terrain/locate/ground_height.h"
@@ -33,6 +34,9 @@ struct Pick {
   Vec3 inObject = {};         ///< coordinates of its own file; of a terrain: xy and height
   std::size_t object = 0;     ///< of a scene: which
   std::string parts = {};     ///< of a surface: its object, group and labels in the file; empty: none
+  /// The stored error of the triangle of the drawn cut there, in the unit of the model's errors; nothing: not
+  /// known.
+  std::optional<double> drawnError = {};
 };
 
 /// What a model is made of, at full resolution.
@@ -83,6 +87,10 @@ class Subject {
   virtual Result<FlightPlan> round(const Camera& from) const = 0;
   /// Of a place of metric space: what its file calls it, x, y and height.
   virtual Vec3 inFile(const Vec3& metric) const = 0;
+  /// Back from there.
+  virtual Vec3 fromFile(const Vec3& inFile) const { return space_.position({inFile.x, inFile.y}, inFile.z); }
+  /// Holds all of the model, along the axes of its file.
+  virtual Box3 fileBox() const;
   /// A length below which cameras do not come nearer to what they orbit.
   virtual double leastRadius() const = 0;
   /// Depth of the plane that clips what is near, in metric units, > 0.

@@ -47,6 +47,11 @@ struct SurfaceLook {
   bool operator==(const SurfaceLook&) const = default;
 };
 
+/// What a box keeps of a surface, in the surface's upright space.
+struct KeptBox {
+  Vec3 low = {}, high = {};
+};
+
 /// Colours and light.
 struct ViewLook {
   Coloring coloring = Coloring::height;
@@ -60,6 +65,7 @@ struct ViewLook {
   double heatError = 0;
   /// The colours of heights, slopes, aspects and errors of a terrain. Null: the table's, for its heights.
   SharedColors colors = {};
+  std::optional<KeptBox> kept = {};  ///< what of a surface lies outside is tinted
 };
 
 /// A level of detail that is chosen by hand, whatever the camera sees: one of the two.
@@ -87,7 +93,7 @@ struct ViewSettings {
   /// A ball about all that a scene draws, for depths in parallel projection; of radius 0: the model's own.
   Vec3 contentsMiddle = {};
   double contentsRadius = 0;
-  std::optional<HandLevel> level = {};  ///< instead of the tolerance and the budget; of surfaces
+  std::optional<HandLevel> level = {};  ///< instead of the tolerance and the budget
 };
 
 /// What a frame took, and what it shows.

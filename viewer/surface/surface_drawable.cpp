@@ -6,7 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <limits>
 #include <utility>
+
+#include "viewer/fronts/met_triangle.h"
 
 namespace arete {
 
@@ -159,6 +163,51 @@ Status SurfaceDrawable::drawBlended(const Camera& camera, const ViewSettings& se
   glEndQuery(GL_ANY_SAMPLES_PASSED);
   hasDrawnBlended_ = true;
   return {};
+}
+
+// What lies in graphics memory is what is drawn, whatever another thread is about to make of the front.
+std::optional<double> SurfaceDrawable::drawnError(const Pick&, const Camera& camera, Vec2 pixel,
+                                                  const ViewSettings& settings) const {
+  const Result<View> view = subject_->viewOf(camera, settings);
+  if (!view) return std::nullopt;
+  const Similarity back = subject_->pose(settings).inverse();
+  const bool isMirrored = subject_->space().isMirrored();
+  const Vec3 from = back(originOfPixel(*view, isMirrored, pixel, depthReach(*view, *subject_, settings)));
+  const Vec3 direction = back.direction(directionOfPixel(*view, isMirrored, pixel));
+  std::optional<double> error;
+  double nearest = std::numeric_limits<double>::infinity();
+  const auto meet = [&](GLuint indices, GLuint errors, const std::vector<FrontChanges::Range>& ranges,
+                        const std::function<Vec3(std::uint32_t)>& place) {
+    for (const FrontChanges::Range& range : ranges) {
+      std::vector<FrontChanges::Corners> corners(range.count);
+      glGetNamedBufferSubData(indices, GLintptr(12) * range.first, GLsizeiptr(12) * range.count,
+                              corners.data());
+      const bool isFrontAlone = settings.look.surface.sides == SurfaceSides::front;
+      const auto met = firstMet({corners, place, isFrontAlone}, from, direction);
+      if (!met || met->along >= nearest) continue;
+      nearest = met->along;
+      float stored = 0;
+      glGetNamedBufferSubData(errors, GLintptr(4) * GLintptr(range.first + met->index), 4, &stored);
+      error = stored;
+    }
+  };
+  std::vector<float> displaced(displaced_ == 0 ? 0 : assets_->drawn->positions.size());
+  if (!displaced.empty())
+    glGetNamedBufferSubData(displaced_, 0, GLsizeiptr(4 * displaced.size()), displaced.data());
+  const std::vector<float>& resting = displaced.empty() ? assets_->drawn->positions : displaced;
+  meet(indices_, errors_, ranges_, [&](std::uint32_t v) {
+    return Vec3{resting[3 * v], resting[3 * v + 1], resting[3 * v + 2]};
+  });
+  if (own_.ranges.empty()) return error;
+  GLint bytes = 0;
+  glGetNamedBufferParameteriv(own_.vertices, GL_BUFFER_SIZE, &bytes);
+  std::vector<OwnVertex> moving(std::size_t(bytes) / sizeof(OwnVertex));
+  glGetNamedBufferSubData(own_.vertices, 0, GLsizeiptr(moving.size() * sizeof(OwnVertex)), moving.data());
+  meet(own_.indices, own_.errors, own_.ranges, [&](std::uint32_t v) {
+    const auto& p = moving[v].position;
+    return Vec3{p[0], p[1], p[2]};
+  });
+  return error;
 }
 
 void SurfaceDrawable::setTurn(const Turn& turn) {

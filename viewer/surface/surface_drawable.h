@@ -51,6 +51,8 @@ class SurfaceDrawable final : public Drawable {
   Status drawBlended(const Camera& camera, const ViewSettings& settings) override;
   void drawBackground(const ViewSettings&) override { assets_->painter.drawBackground(); }
   bool isShown() const override;
+  std::optional<double> drawnError(const Pick& pick, const Camera& camera, Vec2 pixel,
+                                   const ViewSettings& settings) const override;
   std::optional<Turn> turn() const override { return subject_->placement().turn; }
   void setTurn(const Turn& turn) override;
   bool keepsBudget(const ViewSettings&) const override { return true; }

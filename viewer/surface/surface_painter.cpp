@@ -20,6 +20,7 @@ namespace arete {
 struct SurfacePainter::Look {
   glm::vec4 baseColor{1, 1, 1, 1}, sun{}, modes{}, more{}, zenith{}, parts{}, finish{0, 1, 0, 1}, emission{};
   std::array<glm::vec4, 2 * DrawnPicture::count> lookups{};
+  glm::vec4 keptLow{}, keptHigh{};
 };
 
 namespace {
@@ -34,6 +35,12 @@ Vec3 towardsSun(const FrameView& frame, const ViewLook& look, const Similarity& 
   }
   const Frustum::Planes axes = Frustum(frame.view).planes();
   return unit(-0.62 * axes.right + 0.62 * axes.up - 0.48 * axes.forward);
+}
+
+/// From the eye, in which floats are exact enough wherever the surface lies.
+glm::vec4 fromEye(const Vec3& place, const FrameView& frame, float w) {
+  const Vec3 way = place - frame.view.eye;
+  return {float(way.x), float(way.y), float(way.z), w};
 }
 
 float coloringNumber(Coloring coloring) {
@@ -166,6 +173,10 @@ void SurfacePainter::draw(const MaterialsOnGpu& materials, const DrawnSurface& f
     now.sun = {float(sun.x), float(sun.y), float(sun.z), now.sun.w};
     now.zenith = {float(up.x), float(up.y), float(up.z), 0};
     now.more.z = float(range.first);
+    if (look.kept) {
+      now.keptLow = fromEye(look.kept->low, frame, 1);
+      now.keptHigh = fromEye(look.kept->high, frame, 1);
+    }
     for (GLuint i = 0; i < m.pictures.size(); ++i) glBindTextureUnit(i, m.pictures[i].texture);
     drawRange(range, now);
   }

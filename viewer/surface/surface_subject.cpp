@@ -115,6 +115,13 @@ Vec3 SurfaceSubject::inFile(const Vec3& metric) const {
   return upright().toFile(placed(placement_, scene_).inverse()(metric));
 }
 
+// Upright space has the file's axes, perhaps in another order.
+Box3 SurfaceSubject::fileBox() const {
+  Box3 all = Box3::empty();
+  for (const Vec3& corner : {uprightBox().low, uprightBox().high}) all.include(upright().toFile(corner));
+  return all;
+}
+
 Camera SurfaceSubject::home(HomeView view, const Camera& picture, const ViewSettings&,
                             const CoveredEdges& covered) const {
   const HomeShape shape = this->shape();

@@ -55,6 +55,10 @@ class SurfaceSubject final : public Subject {
   /// One turn, with the camera's distance from the middle of the surface and its height.
   Result<FlightPlan> round(const Camera& from) const override;
   Vec3 inFile(const Vec3& metric) const override;
+  Vec3 fromFile(const Vec3& inFile) const override {
+    return placed(placement_, scene_)(upright().fromFile(inFile));
+  }
+  Box3 fileBox() const override;
   double leastRadius() const override { return 1e-4 * box_.diagonal(); }
   /// A surface has no usual unit, so the near plane follows its size.
   double nearPlane() const override { return 1e-4 * box_.diagonal(); }

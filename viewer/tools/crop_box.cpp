@@ -27,11 +27,7 @@ double largestSide(const Box3& box) {
 }  // namespace
 
 CropBox::CropBox(const SurfaceSubject& surface) : surface_(surface) {
-  // Upright space has the file's axes, perhaps in another order.
-  const MetricBox& upright = surface.uprightBox();
-  whole_ = Box3::empty();
-  whole_.include(surface.upright().toFile(upright.low));
-  whole_.include(surface.upright().toFile(upright.high));
+  whole_ = surface.fileBox();
   // A flat surface has a box all the same.
   const double least = std::max(largestSide(whole_) * 1e-3, 1e-9);
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -67,6 +63,12 @@ Vec3 CropBox::middleOf(std::size_t face, double bound) const {
 
 Vec3 CropBox::handle(std::size_t face) const {
   return middleOf(face, bound(face));
+}
+
+KeptBox CropBox::kept() const {
+  Box3 upright = Box3::empty();
+  for (const Vec3& corner : {box.low, box.high}) upright.include(surface_.upright().fromFile(corner));
+  return {upright.low, upright.high};
 }
 
 SpaceVertices CropBox::edges() const {

@@ -27,6 +27,8 @@ class CropBox {
   /// upper ones.
   Vec3 handle(std::size_t face) const;
   SpaceVertices edges() const;
+  /// The box in the surface's upright space: what lies outside is drawn tinted.
+  KeptBox kept() const;
 
   /// Takes hold of the face whose handle is within `reach` pixels of the mouse, the nearest of them.
   void grab(const Camera& camera, Vec2 mouse, const ViewSettings& settings, double reach);

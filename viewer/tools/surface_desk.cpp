@@ -240,6 +240,8 @@ void SurfaceDesk::cancel() {
 std::string SurfaceDesk::step() {
   if (box_ && boxOf_ != objects_.selected()) toggleBox();
   if (box_) layers_.put(CropBox::kLayer, box_->edges());
+  for (std::size_t i = 0; i < objects_.count(); ++i)
+    objects_.object(i).kept = box_ && i == boxOf_ ? std::optional(box_->kept()) : std::nullopt;
   auto done = job_.take();
   if (!done) return {};
   const Order order = *std::exchange(running_, std::nullopt);

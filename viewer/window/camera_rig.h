@@ -29,6 +29,13 @@ class CameraRig {
   /// @return whether the input moves it.
   bool step(const InputState& input);
 
+  /// What an orbit turns about, in metric space with heights as they are, and how far away it is.
+  Vec3 orbitCentre() const {
+    const Vec3& target = orbit_.orbit().target;
+    return {target.x, target.y, target.z / stretch_};
+  }
+  double orbitRadius() const { return orbit_.orbit().radius; }
+
   /// Changes between orbit and free flight; the picture stays.
   void setMode(CameraMode mode);
   /// Sets the camera, as a flight or a key frame does. Picture size and exaggeration stay.

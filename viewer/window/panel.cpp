@@ -152,6 +152,11 @@ void Panel::lookSection(ViewerSession& s) {
     const bool isTurned = slider("sun azimuth", sun.azimuthDegrees, 0, 360, "%.0f°");
     if (slider("sun height", sun.elevationDegrees, 0, 90, "%.0f°") || isTurned) look.sun = sun;
   }
+  ImGui::Checkbox("axes", &s.shows.marks.axes);
+  tip("X red, Y green, Z blue, of the file; their lengths are in the legend.");
+  ImGui::SameLine(9.5f * em());
+  ImGui::Checkbox("ground grid", &s.shows.marks.grid);
+  ImGui::Checkbox("orbit's centre", &s.shows.marks.orbit);
   if (!s.tools || (s.objects && s.objects->count() > 1)) drawSurfaceSwitches(look);
   if (!s.tools) return;
   // The curved Earth is drawn in perspective only.
@@ -273,6 +278,7 @@ void Panel::pickSection(ViewerSession& s, TerrainTools& tools) {
     const std::string lonLat = tools.places.isLonLat() ? std::string() : tools.places.lonLat(pick.xy);
     if (!lonLat.empty()) row("", lonLat);
     row("", tools.places.height(pick.height));
+    if (pick.drawnError) row("", storedErrorText(*pick.drawnError, s.subject.heightUnit()));
   }
   bool isMoved = slider("A above ground", tools.observerAbove, 0, 200, "%.1f", true);
   isMoved = slider("B above ground", tools.targetAbove, 0, 200, "%.1f", true) || isMoved;

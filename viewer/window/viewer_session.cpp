@@ -47,6 +47,7 @@ ViewerSession::ViewerSession(const Subject& shown, Layers& shownLayers, const St
   if (const TerrainSubject* const terrain = shown.terrain()) tools.emplace(*terrain, layers);
   files.flight = start.flightPath;
   shows.decorations = start.showsDecorations;
+  shows.marks = start.marks;
   rig.setStretch(settings.stretch);
   settings.waits = false;
   if (start.flight) deck.setPlan(*start.flight);
@@ -166,6 +167,10 @@ void ViewerSession::layMarks() {
   lay(kMarks[2], frozen && shows.frustum
                      ? frustumEdges(subject.space(), *frozen, subject.box().diagonal() / 2, settings.stretch)
                      : SpaceVertices{});
+  // Free flight turns about nothing.
+  std::optional<OrbitPlace> orbit;
+  if (rig.mode() == CameraMode::orbit) orbit = OrbitPlace{rig.orbitCentre(), rig.orbitRadius()};
+  laySpaceMarks(layers, shows.marks, subject, rig.camera(), orbit);
 }
 
 void ViewerSession::apply(Action action) {
@@ -245,6 +250,23 @@ void ViewerSession::apply(Action action) {
       return objects ? say(objects->setLevel(std::nullopt)) : void();
     case Action::alone:
       return objects ? say(objects->toggleAlone()) : void();
+    case Action::parallel: {
+      if (settings.isCurved) return say("a curved Earth is drawn in perspective");
+      const bool isParallel = rig.camera().parallelHeight > 0;
+      rig.setParallel(!isParallel);
+      say(isParallel ? "perspective" : "parallel projection");
+      break;
+    }
+    case Action::axes:
+      shows.marks.axes = !shows.marks.axes;
+      break;
+    case Action::grid:
+      shows.marks.grid = !shows.marks.grid;
+      break;
+    case Action::orbitMark:
+      shows.marks.orbit = !shows.marks.orbit;
+      if (shows.marks.orbit && rig.mode() != CameraMode::orbit) say("free flight turns about nothing");
+      break;
     case Action::screenshot:
       files.wantsScreenshot = true;
       break;
@@ -292,8 +314,9 @@ Georeference ViewerSession::georeference() const {
 }
 
 void ViewerSession::click(Vec2 pixel) {
-  const auto pick = subject.pick(rig.camera(), pixel, settings);
+  auto pick = subject.pick(rig.camera(), pixel, settings);
   if (!pick) return;
+  if (objects) pick->drawnError = objects->drawnError(*pick, rig.camera(), pixel, settings);
   if (objects && objects->count() > 1) say(objects->select(pick->object));
   if (tools) return say(tools->add(*pick));
   distance.add(*pick);

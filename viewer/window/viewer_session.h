@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "viewer/marks/space_marks.h"
 #include "viewer/objects/distance_picks.h"
 #include "viewer/objects/object_list.h"
 #include "viewer/panel/frame_history.h"
@@ -34,6 +35,7 @@ class ViewerSession {
     ViewSettings settings = {};
     double frameMilliseconds = 0;  ///< 0: the tolerance is not adapted to time
     bool showsDecorations = true;
+    SpaceMarks marks = {};
     std::optional<FlightPlan> flight = {};
     std::filesystem::path flightPath = "flight.json";
   };
@@ -62,8 +64,8 @@ class ViewerSession {
   const std::string& message() const { return message_; }
 
   /// The layers that this window lays for its own hand, which no film has.
-  static constexpr std::array kMarks = {"line of sight", "flight", "frozen camera", DistancePicks::kLayer,
-                                        CropBox::kLayer};
+  static constexpr std::array kMarks = {"line of sight",       "flight",        "frozen camera",
+                                        DistancePicks::kLayer, CropBox::kLayer, SpaceMarks::kOrbit};
 
   const Subject& subject;
   Layers& layers;
@@ -94,6 +96,7 @@ class ViewerSession {
   struct Shows {
     bool panel = true, help = false, frustum = true;
     bool decorations = true;  ///< legend, scale bar, north arrow and graticule
+    SpaceMarks marks;         ///< axes, ground grid and the centre of the orbit
   } shows;
   struct Files {
     std::filesystem::path flight, framesFolder = "frames";

@@ -97,8 +97,6 @@ Status checkTerrains(OpenScene& scene) {
           scene.file, i, {},
           "is terrain, which lies where its own coordinates say: at, lonlat, above, turn, scale, "
           "up and anchor are for meshes");
-    if (scene.file.objects[i].level.isStated())
-      return wrongPlace(scene.file, i, "level", "is for surfaces; the tolerance of a terrain has a factor");
     if (scene.terrain &&
         terrain->georeference.verticalUnitMetres != scene.terrainModel()->georeference.verticalUnitMetres)
       return wrongPlace(scene.file, i, "file",

@@ -91,6 +91,30 @@ TEST_F(ViewCommand, DrawsHeightsInTheColoursOfARampToTheByte) {
   EXPECT_NE(bad.err.find("bad.txt: line 2"), std::string::npos) << bad.err;
 }
 
+TEST_F(ViewCommand, ShowsEachMarkByItselfAndRefusesOthersByName) {
+  const auto shoot = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> words = {"view", "dem.amt", "--screenshot", name, "--size", "160x120"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  const Outcome first = shoot("plain.png", {});
+  if (isWithoutOpenGl(first)) GTEST_SKIP() << first.err;
+  ASSERT_EQ(first.code, 0) << first.err;
+  std::set<std::string> pictures = {read("plain.png")};
+  for (const char* marks : {"axes", "grid", "orbit", "axes,grid,orbit"}) {
+    const Outcome shot = shoot("marked.png", {"--show", marks});
+    ASSERT_EQ(shot.code, 0) << shot.err;
+    EXPECT_TRUE(pictures.insert(read("marked.png")).second) << marks;
+    fs::remove(path("marked.png"));
+  }
+  const Outcome refused = shoot("x.png", {"--show", "axes,grit"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("axes, grid, orbit"), std::string::npos) << refused.err;
+  const Outcome film = run({"view", "dem.amt", "--round", "--frames", "film", "--show", "orbit"});
+  EXPECT_EQ(film.code, 2);
+  EXPECT_NE(film.err.find("--show orbit"), std::string::npos) << film.err;
+}
+
 TEST_F(ViewCommand, APictureOfTheSkyAloneIsWarnedOf) {
   const auto shoot = [&](const char* camera) {
     return run({"view", "dem.amt", "--headless", "--screenshot", "sky.png", "--size", "64x64", "--json",

@@ -65,7 +65,7 @@ TEST_F(Objects, AreChosenRefinedCoarsenedAndShownAlone) {
   ObjectList objects(view->scene());
   ASSERT_TRUE(view->draw(above()));
   EXPECT_EQ(objects.count(), 3u);
-  EXPECT_EQ(objects.refine(), "levels by hand are for surfaces") << "the terrain is selected at first";
+  EXPECT_EQ(objects.refine(), "plain: at most 4 triangles") << "the terrain is selected at first";
   EXPECT_EQ(objects.selectNext(), "west");
   const std::uint32_t before = objects.object().figures.triangles;
   objects.refine();

@@ -13,6 +13,7 @@ layout(std140, binding = 1) uniform Look {
   vec4 finish;     // metal, roughness, reflectance, scale of the picture of normals
   vec4 emission;   // linear; how much occlusion counts
   vec4 lookups[12];  // of each picture: (u, v, 1) to u, 1 + set of coordinates or 0 = no picture; the same to v
+  vec4 keptLow, keptHigh;  // a box, from the eye; 1 = what lies outside is tinted
 };
 layout(binding = 0) uniform sampler2D pictures[6];  // colour, metal and roughness, normal, occlusion, emission, opacity
 layout(binding = 6) uniform sampler2D reflected;
@@ -126,4 +127,6 @@ void main() {
     base.rgb = shown + glow;
   }
   color = vec4(srgbOf(clamp(base.rgb, 0.0, 1.0)), base.a);
+  if (keptLow.w > 0.0 && (any(lessThan(fromEye, keptLow.xyz)) || any(greaterThan(fromEye, keptHigh.xyz))))
+    color.rgb = mix(color.rgb, vec3(0.84, 0.20, 0.14), 0.55);
 }

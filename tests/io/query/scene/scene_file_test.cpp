@@ -87,9 +87,10 @@ TEST_F(Scenes, AnInstanceHasWhatItsObjectStatesButForWhatItStatesItself) {
   EXPECT_SAYS(refusal(R"({"file": "mast.obj", "instances": {}})"), "instances: must be a list");
 }
 
-TEST_F(Scenes, LevelsByHandAreForSurfaces) {
-  EXPECT_SAYS(refusal(R"({"name": "ground", "file": "dem.asc", "level": {"triangles": 50}})"),
-              "'ground': level");
+TEST_F(Scenes, LevelsByHandAreOfTerrainToo) {
+  const auto scene = open(R"({"name": "ground", "file": "dem.asc", "level": {"triangles": 50}})");
+  ASSERT_TRUE(scene) << scene.error().describe();
+  EXPECT_EQ(scene->file.objects[0].level.triangles, 50u);
 }
 
 TEST_F(Scenes, ReadsEveryKey) {
