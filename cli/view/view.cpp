@@ -168,13 +168,20 @@ double heightAhead(const Camera& camera, const Subject& subject) {
   return height > 0 ? height : 1;
 }
 
+/// Axes and a grid reach beyond the model, of which a view of the whole has all.
+CoveredEdges roomFor(const SpaceMarks& marks) {
+  constexpr double kRim = 0.2;
+  return marks.axes || marks.grid ? CoveredEdges{kRim, kRim, kRim, kRim} : CoveredEdges{};
+}
+
 /// Marks as the window has them when it opens with this camera.
 void layMarksOf(const SpaceMarks& marks, const Subject& subject, const Camera& camera,
                 const ViewSettings& settings, Layers& layers) {
   CameraRig rig(subject, camera);
   rig.setStretch(settings.stretch);
   rig.place(camera);
-  laySpaceMarks(layers, marks, subject, camera, OrbitPlace{rig.orbitCentre(), rig.orbitRadius()});
+  laySpaceMarks(layers, marks, subject, camera, OrbitPlace{rig.orbitCentre(), rig.orbitRadius()},
+                settings.stretch);
 }
 
 /// The program that runs, for commands of its own; empty where that cannot be told.
@@ -286,7 +293,8 @@ Status runView(ViewArguments a, Session& session) {
   camera.widthPixels = a.viewpoint.beside.empty() ? size.first : size.first / 2.0;
   camera.heightPixels = size.second;
   if (a.viewpoint.statesParallel()) camera.parallelHeight = heightAhead(camera, subject);
-  if (!viewed.camera) camera = subject.home(a.viewpoint.homeView(), camera, settings);
+  ARETE_TRY(const SpaceMarks marks, a.appearance.spaceMarks());
+  if (!viewed.camera) camera = subject.home(a.viewpoint.homeView(), camera, settings, roomFor(marks));
   if (a.viewpoint.parallelHeight > 0) camera.parallelHeight = a.viewpoint.parallelHeight;
   if (const Result<View> seen = subject.viewOf(camera, settings); !seen) return tl::unexpected(seen.error());
   // A camera below the ground may be meant, so it is allowed.
@@ -295,7 +303,6 @@ Status runView(ViewArguments a, Session& session) {
     session.warn(fmt::format("the camera stands {} under the ground",
                              withUnit(ground->height - camera.height, viewed.georeference.verticalUnit)));
   ARETE_TRY(const auto flight, flightOf(a, viewed, camera, session));
-  ARETE_TRY(const SpaceMarks marks, a.appearance.spaceMarks());
   if (!a.pictures.frames.empty()) {
     if (const auto count = filmFrames(*flight, a.pictures.framesPerSecond); !count)
       return failure(

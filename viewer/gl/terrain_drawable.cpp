@@ -159,7 +159,7 @@ ProcessorFront::Asked TerrainDrawable::askedBy(const HandLevel& level, const Vie
   asked.view.nearDistance = -std::numeric_limits<double>::infinity();
   asked.view.parallelHeight = 4 * std::max(double(all.radius), 1e-3);
   asked.geomorph = false;
-  // An error of 0 is that of what is not simplified at all; a tolerance is above it.
+  // What is not simplified at all has an error of 0; a tolerance is above it.
   const double least = 1e-9 * std::max(model().mt.largestError(), 1e-9);
   const double error = level.triangles > 0 ? least : std::max(level.error, least);
   asked.pixels = error * model().mt.metric().scale.z * settings.stretch * Frustum(asked.view).pixelsPerUnit();

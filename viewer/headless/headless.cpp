@@ -103,6 +103,12 @@ Result<FrameFigures> HeadlessView::draw(const Camera& stated, const RunContext& 
   ARETE_CHECK(scene_.draw(camera, settings));
   glFinish();
   figures->isShown = scene_.isShown();
+  // Levels by hand are no tolerance of the scene; where there is nothing else, theirs is what the picture
+  // keeps.
+  const auto& objects = scene_.objects();
+  if (std::ranges::all_of(objects, [](const ShownObject& o) { return o.level || !o.isShown; }))
+    for (const ShownObject& object : objects)
+      if (object.isShown) figures->pixels = std::max(figures->pixels, object.figures.pixels);
   figures->drawMilliseconds = watch.milliseconds();
   return figures;
 }

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array<Rgba, 3> kAxisInks = {Rgba{214, 39, 40, 255}, {34, 139, 58, 255}, {38, 84, 220, 255}};
 constexpr std::array<const char*, 3> kAxisNames = {"X", "Y", "Z"};
 constexpr int kTicks = 8;
-/// A side without a length has an axis all the same, so long beside the longest one.
+/// The axis of a side without a length, of the longest one.
 constexpr double kLeastSide = 0.05;
 
 struct Stroke {
@@ -46,13 +46,14 @@ Vec3 moved(Vec3 p, std::size_t axis, double to) {
 
 }  // namespace
 
-MarkLines axesOfFile(const Subject& subject, const Camera& camera) {
+MarkLines axesOfFile(const Subject& subject, const Camera& camera, double stretch) {
   MarkLines axes;
   axes.legend.title = "axes";
   const Box3 box = subject.fileBox();
   const Vec3 corner = subject.fromFile(box.low);
   const double size = subject.box().diagonal() > 0 ? subject.box().diagonal() : 1;
-  const PictureAxes facing = axesOf(subject.space(), lookOf(camera));
+  PictureAxes facing = axesOf(subject.space(), lookOf(camera));
+  for (Vec3* const side : {&facing.right, &facing.up}) side->z /= stretch;
   std::array<Vec3, 3> ways;  // of length 1
   std::array<double, 3> perUnit{}, sides{};
   double longest = 0;

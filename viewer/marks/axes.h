@@ -11,7 +11,8 @@ namespace arete {
 /// at both ends. Of a scene, the axes of its space.
 ///
 /// @param camera that the letters face
+/// @param stretch vertical exaggeration of what is drawn, which letters do not have
 /// O(1).
-MarkLines axesOfFile(const Subject& subject, const Camera& camera);
+MarkLines axesOfFile(const Subject& subject, const Camera& camera, double stretch = 1);
 
 }  // namespace arete

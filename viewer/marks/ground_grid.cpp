@@ -18,7 +18,7 @@ namespace {
 constexpr Rgba kGridInk = {70, 78, 88, 150}, kFifthInk = {40, 46, 54, 255};
 /// Squares along the longer side, at least.
 constexpr double kSquares = 8;
-/// Lines of a map are drawn in so many pieces, which follow a curved Earth.
+/// Pieces of a line of a map, which follow a curved Earth.
 constexpr int kPieces = 24;
 /// Below the lowest place, of the diagonal: what is flat at the bottom hides no grid.
 constexpr double kBelow = 2e-3;

@@ -20,7 +20,7 @@ std::string freeName(const Layers& layers, const char* name) {
 }  // namespace
 
 void laySpaceMarks(Layers& layers, const SpaceMarks& marks, const Subject& subject, const Camera& camera,
-                   const std::optional<OrbitPlace>& orbit) {
+                   const std::optional<OrbitPlace>& orbit, double stretch) {
   const auto lay = [&](const char* stated, bool isShown, auto&& make) {
     const std::string name = freeName(layers, stated);
     if (!isShown) return layers.remove(name);
@@ -29,7 +29,7 @@ void laySpaceMarks(Layers& layers, const SpaceMarks& marks, const Subject& subje
     layer.legend = std::move(made.legend);
   };
   lay(SpaceMarks::kGrid, marks.grid, [&] { return groundGrid(subject); });
-  lay(SpaceMarks::kAxes, marks.axes, [&] { return axesOfFile(subject, camera); });
+  lay(SpaceMarks::kAxes, marks.axes, [&] { return axesOfFile(subject, camera, stretch); });
   lay(SpaceMarks::kOrbit, marks.orbit && orbit, [&] { return MarkLines{orbitMark(*orbit)}; });
 }
 

@@ -24,7 +24,8 @@ struct SpaceMarks {
 /// of the names stays as it is. Whether a layer is visible, its opacity and its place stay.
 ///
 /// @param orbit nothing: there is none to mark.
+/// @param stretch vertical exaggeration of what is drawn
 void laySpaceMarks(Layers& layers, const SpaceMarks& marks, const Subject& subject, const Camera& camera,
-                   const std::optional<OrbitPlace>& orbit);
+                   const std::optional<OrbitPlace>& orbit, double stretch = 1);
 
 }  // namespace arete

@@ -11,7 +11,7 @@ constexpr Rgba kInk = {255, 196, 0, 255};
 }  // namespace
 
 std::string storedErrorText(double error, const std::string& unit) {
-  return fmt::format("drawn triangle: stored error {:.4g}{}{}", error, unit.empty() ? "" : " ", unit);
+  return fmt::format("stored error {:.4g}{}{}", error, unit.empty() ? "" : " ", unit);
 }
 
 void DistancePicks::add(const Pick& pick) {
@@ -42,7 +42,7 @@ std::string DistancePicks::text(const std::string& unit) const {
     text += fmt::format("{} {},{},{}", i == 0 ? "A" : "B", pick.inObject.x, pick.inObject.y, pick.inObject.z);
     if (!pick.material.empty()) text += " material " + pick.material;
     if (!pick.parts.empty()) text += " " + pick.parts;
-    if (pick.drawnError) text += ", " + storedErrorText(*pick.drawnError, unit);
+    if (pick.drawnError) text += ", of the drawn triangle: " + storedErrorText(*pick.drawnError, unit);
     text += "\n";
   }
   if (picks_.size() < 2) return text;

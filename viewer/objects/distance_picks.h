@@ -9,7 +9,7 @@
 
 namespace arete {
 
-/// "drawn triangle: stored error 0.0123 m".
+/// "stored error 0.0123 m", of a drawn triangle.
 std::string storedErrorText(double error, const std::string& unit);
 
 /// Places of surfaces that were clicked, and the straight line between two of them, which is a layer.

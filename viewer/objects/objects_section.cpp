@@ -111,7 +111,10 @@ void drawDistanceSection(DistancePicks& distance, const ObjectList& objects, con
     if (objects.count() > 1) row("", objects.nameOf(pick.object));
     if (!pick.material.empty()) row("", pick.material);
     if (!pick.parts.empty()) row("", pick.parts);
-    if (pick.drawnError) row("", storedErrorText(*pick.drawnError, unit));
+    if (pick.drawnError) {
+      row("", "of the drawn triangle:");
+      row("", storedErrorText(*pick.drawnError, unit));
+    }
   }
   if (distance.picks().size() == 2) {
     const Vec3 way = distance.way();

@@ -278,7 +278,10 @@ void Panel::pickSection(ViewerSession& s, TerrainTools& tools) {
     const std::string lonLat = tools.places.isLonLat() ? std::string() : tools.places.lonLat(pick.xy);
     if (!lonLat.empty()) row("", lonLat);
     row("", tools.places.height(pick.height));
-    if (pick.drawnError) row("", storedErrorText(*pick.drawnError, s.subject.heightUnit()));
+    if (pick.drawnError) {
+      row("", "of the drawn triangle:");
+      row("", storedErrorText(*pick.drawnError, s.subject.heightUnit()));
+    }
   }
   bool isMoved = slider("A above ground", tools.observerAbove, 0, 200, "%.1f", true);
   isMoved = slider("B above ground", tools.targetAbove, 0, 200, "%.1f", true) || isMoved;

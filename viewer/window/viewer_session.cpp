@@ -170,7 +170,7 @@ void ViewerSession::layMarks() {
   // Free flight turns about nothing.
   std::optional<OrbitPlace> orbit;
   if (rig.mode() == CameraMode::orbit) orbit = OrbitPlace{rig.orbitCentre(), rig.orbitRadius()};
-  laySpaceMarks(layers, shows.marks, subject, rig.camera(), orbit);
+  laySpaceMarks(layers, shows.marks, subject, rig.camera(), orbit, settings.stretch);
 }
 
 void ViewerSession::apply(Action action) {

@@ -115,6 +115,23 @@ TEST_F(ViewCommand, ShowsEachMarkByItselfAndRefusesOthersByName) {
   EXPECT_NE(film.err.find("--show orbit"), std::string::npos) << film.err;
 }
 
+TEST_F(ViewCommand, ATerrainAtALevelByHandSaysWhatThePictureKeeps) {
+  write("scene.json", R"({"objects": [{"name": "ground", "file": "dem.amt", "level": {"triangles": 60}}]})");
+  const auto shoot = [&](const char* pixels) {
+    return run({"view", "scene.json", "--screenshot", "level.png", "--size", "160x120", "--json",
+                "--pixel-error", pixels});
+  };
+  const Outcome one = shoot("1");
+  if (isWithoutOpenGl(one)) GTEST_SKIP() << one.err;
+  ASSERT_EQ(one.code, 0) << one.err;
+  const auto figures = one.json()["screenshot"]["figures"];
+  EXPECT_LE(figures["triangles"].get<int>(), 60);
+  EXPECT_GT(figures["pixelError"].get<double>(), 0);
+  const auto other = shoot("20").json()["screenshot"]["figures"];
+  EXPECT_EQ(other["triangles"], figures["triangles"]) << "no tolerance counts";
+  EXPECT_EQ(other["pixelError"], figures["pixelError"]);
+}
+
 TEST_F(ViewCommand, APictureOfTheSkyAloneIsWarnedOf) {
   const auto shoot = [&](const char* camera) {
     return run({"view", "dem.amt", "--headless", "--screenshot", "sky.png", "--size", "64x64", "--json",
