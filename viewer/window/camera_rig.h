@@ -82,7 +82,7 @@ class CameraRig {
   double floorMetres_ = 2;  // before ground_, which is made with it
   OrbitCamera orbit_;
   FreeCamera free_;
-  std::optional<GroundFollowing> ground_;  // nothing: there is no ground
+  std::optional<GroundFollowing> ground_;  // nothing without ground
   bool follows_ = false;
   double metresPerSecond_, lastSpeed_ = 0;
 };

@@ -72,7 +72,7 @@ class ViewerSession {
   CameraRig rig;
   FlightDeck deck;
   std::optional<TerrainTools> tools;  ///< nothing without a terrain
-  DistancePicks distance;             ///< where there is no terrain
+  DistancePicks distance;             ///< of surfaces without a terrain
   std::optional<ObjectList> objects;  ///< of the scene; nothing in a session without one
   Cursor cursor{subject, tools};
   OverwriteQuestion question;       ///< waits for answer() before a file is overwritten

@@ -190,8 +190,10 @@ class WindowLoop {
     // A film has every frame as it should be, without the marks of a hand at work.
     const bool isFilming = files_.has_value();
     const Layers laid = isFilming ? scene_.layers : Layers();
-    if (isFilming)
+    if (isFilming) {
       for (const char* mark : ViewerSession::kMarks) scene_.layers.remove(mark);
+      for (ShownObject& object : scene_.objects()) object.kept.reset();
+    }
     // A setting that cannot be cut or drawn is taken back, and the last one that was drawn is used; only if
     // that fails too the window ends.
     Status drawn = drawOnce(context);

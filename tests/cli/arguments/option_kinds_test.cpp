@@ -200,6 +200,7 @@ const std::map<std::string, Tried>& triedCommands() {
          {"--haze", {"--haze 1"}},
          {"--exaggeration", {"--exaggeration 3"}},
          {"--curvature", {"--curvature"}},
+         {"--show", {"--show axes"}},
          {"--wireframe", {"--wireframe"}},
          {"--unshaded", {"--unshaded"}},
          {"--no-decorations", {"--no-decorations"}},

@@ -46,6 +46,49 @@ void fly(ViewerSession& s, int frame) {
   s.rig.place(camera);
 }
 
+TEST(Session, KeysShowTheMarksEachByItselfAndChangeTheProjection) {
+  test::ViewedTerrain viewed(northUp());
+  ViewerSession& s = viewed.session;
+  const auto has = [&](const char* name) { return s.layers.find(name) != nullptr; };
+  const std::vector<std::pair<Action, const char*>> marks = {{Action::axes, SpaceMarks::kAxes},
+                                                             {Action::grid, SpaceMarks::kGrid},
+                                                             {Action::orbitMark, SpaceMarks::kOrbit}};
+  for (const auto& [action, name] : marks) {
+    s.apply(action);
+    s.step(still());
+    for (const auto& [other, otherName] : marks) EXPECT_EQ(has(otherName), other == action) << otherName;
+    s.apply(action);
+    s.step(still());
+    EXPECT_FALSE(has(name));
+  }
+  // Free flight turns about nothing.
+  s.apply(Action::orbitMark);
+  s.apply(Action::toggleMode);
+  s.step(still());
+  EXPECT_FALSE(has(SpaceMarks::kOrbit));
+  s.apply(Action::parallel);
+  EXPECT_GT(s.rig.camera().parallelHeight, 0);
+  s.apply(Action::parallel);
+  EXPECT_EQ(s.rig.camera().parallelHeight, 0);
+  s.settings.isCurved = true;
+  s.apply(Action::parallel);
+  EXPECT_EQ(s.rig.camera().parallelHeight, 0) << "a curved Earth is drawn in perspective";
+}
+
+TEST(Session, TheMarkOfAnOrbitIsWhereTheCameraTurnsAboutWhateverTheExaggeration) {
+  test::ViewedTerrain viewed(northUp());
+  ViewerSession& s = viewed.session;
+  for (const double stretch : {1.0, 3.0}) {
+    s.settings.stretch = stretch;
+    s.step(still());
+    // What is orbited is in the middle of the picture.
+    const auto pixel = pixelOf(s.subject, s.rig.camera(), s.rig.orbitCentre(), s.settings);
+    ASSERT_TRUE(pixel.has_value());
+    EXPECT_NEAR(pixel->x, s.rig.camera().widthPixels / 2, 0.01);
+    EXPECT_NEAR(pixel->y, s.rig.camera().heightPixels / 2, 0.01);
+  }
+}
+
 TEST(Session, TheTargetTimeMakesTheToleranceCoarserAndLetsItFinerAgain) {
   test::ViewedTerrain viewed(northUp());
   ViewerSession& s = viewed.session;
