@@ -19,6 +19,7 @@
 #include "cli/arguments/drop_attributes.h"
 #include "cli/arguments/extract_outputs.h"
 #include "cli/arguments/mesh_options.h"
+#include "cli/arguments/normals_option.h"
 #include "cli/arguments/option_kinds.h"
 #include "cli/arguments/place_hint.h"
 #include "cli/commands/check_command.h"
@@ -66,6 +67,7 @@ struct ExtractArguments {
   std::string certificate, errorRaster, map;
   std::string dropParts;
   std::vector<std::string> dropAttributes;
+  NormalsArguments normals;
   bool measuresBothWays = false, staysUndisplaced = false;
   PlaceTarget place;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
@@ -202,6 +204,7 @@ Status runSurfaceExtract(const ExtractArguments& arguments, const AmtContainer& 
                          .asked = arguments.criterion.ofSurface(),
                          .dropParts = arguments.dropParts,
                          .dropAttributes = arguments.dropAttributes,
+                         .normals = arguments.normals.options,
                          .measuresBothWays = arguments.measuresBothWays,
                          .staysUndisplaced = arguments.staysUndisplaced},
                         file, session);
@@ -321,6 +324,9 @@ void addExtractCommand(CLI::App& app, Session& session) {
                        "or in % of the whole diagonal")
           ->type_name("D"));
   kinds.ofSurfaces(addDropAttributesTo(*command, arguments->dropAttributes));
+  const auto [normals, creaseAngle] = arguments->normals.addTo(*command);
+  kinds.ofSurfaces(normals);
+  kinds.ofSurfaces(creaseAngle);
   kinds.ofSurfaces(command->add_flag("--both-ways", arguments->measuresBothWays,
                                      "Also measure how far the result is from the source"));
   kinds.ofSurfaces(command->add_flag(
