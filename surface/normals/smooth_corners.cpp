@@ -185,8 +185,8 @@ class SmoothCorners {
     if (!stated_.empty() && norm(stated_[a]) > 0 && norm(stated_[b]) > 0 &&
         isCrease(stated_[a], stated_[b], kStatedDegrees))
       return;
-    const auto [low, high] = std::minmax(rootOf(a), rootOf(b));
-    root_[high] = low;
+    const std::uint32_t first = rootOf(a), second = rootOf(b);
+    root_[std::max(first, second)] = std::min(first, second);
   }
 
   CornerNormals sums(const std::vector<Vec3>& handed) {
