@@ -13,7 +13,7 @@ inline constexpr double kCreaseDegrees = 45;
 
 /// Rounded coordinates turn faces by so much: the sides of a prism of eight, 45 degrees apart, are alike all
 /// around.
-inline constexpr double kCreaseSlackDegrees = 1e-3;
+inline constexpr double kCreaseSlackDegrees = 1e-4;
 
 /// Whether the edge between two faces is a crease: their normals, of any length, differ by more than
 /// `degrees` (0..180) and the slack. A face without area has no normal and makes no crease. The angle is
