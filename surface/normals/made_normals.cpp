@@ -62,8 +62,9 @@ Attribute normalAttribute() {
           .components = 3};
 }
 
+/// A zero has no sign, so that equal normals are equal to the bit.
 void appendNormal(Attribute& to, const Vec3& n) {
-  const std::array<double, 3> numbers{n.x, n.y, n.z}, up{0, 0, 1};
+  const std::array<double, 3> numbers{n.x + 0.0, n.y + 0.0, n.z + 0.0}, up{0, 0, 1};
   to.append(std::span<const double>(norm(n) > 0 ? numbers : up));
 }
 
