@@ -68,7 +68,7 @@ void appendNormal(Attribute& to, const Vec3& n) {
   to.append(std::span<const double>(norm(n) > 0 ? numbers : up));
 }
 
-/// Gives corners these normals; those of the mesh are left out before.
+/// Gives corners these normals; the former ones are left out before.
 void putNormals(SurfaceMesh& mesh, const CornerNormals& made) {
   using Pair = std::pair<std::uint32_t, std::uint32_t>;  // a former wedge and a normal
   std::vector<Pair> pairs;

@@ -155,7 +155,7 @@ class SmoothCorners {
       }
   }
 
-  /// The normals of faces; of a face that has none that of the face at its longest edge.
+  /// The normals of faces; a face that has none has its neighbour's at the longest edge.
   std::vector<Vec3> handedOn() const {
     std::vector<Vec3> normals;
     std::vector<std::uint32_t> without;

@@ -26,7 +26,7 @@ CornerNormals flatCorners(const TriangleMesh& mesh);
 /// alike, and at an end where the stated normals of both sides differ by more than a degree. Vertices at one
 /// place are one: seams of attributes part nothing. Of an edge of more than two faces the most level pairs of
 /// faces go on smoothly. A triangle that is thinner than the numbers of the mesh has no normal of its own: it
-/// hands on that of the face at its longest edge. Where normals cancel, corners have those of their faces.
+/// hands on what the face at its longest edge has. Where normals cancel, corners have what their faces have.
 ///
 /// @param stated  empty, or three a triangle: the normals of the file, zero where it states none.
 /// Precondition: indices are valid, positions finite. O(n log n).
