@@ -15,6 +15,7 @@
 #include "cli/arguments/conversion_report.h"
 #include "cli/arguments/drop_attributes.h"
 #include "cli/arguments/mesh_options.h"
+#include "cli/arguments/normals_option.h"
 #include "cli/arguments/option_kinds.h"
 #include "cli/surface/convert.h"
 #include "io/files/text_scan.h"
@@ -35,6 +36,7 @@ struct ConvertArguments {
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   MeshPlacing placing;
   PlaceTarget place;
+  NormalsArguments normals;
   std::vector<std::string> dropAttributes;
   OptionKinds kinds;
 };
@@ -62,6 +64,8 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
   if (!arguments.placing.isNothing())
     return failure(ErrorCode::usage, "is for meshes; an .amt states its axes and units",
                    arguments.placing.unit.empty() ? "--up" : "--unit");
+  if (arguments.normals.options != NormalsOptions{})
+    return failure(ErrorCode::usage, "is for meshes; arete extract makes normals of a cut", "--normals");
   if (arguments.place.isStated())
     return failure(ErrorCode::usage, "is for meshes; `arete extract` leads a cut there",
                    arguments.place.isMetric ? "--metric" : fmt::format("--to-crs {}", arguments.place.crs));
@@ -103,7 +107,8 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
                                                        .format = arguments.output.format,
                                                        .existing = arguments.existing,
                                                        .placing = arguments.placing,
-                                                       .place = arguments.place},
+                                                       .place = arguments.place,
+                                                       .normals = arguments.normals.options},
                                                       session.context());
   if (!converted) {
     Error error = converted.error();
@@ -145,6 +150,7 @@ void addConvertCommand(CLI::App& app, Session& session) {
                    "CRS of the coordinates, where the file has none; --to-crs leads them into another")
       ->type_name("CRS");
   addDropAttributesTo(*command, arguments->dropAttributes);
+  arguments->normals.addTo(*command);
   addPlacingTo(*command, arguments->placing);
   addPlaceTo(*command, arguments->place);
 }

@@ -19,6 +19,7 @@
 #include "cli/arguments/drop_attributes.h"
 #include "cli/arguments/extract_outputs.h"
 #include "cli/arguments/mesh_options.h"
+#include "cli/arguments/normals_option.h"
 #include "cli/arguments/option_kinds.h"
 #include "cli/arguments/place_hint.h"
 #include "cli/commands/check_command.h"
@@ -67,6 +68,7 @@ struct ExtractArguments {
   std::string dropParts;
   std::vector<std::string> dropAttributes;
   std::string attributeErrors = {};
+  NormalsArguments normals;
   bool measuresBothWays = false, staysUndisplaced = false;
   PlaceTarget place;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
@@ -203,6 +205,7 @@ Status runSurfaceExtract(const ExtractArguments& arguments, const AmtContainer& 
                          .asked = arguments.criterion.ofSurface(),
                          .dropParts = arguments.dropParts,
                          .dropAttributes = arguments.dropAttributes,
+                         .normals = arguments.normals.options,
                          .measuresBothWays = arguments.measuresBothWays,
                          .attributeErrors = arguments.attributeErrors,
                          .staysUndisplaced = arguments.staysUndisplaced},
@@ -328,6 +331,9 @@ void addExtractCommand(CLI::App& app, Session& session) {
           ->add_option("--attribute-error", arguments->attributeErrors,
                        "What attributes may be off by: uv:2px,normal:10,color:8 (build --attributes)")
           ->type_name("NAME:E,..."));
+  const auto [normals, creaseAngle] = arguments->normals.addTo(*command);
+  kinds.ofSurfaces(normals);
+  kinds.ofSurfaces(creaseAngle);
   kinds.ofSurfaces(command->add_flag("--both-ways", arguments->measuresBothWays,
                                      "Also measure how far the result is from the source"));
   kinds.ofSurfaces(command->add_flag(

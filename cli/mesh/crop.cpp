@@ -12,6 +12,7 @@
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/conversion_report.h"
 #include "cli/arguments/mesh_options.h"
+#include "cli/arguments/normals_option.h"
 #include "io/formats/exchange/convert.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "surface/edit/crop.h"
@@ -23,6 +24,7 @@ struct CropArguments {
   std::string input, box;
   MeshOutput output;
   MeshPlacing placing;
+  NormalsArguments normals;
   CropOptions options;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
@@ -67,6 +69,7 @@ Status runCrop(const CropArguments& arguments, Session& session) {
                                                        {.format = arguments.output.format,
                                                         .existing = arguments.existing,
                                                         .placing = arguments.placing,
+                                                        .normals = arguments.normals.options,
                                                         .isOfFloats = isOfFloats},
                                                        session.context()));
   warnOfConversion(converted, arguments.input, target.format.name, session);
@@ -101,6 +104,7 @@ void addMeshCropCommand(CLI::App& mesh, Session& session) {
       ->type_name("X0,Y0,Z0,X1,Y1,Z1");
   command->add_flag("--whole", arguments->options.keepsWhole,
                     "Keep triangles that touch the box whole (default: they are cut at its faces)");
+  arguments->normals.addTo(*command);
   addPlacingTo(*command, arguments->placing);
 }
 

@@ -15,6 +15,7 @@
 #include "cli/arguments/conversion_report.h"
 #include "cli/arguments/drop_attributes.h"
 #include "cli/arguments/mesh_options.h"
+#include "cli/arguments/normals_option.h"
 #include "cli/mesh/tolerance.h"
 #include "cli/session/option_names.h"
 #include "engine/base/stopwatch.h"
@@ -36,6 +37,7 @@ struct DecimateArguments {
   DecimationRequest request;
   MeshOutput output;
   MeshPlacing placing;
+  NormalsArguments normals;
   std::vector<std::string> dropAttributes;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
@@ -166,6 +168,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
                                                        {.format = arguments.output.format,
                                                         .existing = arguments.existing,
                                                         .placing = arguments.placing,
+                                                        .normals = arguments.normals.options,
                                                         .isOfFloats = isOfFloats},
                                                        session.context()));
   renumberForFile(outcome->triangleFor, converted.triangleOf);
@@ -290,6 +293,7 @@ void addMeshDecimateCommand(CLI::App& mesh, Session& session) {
                    "that\nstands for it")
       ->type_name("FILE");
   addDropAttributesTo(*command, arguments->dropAttributes);
+  arguments->normals.addTo(*command);
   addPlacingTo(*command, arguments->placing);
 }
 

@@ -11,6 +11,7 @@
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/conversion_report.h"
 #include "cli/arguments/mesh_options.h"
+#include "cli/arguments/normals_option.h"
 #include "io/formats/exchange/axes.h"
 #include "io/formats/exchange/convert.h"
 #include "io/formats/exchange/mesh_formats.h"
@@ -25,6 +26,7 @@ struct PlaceArguments {
   double scale = 1;
   MeshOutput output;
   MeshPlacing placing;
+  NormalsArguments normals;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 
@@ -83,10 +85,12 @@ Status runPlace(const PlaceArguments& a, Session& session) {
   if (Status placed = placeMesh(mesh, placing); !placed)
     return failure(placed.error().code, placed.error().message,
                    fmt::format("{}, {}", a.input, placed.error().culprit));
-  ARETE_TRY(const ConvertedMesh converted,
-            convertMesh(std::move(mesh), target.path,
-                        {.format = a.output.format, .existing = a.existing, .placing = a.placing},
-                        session.context()));
+  ARETE_TRY(const ConvertedMesh converted, convertMesh(std::move(mesh), target.path,
+                                                       {.format = a.output.format,
+                                                        .existing = a.existing,
+                                                        .placing = a.placing,
+                                                        .normals = a.normals.options},
+                                                       session.context()));
   warnOfConversion(converted, a.input, target.format.name, session);
   session.say(writtenText(target.path, converted));
   Json json = writtenJson(a.input, target.path, target.format.name, converted);
@@ -125,6 +129,7 @@ void addMeshPlaceCommand(CLI::App& mesh, Session& session) {
           "What stays where it is but for --move: origin (0,0,0, default), middle or base of its box, "
           "or a place")
       ->type_name("WHERE");
+  arguments->normals.addTo(*command);
   addPlacingTo(*command, arguments->placing);
 }
 

@@ -14,6 +14,7 @@
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/conversion_report.h"
 #include "cli/arguments/mesh_options.h"
+#include "cli/arguments/normals_option.h"
 #include "cli/mesh/diagnosis_text.h"
 #include "cli/mesh/tolerance.h"
 #include "engine/base/counted.h"
@@ -34,6 +35,7 @@ struct RepairArguments {
   std::string input, weld;
   MeshOutput output;
   MeshPlacing placing;
+  NormalsArguments normals;
   RepairOptions options;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
@@ -148,6 +150,7 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
                                                        {.format = arguments.output.format,
                                                         .existing = arguments.existing,
                                                         .placing = arguments.placing,
+                                                        .normals = arguments.normals.options,
                                                         .isOfFloats = isOfFloats},
                                                        session.context()));
   warnOfConversion(converted, arguments.input, target.format.name, session);
@@ -189,6 +192,7 @@ void addMeshRepairCommand(CLI::App& mesh, Session& session) {
       ->type_name("N");
   command->add_flag("--split-sheets", arguments->options.splitsSheets,
                     "Split edges of more than two faces into sheets");
+  arguments->normals.addTo(*command);
   addPlacingTo(*command, arguments->placing);
 }
 

@@ -59,6 +59,7 @@ constexpr std::array kNames = {
     Name{"minimumAspect", "--min-aspect"},
     Name{"noCrossings", "--no-crossings"},
     Name{"nodata", "--nodata"},
+    Name{"normals", "--normals"},
     Name{"operator", "--operator"},
     Name{"order", "--order"},
     Name{"outsideError", "--outside-error"},

@@ -84,6 +84,7 @@ Result<Requests> requestsOf(const SurfaceExtractArguments& arguments, const Surf
       const std::string tag = tagOf(asked, tolerance ? tolerance->text : "", budget ? budget->text : "");
       requests.all.push_back(arguments.outputs.requestOf(criterion, tag, several));
       requests.all.back().dropAttributes = arguments.dropAttributes;
+      requests.all.back().normals = arguments.normals;
       requests.all.back().measuresBothWays = arguments.measuresBothWays;
     }
   return requests;

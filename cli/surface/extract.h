@@ -9,6 +9,7 @@
 #include "cli/session/session.h"
 #include "engine/base/result.h"
 #include "io/store/amt/container.h"
+#include "surface/normals/made_normals.h"
 
 namespace arete {
 
@@ -18,6 +19,7 @@ struct SurfaceExtractArguments {
   CriterionArguments::OfSurface asked;
   std::string dropParts;  ///< --drop-parts; empty: none
   std::vector<std::string> dropAttributes = {};
+  NormalsOptions normals = {};
   bool measuresBothWays = false;     ///< the distance from the result to the source, too
   std::string attributeErrors = {};  ///< --attribute-error; empty: none
   bool staysUndisplaced = false;     ///< vertices of a displaced model stay where they are in the source

@@ -7,10 +7,10 @@
 #include "engine/simplify/vertex_classes.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <numeric>
 #include <utility>
+
+#include "engine/base/crease.h"
 
 namespace arete {
 namespace {
@@ -45,16 +45,13 @@ VertexClass classOf(const Tally& tally) {
 template <class Position>
 std::vector<VertexClass> classify(std::size_t vertexCount, const Position& positionOf,
                                   std::span<const Triangle> triangles, double creaseAngleDegrees) {
-  const double creaseAngle = creaseAngleDegrees * std::numbers::pi / 180;
   const auto normalOf = [&](std::uint32_t triangle) {
     const Triangle& t = triangles[triangle];
     const Vec3 origin = positionOf(t[0]);
     return cross((positionOf(t[1]) - origin), (positionOf(t[2]) - origin));
   };
-  // The angle by its tangent: an arc cosine would lose half the digits on nearly flat ground.
-  const auto isCrease = [&](std::uint32_t a, std::uint32_t b) {
-    const Vec3 m = normalOf(a), n = normalOf(b), sine = cross(m, n);
-    return std::atan2(std::sqrt(dot(sine, sine)), dot(m, n)) > creaseAngle;
+  const auto isCreaseBetween = [&](std::uint32_t a, std::uint32_t b) {
+    return isCrease(normalOf(a), normalOf(b), creaseAngleDegrees);
   };
 
   std::vector<std::size_t> begin(vertexCount + 2, 0);
@@ -80,7 +77,7 @@ std::vector<VertexClass> classify(std::size_t vertexCount, const Position& posit
       const auto next =
           std::find_if(edge, last, [&](const EdgeUse& use) { return use.otherEnd != edge->otherEnd; });
       const auto sharing = next - edge;
-      const bool crease = sharing == 2 && isCrease(edge[0].triangle, edge[1].triangle);
+      const bool crease = sharing == 2 && isCreaseBetween(edge[0].triangle, edge[1].triangle);
       for (Tally* end : {&tallies[low], &tallies[edge->otherEnd]}) {
         end->used = true;
         end->onBorder |= sharing == 1;

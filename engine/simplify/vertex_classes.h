@@ -26,10 +26,11 @@ enum class VertexClass : std::uint8_t {
 using PositionOf = std::function<Vec3(std::uint32_t vertex)>;
 
 /// Classifies every vertex of a triangulation. A *crease* is an edge whose two triangles' normals differ by
-/// more than `creaseAngleDegrees` (0..180). Positions must be metric: the same unit in plan and height, or
-/// the angle means nothing. A triangle without area has no normal and makes no crease. Precondition: every
-/// index < `vertexCount` (= positions.size()), triangles coherently oriented, finite positions. O(n) time for
-/// bounded vertex degrees, about 80 bytes per vertex of a raster while it runs.
+/// more than `creaseAngleDegrees` (0..180), as isCrease() has it (engine/base/crease.h). Positions must be
+/// metric: the same unit in plan and height, or the angle means nothing. A triangle without area has no
+/// normal and makes no crease. Precondition: every index < `vertexCount` (= positions.size()), triangles
+/// coherently oriented, finite positions. O(n) time for bounded vertex degrees, about 80 bytes per vertex of
+/// a raster while it runs.
 std::vector<VertexClass> classifyVertices(std::span<const Vec3> positions,
                                           std::span<const std::array<std::uint32_t, 3>> triangles,
                                           double creaseAngleDegrees);

@@ -67,6 +67,10 @@ EXCEPTED = {
     ("measure", "error-raster"): "output; Tin.save() has it", ("measure", "error-mesh"): "output",
     ("mesh decimate", "map"): "output; source_vertices of the result", ("convert", "up"): "of a file written of a file",
     ("convert", "unit"): "of a file written of a file", ("mesh repair", "up"): "of the output",
+    ("mesh repair", "normals"): "of the output", ("mesh repair", "crease-angle"): "of the output",
+    ("mesh decimate", "normals"): "of the output", ("mesh decimate", "crease-angle"): "of the output",
+    ("extract", "normals"): "of the output", ("extract", "crease-angle"): "of the output",
+    ("convert", "normals"): "of the output", ("convert", "crease-angle"): "of the output",
     ("mesh repair", "unit"): "of the output", ("mesh decimate", "up"): "of the output", ("mesh decimate", "unit"): "of the output",
 }
 

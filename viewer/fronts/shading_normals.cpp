@@ -1,44 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viewer/fronts/shading_normals.h"
 
-#include <cmath>
-#include <numbers>
+#include <utility>
 
 #include "engine/cut/cut.h"
+#include "surface/normals/smooth_corners.h"
 
 namespace arete {
 
 std::vector<Vec3> shadingNormals(const SurfaceModel& model) {
-  const double leastCosine = std::numbers::sqrt2 / 2;
   const MultiTriangulation& mt = model.mt;
   const Cut finest = frontOfPrefix(mt, mt.nodeCount());
-  const auto areaNormal = [&](const std::array<std::uint32_t, 3>& corners) {
-    const MetricFrame& metric = mt.metric();
-    const auto at = [&](std::size_t i) {
-      return metric.toMetric(mt.position(VertexId(finest.vertices[corners[i]])));
-    };
-    const Vec3 a = at(0);
-    return cross(at(1) - a, at(2) - a);
-  };
-  std::vector<Vec3> normals(mt.vertexCount());
-  for (const auto& corners : finest.triangles) {
-    const Vec3 n = areaNormal(corners);
-    for (const std::uint32_t c : corners) normals[finest.vertices[c]] = normals[finest.vertices[c]] + n;
-  }
-  for (Vec3& n : normals) {
-    const double length = norm(n);
-    n = length > 0 ? n / length : Vec3{};
-  }
-  std::vector<std::uint8_t> isSharp(mt.vertexCount(), 0);
-  for (const auto& corners : finest.triangles) {
-    const Vec3 n = areaNormal(corners);
-    for (const std::uint32_t c : corners) {
-      const std::uint32_t v = finest.vertices[c];
-      if (dot(n, normals[v]) < leastCosine * norm(n)) isSharp[v] = 1;
+  TriangleMesh mesh;
+  for (const std::uint32_t v : finest.vertices)
+    mesh.positions.push_back(mt.metric().toMetric(mt.position(VertexId(v))));
+  mesh.triangles.assign(finest.triangles.begin(), finest.triangles.end());
+  const CornerNormals smooth = smoothCorners(mesh, kCreaseDegrees);
+  constexpr std::uint32_t kUnseen = 0xFFFFFFFF, kSharp = 0xFFFFFFFE;
+  std::vector<std::uint32_t> normalOf(mesh.positions.size(), kUnseen);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t& normal = normalOf[mesh.triangles[t][k]];
+      const std::uint32_t own = smooth.normalOf[t][k];
+      normal = normal == kUnseen || normal == own ? own : kSharp;
     }
-  }
-  for (std::size_t v = 0; v < normals.size(); ++v)
-    if (isSharp[v]) normals[v] = {};
+  std::vector<Vec3> normals(mt.vertexCount());
+  for (std::size_t v = 0; v < normalOf.size(); ++v)
+    if (normalOf[v] < kSharp) normals[finest.vertices[v]] = smooth.normals[normalOf[v]];
   return normals;
 }
 

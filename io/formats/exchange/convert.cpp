@@ -92,6 +92,22 @@ Status lead(MeshFile& mesh, const ConvertOptions& options, const MeshFormat& for
   return {};
 }
 
+/// Makes the normals that the options ask for.
+Status makeNormalsOf(MeshFile& mesh, const NormalsOptions& options, Warnings& warnings) {
+  if (options.kind == NormalsKind::keep) return {};
+  if (isGeographicCrs(mesh.crsWkt))
+    return failure(
+        ErrorCode::usage,
+        "are made of lengths, and the mesh is in degrees; `metric` or `toCrs` leads it into lengths",
+        "normals");
+  ARETE_TRY(const MadeNormals made, makeNormals(mesh.mesh, options));
+  if (made.leavesOutTangents)
+    warnings.push_back(
+        {WarningCode::omitted,
+         "tangents are left out: they belong to other normals, and programs make them of the new ones"});
+  return {};
+}
+
 std::vector<Vec3> usedPositions(const TriangleMesh& mesh) {
   std::vector<bool> isUsed(mesh.positions.size(), false);
   for (const auto& triangle : mesh.triangles)
@@ -141,6 +157,7 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   } else if (auto degrees = warningOfDegrees(format, mesh.crsWkt, mesh.verticalUnit)) {
     converted.warnings.push_back(std::move(*degrees));
   }
+  ARETE_CHECK(makeNormalsOf(mesh, options.normals, converted.warnings));
   converted.triangles = mesh.mesh.triangles.size();
   converted.vertices = mesh.mesh.positions.size();
   converted.joinedVertices = mesh.joinedVertices;

@@ -12,6 +12,7 @@
 #include "io/formats/exchange/axes.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/formats/exchange/placed_mesh.h"
+#include "surface/normals/made_normals.h"
 
 namespace arete {
 
@@ -23,6 +24,7 @@ struct ConvertOptions {
   MeshPlacing placing = {};  ///< what the file does not say of its axes and its unit
   /// Where the coordinates are led; only from a CRS, which the file has or `crs` states.
   PlaceTarget place = {};
+  NormalsOptions normals = {};  ///< of the mesh as it is written
   /// Whether the coordinates of the source are floats; empty: if those of the mesh are.
   std::optional<bool> isOfFloats = {};
 };
@@ -56,6 +58,7 @@ double movedByFloats(const TriangleMesh& mesh);
 /// the file states, or of a metre where it states none (placeInTarget()).
 ///
 /// Errors: as writeMesh(), placeMesh() and placeInTarget(). usage: attributes that splits cannot keep.
+/// usage, culprit `normals`: normals are to be made of a mesh in degrees.
 /// usage, with the text as culprit: options.crs is not a CRS; culprit `unit`: options.crs states the unit.
 /// O(size), O(n log n) to a format that rounds.
 Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& path,

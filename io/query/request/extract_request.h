@@ -9,6 +9,7 @@
 #include "io/files/existing_file.h"
 #include "io/geo/bent/target.h"
 #include "io/query/request/cut_request.h"
+#include "surface/normals/made_normals.h"
 
 namespace arete {
 
@@ -26,6 +27,7 @@ struct ExtractRequest {
   std::string map =
       {};  ///< of a surface: CSV of vertices and faces (io/query/surface/map_file.h); empty = none
   std::vector<std::string> dropAttributes = {};  ///< of a surface: names that dropAttributes() leaves out
+  NormalsOptions normals = {};                   ///< of a surface: made of the faces of the cut
   bool keepsMesh = false;         ///< of terrain: the result holds the mesh, and the error of each sample
   bool measuresBothWays = false;  ///< of a surface: also measure how far the result is from the source
 };

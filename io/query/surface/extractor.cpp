@@ -19,6 +19,7 @@
 #include "measure/mesh_distance.h"
 #include "surface/edit/drop_attributes.h"
 #include "surface/front/face_map.h"
+#include "surface/normals/made_normals.h"
 
 namespace arete {
 namespace {
@@ -121,6 +122,7 @@ Status SurfaceExtractor::write(const ExtractRequest& request, TakenSurface& take
       dropped.error().culprit = "dropAttributes " + dropped.error().culprit;
     return dropped;
   }
+  ARETE_CHECK(makeNormals(taken.front.mesh, request.normals));
   if (request.certificate.empty()) {
     ARETE_TRY(MeshWriteReport written, writeMesh(taken.front.mesh, request.output, options, context));
     result.written = std::move(written);
