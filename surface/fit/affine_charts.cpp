@@ -13,7 +13,7 @@
 namespace arete {
 namespace {
 
-/// Directions in which a chart is thinner than this share of its largest extent are no part of it.
+/// Directions in which a chart is thinner than this share of its largest extent are not used.
 constexpr double kFlat = 1e-6;
 
 }  // namespace

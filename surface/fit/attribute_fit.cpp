@@ -20,7 +20,8 @@ namespace {
 
 using Corners3 = std::array<std::uint32_t, 3>;
 constexpr std::uint64_t kPerTriangle = 40, kPerFace = 16, kMostOfFaces = 100'000;
-/// Of the largest number: what equals the source's to so much is not fitted, and decimals of text round so.
+/// Of the largest number: what equals the source's to this share is not fitted, and decimals of text round
+/// so.
 constexpr double kRoundingOfText = 2e-6;
 
 std::vector<double> numbersOf(const Attribute& a) {

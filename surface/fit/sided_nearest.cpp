@@ -13,7 +13,7 @@ namespace {
 
 /// What another triangle at a seam shows is nearer if it is nearer by this factor.
 constexpr double kMuchNearer = 0.25;
-/// Another side of a seam is at most so many times as far, or a share of the diagonal.
+/// Another side of a seam is at most this factor farther, or a share of the diagonal.
 constexpr double kOtherSide = 3, kOtherSideOfDiagonal = 0.01;
 constexpr std::size_t kSamplesOfRun = 1024;
 
