@@ -22,7 +22,8 @@ constexpr double kFirst = 0.7548776662466927, kSecond = 0.5698402909980532;
 
 }  // namespace
 
-SourceSamples sampleSource(const TriangleMesh& source, std::uint64_t count) {
+SourceSamples sampleSource(const TriangleMesh& source, std::uint64_t count,
+                           const std::vector<std::array<std::uint32_t, 2>>& lines) {
   SourceSamples samples;
   const auto at = [&](std::uint32_t v) -> const Vec3& { return source.positions[v]; };
   double area = 0;
@@ -31,7 +32,8 @@ SourceSamples sampleSource(const TriangleMesh& source, std::uint64_t count) {
   const double share = area / static_cast<double>(count);
   samples.ofArea.reserve(count + 1);
   double sum = 0;
-  for (const auto& [i, j, k] : source.triangles) {
+  for (std::uint32_t t = 0; t < source.triangles.size(); ++t) {
+    const auto& [i, j, k] = source.triangles[t];
     sum += norm(cross(at(j) - at(i), at(k) - at(i))) / 2;
     while ((static_cast<double>(samples.ofArea.size()) + 0.5) * share < sum &&
            samples.ofArea.size() <= count) {
@@ -41,21 +43,23 @@ SourceSamples sampleSource(const TriangleMesh& source, std::uint64_t count) {
         v = 1 - v;
       }
       samples.ofArea.push_back(at(i) + u * (at(j) - at(i)) + v * (at(k) - at(i)));
+      samples.whereOfArea.push_back({t, {1 - u - v, u, v}});
     }
   }
   const double width = std::sqrt(share);
   const MeshEdges edges(source.triangles, source.positions.size());
   double length = 0;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (!edges[e].isBorder()) continue;
-    const Vec3 &p = at(edges[e].low.index()), &q = at(edges[e].high.index());
+  const auto sample = [&](const Vec3& p, const Vec3& q) {
     const double begin = length, end = begin + norm(q - p);
     length = end;
     while ((static_cast<double>(samples.ofBorder.size()) + 0.5) * width < end) {
       const double x = (static_cast<double>(samples.ofBorder.size()) + 0.5) * width;
       samples.ofBorder.push_back(p + (x - begin) / (end - begin) * (q - p));
     }
-  }
+  };
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (edges[e].isBorder()) sample(at(edges[e].low.index()), at(edges[e].high.index()));
+  for (const auto& [i, j] : lines) sample(at(i), at(j));
   return samples;
 }
 

@@ -22,12 +22,13 @@ struct FitOutcome {
 
 /// Moves the vertices of a front by `--fit rms` (surface/fit/fit.h). Where the result is farther from the
 /// source than maxError, a part of every move is made: a half, a quarter, an eighth, or nothing, which is the
-/// cut.
+/// cut. Attributes follow (surface/fit/attribute_fit.h); where the root mean square of one would grow, a
+/// smaller part is made, too.
 /// @param charts    of the source and the cut: chartsOfCut()
 /// @param cutError  of the cut: at most maxError
 /// @param positionError  how far vertices of `source` may be from those that they stand for
 ///                       (SurfaceModel::positionError): all that is measured is stated with it
-Result<FitOutcome> fitFront(SurfaceFront& front, const TriangleMesh& source, const ChartsOfCut& charts,
+Result<FitOutcome> fitFront(SurfaceFront& front, const SurfaceMesh& source, const ChartsOfCut& charts,
                             bool keepsBorders, double cutError, std::optional<double> maxError,
                             const RunContext& context, double positionError = 0);
 

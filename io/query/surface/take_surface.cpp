@@ -82,7 +82,7 @@ Result<TakenSurface> takeSurface(const SurfaceModel& model, const CutRequest& re
   if (request.spaceCamera) taken.pixels = worstSeverity(model.mt, *criterion, taken.cut);
   if (request.fit == CutFit::rms) {
     // A cut that a budget ended does not keep the tolerance before the fit.
-    ARETE_TRY(const auto fitted, fitFront(taken.front, finestWithout(model, dropped).mesh.shape(),
+    ARETE_TRY(const auto fitted, fitFront(taken.front, finestWithout(model, dropped).mesh,
                                           chartsOfCut(model, finestCutWithout(model, dropped), taken.cut),
                                           model.options.keepsBorders, taken.cut.achievedError,
                                           taken.whole.isComplete ? request.maxError : std::nullopt, context,

@@ -103,9 +103,9 @@ TEST_F(RoundedSurfaces, StateNoLessThanIsTrueOfTheSourceFittedAndBothWays) {
 
         // Fits take long.
         if (bits != 8 || error < read.positionError || m.mesh.triangles.size() > 500) continue;
-        const auto fit =
-            fitFront(front, finest, chartsOfCut(read, frontOfPrefix(read.mt, read.mt.nodeCount()), *cut),
-                     false, cut->achievedError, std::nullopt, {}, read.positionError);
+        const auto fit = fitFront(front, finestSurfaceOf(read).mesh,
+                                  chartsOfCut(read, frontOfPrefix(read.mt, read.mt.nodeCount()), *cut), false,
+                                  cut->achievedError, std::nullopt, {}, read.positionError);
         ASSERT_TRUE(fit) << fit.error().describe();
         const TriangleMesh fitted = front.mesh.shape();
         EXPECT_GE(fit->distance + slack, farthestSample(m.mesh, fitted));
