@@ -15,6 +15,7 @@ using Name = std::pair<std::string_view, std::string_view>;
 // Sorted by field: optionOfField() searches by bisection.
 constexpr std::array kNames = {
     Name{"allowCoveredNodata", "--allow-covered-nodata"},
+    Name{"attributeWeight", "--attribute-weight"},
     Name{"band", "--band"},
     Name{"bands", "--drape-bands"},
     Name{"box", "--box"},

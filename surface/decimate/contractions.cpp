@@ -66,7 +66,7 @@ class Contractions {
         options_(options),
         context_(context),
         mesh_(mesh.shape, mesh.rounding),
-        attributes_(mesh.source),
+        attributes_(mesh.source, mesh.shape, options),
         isOffLines_(mesh.shape.positions.size(), 0),
         takesFaces_(options.method == DecimateOperator::face),
         candidatesOf_(mesh.shape.positions.size()),
@@ -259,6 +259,7 @@ class Contractions {
       if (isHeld(step.vertices[i])) held.push_back(i);
     const bool isAtEnds = options_.method == DecimateOperator::halfEdge || !held.empty();
     if (!isAtEnds) {
+      if (attributes_.areWeighed()) quadric += attributes_.quadricOf(mesh_, step.vertices);
       step.place = placeFor(quadric, places);
       step.cost = std::max(0.0, quadric.at(step.place));
       return step;
@@ -266,11 +267,16 @@ class Contractions {
     // The place of one of them; where some are held, of one of these, along their line.
     for (std::size_t i = 0; i < step.vertices.size(); ++i) {
       if (!held.empty() && std::ranges::find(held, i) == held.end()) continue;
-      const double cost = std::max(0.0, quadric.at(places[i]));
+      double cost = std::max(0.0, quadric.at(places[i]));
       if (!(cost < step.cost)) continue;
       SmallVector<std::uint32_t> order = step.vertices;
       std::swap(order[0], order[i]);
       if (!mayGo(order)) continue;
+      if (attributes_.areWeighed()) {
+        cost += std::max(0.0, attributes_.quadricOf(mesh_, order).at(places[i]));
+        if (options_.method == DecimateOperator::halfEdge) cost += attributes_.gapOf(mesh_, order);
+        if (!(cost < step.cost)) continue;
+      }
       step.cost = cost;
       step.place = places[i];
       std::swap(step.vertices, order);
@@ -346,7 +352,8 @@ class Contractions {
     ++result_.decimated.steps;
     if (!chartOf_.empty()) forRemoved(step, [&](std::uint32_t t) { --leftOf_[chartOf_[t]]; });
     const std::uint32_t kept = step.vertices[0];
-    attributes_.join(mesh_, step.vertices, weightsOf(step));
+    attributes_.join(mesh_, step.vertices, weightsOf(step), step.place,
+                     options_.method != DecimateOperator::halfEdge);
     isOffLines_[kept] = 0;
     for (const std::uint32_t v : std::span(step.vertices).subspan(1)) {
       quadrics_[kept] += quadrics_[v];

@@ -16,10 +16,12 @@
 #include "io/query/mesh/seams.h"
 #include "io/query/request/cut_request.h"
 #include "io/query/surface/take_surface.h"
+#include "surface/attributes/attribute_names.h"
 #include "surface/builder/build.h"
 #include "surface/decimate/decimate.h"
 #include "surface/front/face_map.h"
 #include "surface/front/front.h"
+#include "surface/model/labels.h"
 
 namespace arete {
 namespace {
@@ -78,6 +80,43 @@ Result<DecimatedOutcome> measured(SurfaceMesh mesh, const DecimationRequest& ask
   return outcome;
 }
 
+/// All attributes of vertices and wedges that a list names, or those that count where there is none.
+Result<std::vector<AttributeWeight>> weightsOf(const SurfaceMesh& mesh, const std::string& list) {
+  std::vector<AttributeWeight> weights;
+  if (list.empty()) {
+    for (const auto* all : {&mesh.vertexAttributes, &mesh.wedgeAttributes})
+      for (const Attribute& attribute : *all)
+        if (attribute.meaning == AttributeMeaning::textureCoords ||
+            attribute.meaning == AttributeMeaning::color)
+          weights.push_back({attribute.name, kUsualAttributeWeight});
+    return weights;
+  }
+  ARETE_TRY(const std::vector<AttributeNumber> numbers, parseAttributeNumbers(list));
+  for (const AttributeNumber& asked : numbers) {
+    const std::string culprit = fmt::format("attributeWeight {}:{}{}", asked.name, asked.number, asked.unit);
+    if (!asked.unit.empty())
+      return failure(ErrorCode::usage, "a weight has no unit: a change of 1 counts as so many diagonals",
+                     culprit);
+    Result<std::vector<NamedAttribute>> found = findAttributes(mesh, asked.name);
+    if (!found)
+      return failure(ErrorCode::usage, found.error().message,
+                     fmt::format("attributeWeight {}", found.error().culprit));
+    for (const NamedAttribute& one : *found) {
+      const bool isOfCorners = one.of == NamedAttribute::Of::wedges;
+      if (!isOfCorners && one.of != NamedAttribute::Of::vertices)
+        return failure(ErrorCode::usage,
+                       "is no attribute of vertices or corners: edges between faces that differ stay anyway",
+                       culprit);
+      const Attribute& attribute =
+          isOfCorners ? mesh.wedgeAttributes[one.index] : mesh.vertexAttributes[one.index];
+      if (isLabel(attribute))
+        return failure(ErrorCode::usage, "has labels, which are not averaged and have no distance", culprit);
+      weights.push_back({attribute.name, asked.number});
+    }
+  }
+  return weights;
+}
+
 Result<DecimatedOutcome> contracted(const SurfaceMesh& mesh, const DecimationRequest& asked,
                                     const RunContext& context) {
   const std::uint32_t maxTriangles = *asked.maxTriangles;
@@ -92,6 +131,7 @@ Result<DecimatedOutcome> contracted(const SurfaceMesh& mesh, const DecimationReq
   options.keepsClusterVertices = asked.clusterVertices == "original";
   options.keepsBorders = asked.keepsBorders;
   options.forbidsCrossings = asked.forbidsCrossings;
+  ARETE_TRY(options.attributeWeights, weightsOf(mesh, asked.attributeWeights));
   ARETE_TRY(DecimatedMesh decimated, decimate(mesh, options, context));
   if (decimated.mesh.triangles.size() > maxTriangles)
     return tl::unexpected(
@@ -137,6 +177,12 @@ Status checkDecimation(const DecimationRequest& a) {
     return refuse("quadricWeight", "qem, half-edge, vertex-pair, face or cluster");
   if (a.forbidsCrossings && (!hasQueue || a.method == "vertex-pair"))
     return refuse("noCrossings", "qem, half-edge or face");
+  if (!a.attributeWeights.empty() && !hasQueue && a.method != "cluster")
+    return refuse("attributeWeight", "qem, half-edge, vertex-pair, face or cluster");
+  if (!a.attributeWeights.empty())
+    if (const auto numbers = parseAttributeNumbers(a.attributeWeights); !numbers)
+      return failure(numbers.error().code, numbers.error().message,
+                     fmt::format("attributeWeight {}", numbers.error().culprit));
   if (a.clusterVertices != "quadric" && a.method != "cluster") return refuse("clusterVertices", "cluster");
   if (a.keepsBorders && a.method == "cluster")
     return failure(ErrorCode::usage, "cannot be combined with `operator` cluster", "keepBorders");
