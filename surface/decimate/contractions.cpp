@@ -264,6 +264,12 @@ class Contractions {
       step.cost = std::max(0.0, quadric.at(step.place));
       return step;
     }
+    if (goesAlongLine(step.vertices, held.size())) {
+      quadric += attributes_.quadricOf(mesh_, step.vertices);
+      step.place = placeFor(quadric, places);
+      step.cost = std::max(0.0, quadric.at(step.place));
+      return step;
+    }
     // The place of one of them; where some are held, of one of these, along their line.
     for (std::size_t i = 0; i < step.vertices.size(); ++i) {
       if (!held.empty() && std::ranges::find(held, i) == held.end()) continue;
@@ -284,6 +290,13 @@ class Contractions {
       for (std::size_t& h : held) h = h == i ? 0 : h == 0 ? i : h;
     }
     return step;
+  }
+  /// Whether an edge lies on a line that neither ends nor branches at it, so that the line may take any place
+  /// there: planes across it hold it, and what the sides of a seam have.
+  bool goesAlongLine(const SmallVector<std::uint32_t>& vertices, std::size_t held) const {
+    return attributes_.areWeighed() && options_.method != DecimateOperator::halfEdge &&
+           !options_.keepsBorders && vertices.size() == 2 && held == 2 && mayGo(vertices) &&
+           mayGo(std::array{vertices[1], vertices[0]});
   }
   /// A vertex that is on no line gets on none by what happens around it.
   bool isOnLine(std::uint32_t v) {

@@ -124,9 +124,9 @@ class NearestCorners {
       const SpaceTriangle places = placesOf(face);
       const auto found = nearestWithShares(p, places);
       const double squared = squaredDistance(p, found.place);
-      if (squared > best.squared && !isAsNear(squared, best.squared, scale_)) continue;
       const double toMiddle = squaredDistance(middle, nearestOnTriangle(middle, places));
-      if (isAsNear(squared, best.squared, scale_) && !(toMiddle < best.toMiddle)) continue;
+      const bool isAsNearAsBest = best.face != kNone && isAsNear(squared, best.squared, scale_);
+      if (isAsNearAsBest ? !(toMiddle < best.toMiddle) : !(squared < best.squared)) continue;
       best = {face, found.shares, squared, toMiddle};
     }
     return best;
