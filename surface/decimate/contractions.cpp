@@ -44,6 +44,9 @@ constexpr std::size_t kMostAroundAtLast = 4096;
 /// A triangle that costs more than so many times what its short side does makes way for that. It removes
 /// twice as many triangles, and costs about four times as much where a surface bends evenly.
 constexpr double kMostDearer = 8;
+/// What attributes count where a place is solved, of what they count in its cost: places that follow sharp
+/// changes of colour leave the surface.
+constexpr double kShareInPlace = 0.1;
 
 struct Candidate {
   std::array<std::uint32_t, 2> ends{};  // of an edge; of a triangle its number
@@ -259,15 +262,11 @@ class Contractions {
       if (isHeld(step.vertices[i])) held.push_back(i);
     const bool isAtEnds = options_.method == DecimateOperator::halfEdge || !held.empty();
     if (!isAtEnds) {
-      if (attributes_.areWeighed()) quadric += attributes_.quadricOf(mesh_, step.vertices);
-      step.place = placeFor(quadric, places);
-      step.cost = std::max(0.0, quadric.at(step.place));
+      solve(step, quadric, places);
       return step;
     }
     if (goesAlongLine(step.vertices, held.size())) {
-      quadric += attributes_.quadricOf(mesh_, step.vertices);
-      step.place = placeFor(quadric, places);
-      step.cost = std::max(0.0, quadric.at(step.place));
+      solve(step, quadric, places);
       return step;
     }
     // The place of one of them; where some are held, of one of these, along their line.
@@ -290,6 +289,17 @@ class Contractions {
       for (std::size_t& h : held) h = h == i ? 0 : h == 0 ? i : h;
     }
     return step;
+  }
+  void solve(Step& step, const Quadric& ofShape, std::span<const Vec3> places) const {
+    if (!attributes_.areWeighed()) {
+      step.place = placeFor(ofShape, places);
+      step.cost = std::max(0.0, ofShape.at(step.place));
+      return;
+    }
+    const Quadric ofAttributes = attributes_.quadricOf(mesh_, step.vertices);
+    Quadric forPlace = ofShape, whole = ofShape;
+    step.place = placeFor(forPlace += ofAttributes.times(kShareInPlace), places);
+    step.cost = std::max(0.0, (whole += ofAttributes).at(step.place));
   }
   /// Whether an edge lies on a line that neither ends nor branches at it, so that the line may take any place
   /// there: planes across it hold it, and what the sides of a seam have.

@@ -28,7 +28,8 @@ enum class DecimateQueue {
   estimate,  ///< an estimate, the spread of the vertices, lazily; the quadric is solved in the step alone
 };
 
-/// What a change of an attribute counts beside a distance [Hoppe1999].
+/// What a change of an attribute counts beside a distance [Hoppe1999]. Attributes are solved together with
+/// the places, side by side of a seam, whatever they count.
 struct AttributeWeight {
   std::string attribute;  ///< its name, of vertices and of wedges alike
   /// A change of 1 counts as so many diagonals of the mesh: texture coordinates and numbers in their own

@@ -29,6 +29,14 @@ Quadric& Quadric::operator+=(const Quadric& other) {
   return *this;
 }
 
+Quadric Quadric::times(double factor) const {
+  Quadric q = *this;
+  for (double& a : q.a_) a *= factor;
+  q.b_ = factor * q.b_;
+  q.c_ *= factor;
+  return q;
+}
+
 double Quadric::at(const Vec3& p) const {
   const Vec3 ap{a_[0] * p.x + a_[1] * p.y + a_[2] * p.z, a_[1] * p.x + a_[3] * p.y + a_[4] * p.z,
                 a_[2] * p.x + a_[4] * p.y + a_[5] * p.z};

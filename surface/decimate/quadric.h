@@ -19,6 +19,7 @@ class Quadric {
   static Quadric ofLinear(const Vec3& gradient, double atOrigin, double weight);
 
   Quadric& operator+=(const Quadric& other);
+  Quadric times(double factor) const;
   /// At least 0 but for rounding.
   double at(const Vec3& p) const;
 

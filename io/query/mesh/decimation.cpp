@@ -34,14 +34,22 @@ constexpr std::array<Operator, 6> kOperators = {{{"qem", DecimateOperator::edge}
                                                  {"face", DecimateOperator::face},
                                                  {"cluster", DecimateOperator::cluster}}};
 
-/// @param mesh whose attributes and parts keep more.
-Error tooFew(std::uint32_t budget, std::uint64_t least, const std::string& method, const SurfaceMesh& mesh) {
+/// @param mesh   whose attributes and parts keep more
+/// @param shapes what the shape alone comes to; empty: not known
+Error tooFew(std::uint32_t budget, std::uint64_t least, const std::string& method, const SurfaceMesh& mesh,
+             std::optional<std::uint64_t> shapes) {
+  const std::string seams = seamsText(mesh);
+  const bool areDear = !seams.empty() && shapes && *shapes < least;
   return {ErrorCode::usage,
           fmt::format(
               "the least that {} reaches is {}: components, handles, borders, seams and edges between "
               "objects, materials or labels of faces stay, edges of more than two faces too, and no triangle "
-              "turns over{}",
-              method, grouped(least, "triangle", "triangles"), seamsText(mesh)),
+              "turns over{}{}",
+              method, grouped(least, "triangle", "triangles"),
+              areDear ? fmt::format("; lines between attributes and parts cost {} of them",
+                                    grouped(least - *shapes, "triangle", "triangles"))
+                      : "",
+              seams),
           fmt::format("maxTriangles {}", budget)};
 }
 
@@ -56,9 +64,13 @@ Result<DecimatedOutcome> measured(SurfaceMesh mesh, const DecimationRequest& ask
   CutRequest request;
   request.fit = CutFit::rms;
   request.maxTriangles = maxTriangles;
-  if (maxTriangles && *maxTriangles < model.mt.rootTriangleCount())
-    return tl::unexpected(
-        tooFew(*maxTriangles, model.mt.rootTriangleCount(), "measured", finestSurfaceOf(model).mesh));
+  if (maxTriangles && *maxTriangles < model.mt.rootTriangleCount()) {
+    const SurfaceMesh finest = finestSurfaceOf(model).mesh;
+    std::optional<std::uint64_t> ofShape;
+    if (const auto bare = buildSurface(SurfaceMesh(finest.shape()), options, context))
+      ofShape = bare->mt.rootTriangleCount();
+    return tl::unexpected(tooFew(*maxTriangles, model.mt.rootTriangleCount(), "measured", finest, ofShape));
+  }
   if (asked.maxError) request.maxError = asked.maxError->of(model.diagonal);
   ARETE_TRY(TakenSurface taken, takeSurface(model, request, nullptr, context));
   DecimatedOutcome outcome;
@@ -85,10 +97,12 @@ Result<std::vector<AttributeWeight>> weightsOf(const SurfaceMesh& mesh, const st
   std::vector<AttributeWeight> weights;
   if (list.empty()) {
     for (const auto* all : {&mesh.vertexAttributes, &mesh.wedgeAttributes})
-      for (const Attribute& attribute : *all)
-        if (attribute.meaning == AttributeMeaning::textureCoords ||
-            attribute.meaning == AttributeMeaning::color)
-          weights.push_back({attribute.name, kUsualAttributeWeight});
+      for (const Attribute& attribute : *all) {
+        if (attribute.meaning == AttributeMeaning::textureCoords)
+          weights.push_back({attribute.name, kUsualTexcoordWeight});
+        if (attribute.meaning == AttributeMeaning::color)
+          weights.push_back({attribute.name, kUsualColorWeight});
+      }
     return weights;
   }
   ARETE_TRY(const std::vector<AttributeNumber> numbers, parseAttributeNumbers(list));
@@ -133,9 +147,16 @@ Result<DecimatedOutcome> contracted(const SurfaceMesh& mesh, const DecimationReq
   options.forbidsCrossings = asked.forbidsCrossings;
   ARETE_TRY(options.attributeWeights, weightsOf(mesh, asked.attributeWeights));
   ARETE_TRY(DecimatedMesh decimated, decimate(mesh, options, context));
-  if (decimated.mesh.triangles.size() > maxTriangles)
+  if (decimated.mesh.triangles.size() > maxTriangles) {
+    // As few as the shape alone comes to.
+    DecimateOptions ofShape = options;
+    ofShape.attributeWeights.clear();
+    ofShape.maxTriangles = 1;
+    const Result<DecimatedMesh> bare = decimate(SurfaceMesh(mesh.shape()), ofShape, context);
     return tl::unexpected(
-        tooFew(maxTriangles, decimated.mesh.triangles.size(), asked.method, decimated.mesh));
+        tooFew(maxTriangles, decimated.mesh.triangles.size(), asked.method, decimated.mesh,
+               bare ? std::optional<std::uint64_t>(bare->mesh.triangles.size()) : std::nullopt));
+  }
   DecimatedOutcome outcome;
   outcome.mesh = std::move(decimated.mesh);
   outcome.vertexOf = std::move(decimated.vertexOf);

@@ -31,9 +31,9 @@ struct DecimationRequest {
   bool wantsFaces = false;  ///< DecimatedOutcome::triangleFor also of "measured"
 };
 
-/// What attributes count where no weight is stated: texture coordinates, in their unit, and colours, in the
-/// range of a channel. Others do not count.
-inline constexpr double kUsualAttributeWeight = 1;
+/// What texture coordinates and colours count where no weight is stated (AttributeWeight). Others do not
+/// count.
+inline constexpr double kUsualTexcoordWeight = 0.2, kUsualColorWeight = 0.15;
 
 /// What became of a mesh, whatever the method.
 struct DecimatedOutcome {
