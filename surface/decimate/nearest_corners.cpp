@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <queue>
+#include <utility>
 #include <vector>
 
 #include "engine/base/nearest_on_triangle.h"
@@ -21,11 +24,14 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = MeshAttributes::kNone;
+constexpr std::uint32_t kNoFace = MeshAttributes::kNone;
+/// A way to a face may be so many times as long as the straight one, and so many sides of a face longer: the
+/// far side of a slit is reached by no shorter way than around.
+constexpr double kMostDetour = 2, kMostSides = 4;
 
 /// A point of the source.
 struct Seat {
-  std::uint32_t face = kNone;
+  std::uint32_t face = kNoFace;
   std::array<double, 3> shares{};
   double squared = std::numeric_limits<double>::infinity();  // the distance to it
   double toMiddle = 0;
@@ -44,7 +50,7 @@ class NearestCorners {
         mesh_(result.mesh),
         faceOf_(result.faceOf),
         edges_(source.shape.triangles, source.shape.positions.size()),
-        seenBy_(source.shape.triangles.size(), kNone) {
+        seenBy_(source.shape.triangles.size(), kNoFace) {
     const std::vector<std::uint32_t> partOf = partsOf(source_, source_.triangles.size());
     isBlocked_.resize(edges_.size());
     for (std::size_t e = 0; e < edges_.size(); ++e)
@@ -100,23 +106,39 @@ class NearestCorners {
     const auto squaredTo = [&](std::uint32_t face) {
       return squaredDistance(middle, nearestOnTriangle(middle, placesOf(face)));
     };
+    const auto middleOf = [&](std::uint32_t face) {
+      const SpaceTriangle p = placesOf(face);
+      return (p[0] + p[1] + p[2]) / 3.0;
+    };
+    // What is nearest to a corner is no farther from it than what is nearest to the middle.
     double reach = 0;
-    for (const Vec3& p : at) reach = std::max(reach, norm(p - middle));
+    for (const Vec3& p : at) reach = std::max(reach, 2 * norm(p - middle));
     reach += std::sqrt(squaredTo(faceOf_[t]));
     scale_ = reach * reach;
-    around_.assign(1, faceOf_[t]);
-    seenBy_[faceOf_[t]] = t;
-    for (std::size_t i = 0; i < around_.size(); ++i)
-      for (unsigned side = 0; side < 3; ++side) {
-        const CornerId corner = cornerOf(TriangleId(around_[i]), side);
+    const SpaceTriangle first = placesOf(faceOf_[t]);
+    const Vec3 begin = middleOf(faceOf_[t]);
+    double side = 0;
+    for (std::size_t i = 0; i < 3; ++i) side = std::max(side, norm(first[(i + 1) % 3] - first[i]));
+    around_.clear();
+    queue_ = {};
+    queue_.emplace(0, faceOf_[t]);
+    while (!queue_.empty()) {
+      const auto [path, face] = queue_.top();
+      queue_.pop();
+      if (seenBy_[face] == t) continue;
+      seenBy_[face] = t;
+      around_.push_back(face);
+      for (unsigned i = 0; i < 3; ++i) {
+        const CornerId corner = cornerOf(TriangleId(face), i);
         const std::size_t edge = edges_.edgeOf(corner);
         if (isBlocked_[edge] != 0) continue;
         const auto sides = edges_[edge].sides;
         const std::uint32_t other = triangleOf(sides[0] == corner ? sides[1] : sides[0]).index();
         if (seenBy_[other] == t || squaredTo(other) > reach * reach) continue;
-        seenBy_[other] = t;
-        around_.push_back(other);
+        const double on = path + norm(middleOf(other) - middleOf(face));
+        if (on <= kMostDetour * norm(middleOf(other) - begin) + kMostSides * side) queue_.emplace(on, other);
       }
+    }
   }
   Seat nearest(const Vec3& p, const Vec3& middle) const {
     Seat best;
@@ -125,7 +147,7 @@ class NearestCorners {
       const auto found = nearestWithShares(p, places);
       const double squared = squaredDistance(p, found.place);
       const double toMiddle = squaredDistance(middle, nearestOnTriangle(middle, places));
-      const bool isAsNearAsBest = best.face != kNone && isAsNear(squared, best.squared, scale_);
+      const bool isAsNearAsBest = best.face != kNoFace && isAsNear(squared, best.squared, scale_);
       if (isAsNearAsBest ? !(toMiddle < best.toMiddle) : !(squared < best.squared)) continue;
       best = {face, found.shares, squared, toMiddle};
     }
@@ -176,6 +198,8 @@ class NearestCorners {
   std::vector<std::uint8_t> isBlocked_;  // by edge
   std::vector<std::uint32_t> seenBy_;    // by face: the last triangle around which it was
   std::vector<std::uint32_t> around_;
+  using Way = std::pair<double, std::uint32_t>;  // its length, and the face
+  std::priority_queue<Way, std::vector<Way>, std::greater<>> queue_;
   double scale_ = 0;
   std::vector<std::vector<std::uint32_t>> seats_;  // by vertex: its wedges
   std::vector<Seat> vertexSeats_;
