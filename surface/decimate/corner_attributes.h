@@ -20,7 +20,7 @@ namespace arete {
 class CornerAttributes {
  public:
   /// @param shape    of the mesh, in the frame of the quadrics
-  /// @param options  of which the weights of attributes count, and those of triangles
+  /// @param options  whose weights of attributes and of triangles count
   CornerAttributes(const SurfaceMesh& mesh, const TriangleMesh& shape, const DecimateOptions& options);
 
   /// By triangle of the source: partsOf().
@@ -76,7 +76,7 @@ class CornerAttributes {
 
   /// By class of a vertex at an edge: the class of the other end that continues it; kNone: several.
   using Continuations = boost::container::small_vector<std::pair<std::uint32_t, std::uint32_t>, 4>;
-  /// The classes that become one, that of the first vertex first, without those that nothing joins. Calls
+  /// The classes that become one, that of the first vertex first, without classes that nothing joins. Calls
   /// visit(classes).
   template <class Visit>
   void forJoined(const ContractionMesh& mesh, std::span<const std::uint32_t> vertices,

@@ -32,7 +32,7 @@ enum class DecimateQueue {
 /// the places, side by side of a seam, whatever they count.
 struct AttributeWeight {
   std::string attribute;  ///< its name, of vertices and of wedges alike
-  /// A change of 1 counts as so many diagonals of the mesh: texture coordinates and numbers in their own
+  /// How many diagonals of the mesh a change of 1 counts: texture coordinates and numbers in their own
   /// unit, colours in the range of a channel, directions by the length between them.
   double weight = 0;
 };

@@ -155,7 +155,7 @@ Result<FramedResult> collapse(const FramedMesh& framed, const DecimateOptions& o
   Constrained constrained;
   constrained.mesh = &mesh;
   constrained.keepsBorders = options.keepsBorders;
-  // Of closed seams as of lines between parts: charts lie on either side.
+  // Closed seams are lines as edges between parts are: charts lie on either side.
   const std::vector<std::uint32_t> partOf = chartsOf(source);
   const PartLines<Mesh> lines(mesh, partOf);
   std::vector<std::uint32_t> joinedTo(source.positions.size());

@@ -25,8 +25,8 @@ namespace arete {
 namespace {
 
 constexpr std::uint32_t kNoFace = MeshAttributes::kNone;
-/// A way to a face may be so many times as long as the straight one, and so many sides of a face longer: the
-/// far side of a slit is reached by no shorter way than around.
+/// How many times as long as the straight one a way to a face may be, and how many sides of a face longer:
+/// the far side of a slit is reached by no shorter way than around.
 constexpr double kMostDetour = 2, kMostSides = 4;
 
 /// A point of the source.
@@ -110,7 +110,7 @@ class NearestCorners {
       const SpaceTriangle p = placesOf(face);
       return (p[0] + p[1] + p[2]) / 3.0;
     };
-    // What is nearest to a corner is no farther from it than what is nearest to the middle.
+    // What is nearest to the middle is at least as far from a corner as what is nearest to that.
     double reach = 0;
     for (const Vec3& p : at) reach = std::max(reach, 2 * norm(p - middle));
     reach += std::sqrt(squaredTo(faceOf_[t]));

@@ -15,7 +15,7 @@ class Quadric {
   Quadric() = default;
   /// The plane through a point with a normal of length 1.
   static Quadric ofPlane(const Vec3& point, const Vec3& normal, double weight);
-  /// The weighted square of a linear function: that of its gradient and its value at the origin.
+  /// The weighted square of a linear function, by its gradient and its value at the origin.
   static Quadric ofLinear(const Vec3& gradient, double atOrigin, double weight);
 
   Quadric& operator+=(const Quadric& other);

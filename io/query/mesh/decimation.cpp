@@ -109,7 +109,7 @@ Result<std::vector<AttributeWeight>> weightsOf(const SurfaceMesh& mesh, const st
   for (const AttributeNumber& asked : numbers) {
     const std::string culprit = fmt::format("attributeWeight {}:{}{}", asked.name, asked.number, asked.unit);
     if (!asked.unit.empty())
-      return failure(ErrorCode::usage, "a weight has no unit: a change of 1 counts as so many diagonals",
+      return failure(ErrorCode::usage, "a weight has no unit: it is how many diagonals a change of 1 counts",
                      culprit);
     Result<std::vector<NamedAttribute>> found = findAttributes(mesh, asked.name);
     if (!found)
@@ -118,9 +118,10 @@ Result<std::vector<AttributeWeight>> weightsOf(const SurfaceMesh& mesh, const st
     for (const NamedAttribute& one : *found) {
       const bool isOfCorners = one.of == NamedAttribute::Of::wedges;
       if (!isOfCorners && one.of != NamedAttribute::Of::vertices)
-        return failure(ErrorCode::usage,
-                       "is no attribute of vertices or corners: edges between faces that differ stay anyway",
-                       culprit);
+        return failure(
+            ErrorCode::usage,
+            "belongs neither to vertices nor to corners: edges between faces that differ stay anyway",
+            culprit);
       const Attribute& attribute =
           isOfCorners ? mesh.wedgeAttributes[one.index] : mesh.vertexAttributes[one.index];
       if (isLabel(attribute))
