@@ -76,8 +76,8 @@ class CornerAttributes {
 
   /// By class of a vertex at an edge: the class of the other end that continues it; kNone: several.
   using Continuations = boost::container::small_vector<std::pair<std::uint32_t, std::uint32_t>, 4>;
-  /// The classes that become one, that of the first vertex first, without classes that nothing joins. Calls
-  /// visit(classes).
+  /// The classes that become one, led by the class of the first vertex, without classes that nothing joins.
+  /// Calls visit(classes).
   template <class Visit>
   void forJoined(const ContractionMesh& mesh, std::span<const std::uint32_t> vertices,
                  const Visit& visit) const;
