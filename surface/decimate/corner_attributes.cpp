@@ -83,8 +83,13 @@ void CornerAttributes::Records::makeUnit(std::size_t a, std::uint32_t element) {
   const std::size_t n = attributes[a]->components, first = element * n, count = std::min<std::size_t>(n, 3);
   double size = 0;
   for (std::size_t k = 0; k < count; ++k) size += values[a][first + k] * values[a][first + k];
+  // Integers stand for fractions of their largest value.
+  const Attribute& attribute = *attributes[a];
+  const double whole = isFloat(attribute.type) ? 1 : std::exp2(8 * double(sizeOf(attribute.type)) - 1) - 1;
+  if (attribute.meaning == AttributeMeaning::tangent && n > 3)
+    values[a][first + 3] = values[a][first + 3] < 0 ? -whole : whole;
   if (!(size > 0)) return;
-  for (std::size_t k = 0; k < count; ++k) values[a][first + k] /= std::sqrt(size);
+  for (std::size_t k = 0; k < count; ++k) values[a][first + k] *= whole / std::sqrt(size);
 }
 
 void CornerAttributes::Records::average(std::span<const std::uint32_t> elements,

@@ -67,7 +67,7 @@ class CornerAttributes {
     void join(std::span<const std::uint32_t> elements);
     /// Its numbers become the best at a place.
     void solve(std::uint32_t element, const Vec3& place);
-    /// Directions become unit vectors, unless they have no length.
+    /// Directions become unit vectors, unless they have no length; the sign of a tangent is 1 or -1.
     void makeUnit(std::size_t attribute, std::uint32_t element);
     void average(std::span<const std::uint32_t> elements, std::span<const double> weights);
     /// An attribute of these elements in this order.

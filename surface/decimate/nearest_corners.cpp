@@ -182,6 +182,7 @@ class NearestCorners {
             const double x = attribute.numbers(elements[most])[k];
             whole += x * x;
           }
+        for (std::size_t k = n; k < numbers.size(); ++k) numbers[k] = attribute.numbers(elements[most])[k];
         if (size > 0)
           for (std::size_t k = 0; k < n; ++k) numbers[k] *= std::sqrt(whole / size);
       }

@@ -199,6 +199,32 @@ TEST(DecimateAttributes, ColoursStayInTheRangeOfTheSourceAndNormalsHaveTheirLeng
   }
 }
 
+TEST(DecimateAttributes, DirectionsOfBytesAndSignsOfTangentsStayWhole) {
+  SurfaceMesh mesh(shapes::shaken(shapes::globe(30, 15), 5, 0.02));
+  Attribute normal{.name = "normal", .meaning = AttributeMeaning::normal, .type = ScalarType::int8};
+  normal.components = 3;
+  normal.isNormalized = true;
+  Attribute tangent{.name = "tangent", .meaning = AttributeMeaning::tangent};
+  tangent.components = 4;
+  for (const Vec3& p : mesh.positions) {
+    const Vec3 n = unit(p), t = unit(Vec3{-n.y - 0.01, n.x, 0});
+    normal.append(std::vector<double>{127 * n.x, 127 * n.y, 127 * n.z});
+    tangent.append(std::vector<double>{t.x, t.y, t.z, n.z > 0.3 ? 1.0 : -1.0});
+  }
+  mesh.vertexAttributes = {normal, tangent};
+  for (const DecimateOperator method : {DecimateOperator::edge, DecimateOperator::face,
+                                        DecimateOperator::cluster, DecimateOperator::lindstromTurk}) {
+    SCOPED_TRACE(int(method));
+    const SurfaceMesh result = made(mesh, method, 120, {{"normal", 0.1}}).mesh;
+    for (std::uint32_t v = 0; v < result.positions.size(); ++v) {
+      const std::vector<double> n = result.vertexAttributes[0].numbers(v),
+                                t = result.vertexAttributes[1].numbers(v);
+      EXPECT_NEAR(std::hypot(n[0], n[1], n[2]), 127, 2);
+      EXPECT_EQ(std::fabs(t[3]), 1);
+    }
+  }
+}
+
 TEST(DecimateAttributes, WithoutWeightsTheShapeIsThatOfTheShapeAlone) {
   SurfaceMesh mesh(shapes::shaken(shapes::globe(30, 15), 3, 0.02));
   const SurfaceMesh bare = mesh;
