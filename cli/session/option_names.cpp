@@ -16,6 +16,7 @@ using Name = std::pair<std::string_view, std::string_view>;
 constexpr std::array kNames = {
     Name{"allowCoveredNodata", "--allow-covered-nodata"},
     Name{"attributeErrors", "--attribute-error"},
+    Name{"attributeWeight", "--attribute-weight"},
     Name{"band", "--band"},
     Name{"bands", "--drape-bands"},
     Name{"boundsAttributes", "--attributes"},

@@ -64,7 +64,7 @@ def decimate(mesh: Any, triangles: Optional[ArrayLike] = None, *, max_triangles:
              max_error: Optional[Size] = None, operator: str = "measured", queue: str = "lazy", quadric_weight: str = "area",
              cluster_vertices: str = "quadric", keep_borders: bool = False, no_crossings: bool = False,
              drop_parts: Optional[Size] = None, drop_attributes: Union[str, Sequence[str]] = (),
-             progress: Progress = None) -> Mesh:
+             attribute_weight: str = "", progress: Progress = None) -> Mesh:
     """Makes a mesh smaller, once, as `arete mesh decimate` does. Its `report` says what that came to. "error" of "measured" is
     how far a point of the source is from the result, and not the other way: measure() says both. "is_complete" is False
     where max_triangles ended "measured" before max_error was reached, which is 0 unless it is stated.
@@ -74,8 +74,11 @@ def decimate(mesh: Any, triangles: Optional[ArrayLike] = None, *, max_triangles:
     operator: "measured", the closest for shape alone: of a file with attributes it keeps their seams, which others may leave
         out; "qem", "lindstrom-turk", "half-edge", "vertex-pair", "face" or "cluster".
     queue, quadric_weight, cluster_vertices, no_crossings: of some operators (docs/topics/decimation.md).
+    attribute_weight: what a change of attributes counts beside a distance, "uv:1,color:0.5", of the operators "qem",
+        "half-edge", "vertex-pair", "face" and "cluster"; "" for the usual weights.
     """
     request = _arete.DecimationRequest()
+    request.attribute_weight = str(attribute_weight)
     request.operator = _checks.word("operator", str(operator), _OPERATORS)
     request.queue = str(queue)
     request.quadric_weight = str(quadric_weight)

@@ -331,6 +331,7 @@ void defineMeshes(py::module_& module) {
       .def_readwrite("queue", &DecimationRequest::queue)
       .def_readwrite("quadric_weight", &DecimationRequest::quadricWeight)
       .def_readwrite("cluster_vertices", &DecimationRequest::clusterVertices)
+      .def_readwrite("attribute_weight", &DecimationRequest::attributeWeights)
       .def_readwrite("max_triangles", &DecimationRequest::maxTriangles)
       .def_readwrite("keep_borders", &DecimationRequest::keepsBorders)
       .def_readwrite("no_crossings", &DecimationRequest::forbidsCrossings);

@@ -40,8 +40,6 @@ DecimatedMesh carried(const SurfaceMesh& source, TriangleMesh shape, std::vector
   mesh.groups = source.groups;
   mesh.materials = source.materials;
   mesh.pictures = source.pictures;
-  for (const Attribute& attribute : source.wedgeAttributes)
-    result.lost.push_back(attribute.name + " of corners");
   result.vertexOf = std::move(vertexOf);
   result.faceOf = std::move(faceOf);
   return result;

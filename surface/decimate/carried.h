@@ -10,7 +10,7 @@
 namespace arete {
 
 /// A decimated mesh of a method that knows nothing of corners: vertices have the attributes of a vertex of
-/// the source each, triangles those of a triangle, and what corners have is lost, by name.
+/// the source each, triangles those of a triangle, and corners have none yet (takeNearestAttributes()).
 DecimatedMesh carried(const SurfaceMesh& source, TriangleMesh shape, std::vector<std::uint32_t> vertexOf,
                       std::vector<std::uint32_t> faceOf);
 

@@ -12,9 +12,14 @@
 #include <tuple>
 
 #include "engine/base/box3.h"
+#include "surface/decimate/attribute_quadrics.h"
 #include "surface/decimate/carried.h"
 #include "surface/decimate/contractions.h"
+#include "surface/decimate/nearest_corners.h"
 #include "surface/decimate/quadric.h"
+#include "surface/edit/small_components.h"
+#include "surface/model/charts.h"
+#include "surface/model/labels.h"
 
 namespace arete {
 namespace {
@@ -28,6 +33,8 @@ struct Cluster {
   std::vector<std::uint32_t> children;
   std::vector<std::uint32_t> triangles;  ///< of a leaf: those with a corner in it and the others elsewhere
   Quadric quadric;
+  /// Of vertices first, then of the wedges by chart, rising; without weights there are none.
+  std::vector<std::pair<std::uint32_t, AttributeQuadric>> attributes;
   Vec3 place{0, 0, 0};
   std::uint32_t vertex = kNoCell;  ///< of the source
   bool isLeaf = false;
@@ -40,10 +47,15 @@ class Clustering {
         shape_(mesh.shape),
         options_(options),
         context_(context),
-        leafOf_(mesh.shape.positions.size(), kNoCell) {}
+        leafOf_(mesh.shape.positions.size(), kNoCell),
+        ofVertices_(continuousOnes(mesh.source.vertexAttributes), options.attributeWeights,
+                    diagonalOf(mesh.source)),
+        ofWedges_(continuousOnes(mesh.source.wedgeAttributes), options.attributeWeights,
+                  diagonalOf(mesh.source)) {}
 
   Result<FramedResult> run() {
     divide();
+    addAttributes();
     for (std::uint32_t c = 0; c < cells_.size(); ++c)
       if (!cells_[c].isLeaf && cells_[c].childrenLeft == 0) offer(c);
     std::uint64_t turns = 0;
@@ -146,6 +158,41 @@ class Clustering {
       }
     }
   }
+  /// What triangles say of the attributes in their leaves.
+  void addAttributes() {
+    if (!ofVertices_.areWeighed() && !ofWedges_.areWeighed()) return;
+    const std::vector<std::uint32_t> chartOf = chartsOf(source_);
+    const auto addOf = [&](std::uint32_t t, const AttributeChannels& channels,
+                           const std::vector<const Attribute*>& attributes,
+                           const std::array<std::uint32_t, 3>& elements, std::uint32_t key) {
+      const auto& [i, j, k] = shape_.triangles[t];
+      const std::array<Vec3, 3> p = {shape_.positions[i], shape_.positions[j], shape_.positions[k]};
+      const double size = norm(cross(p[1] - p[0], p[2] - p[0]));
+      const AttributeQuadric quadric = channels.ofTriangle(
+          p, options_.weighsByArea ? size / 2 : 1, [&](std::size_t channel, std::size_t corner) {
+            return attributes[channels.attributeOf(channel)]->numbers(
+                elements[corner])[channels.componentOf(channel)];
+          });
+      for (const std::uint32_t v : shape_.triangles[t]) addTo(cells_[leafOf_[v]].attributes, key, quadric);
+    };
+    const auto ofVertices = continuousOnes(source_.vertexAttributes),
+               ofWedges = continuousOnes(source_.wedgeAttributes);
+    for (std::uint32_t t = 0; t < source_.triangles.size(); ++t) {
+      if (ofVertices_.areWeighed()) addOf(t, ofVertices_, ofVertices, source_.triangles[t], 0);
+      if (ofWedges_.areWeighed() && source_.hasWedges())
+        addOf(t, ofWedges_, ofWedges, source_.wedges[t], 1 + (chartOf.empty() ? 0 : chartOf[t]));
+    }
+  }
+  static void addTo(std::vector<std::pair<std::uint32_t, AttributeQuadric>>& all, std::uint32_t key,
+                    const AttributeQuadric& quadric) {
+    const auto at =
+        std::ranges::lower_bound(all, key, {}, &std::pair<std::uint32_t, AttributeQuadric>::first);
+    if (at != all.end() && at->first == key)
+      at->second += quadric;
+    else
+      all.emplace(at, key, quadric);
+  }
+
   bool isBetween(std::uint32_t t) const {
     const auto& [i, j, k] = source_.triangles[t];
     return leafOf_[i] != leafOf_[j] && leafOf_[j] != leafOf_[k] && leafOf_[k] != leafOf_[i];
@@ -159,13 +206,18 @@ class Clustering {
     for (const std::uint32_t child : cell.children) {
       cell.quadric += cells_[child].quadric;
       places.push_back(cells_[child].place);
+      for (const auto& [key, its] : cells_[child].attributes) addTo(cell.attributes, key, its);
+      cells_[child].attributes = {};
     }
+    Quadric quadric = cell.quadric;
+    for (const auto& [key, its] : cell.attributes)
+      quadric += (key == 0 ? ofVertices_ : ofWedges_).withBest(its);
     std::size_t best = 0;
     for (std::size_t i = 1; i < places.size(); ++i)
-      if (cell.quadric.at(places[i]) < cell.quadric.at(places[best])) best = i;
+      if (quadric.at(places[i]) < quadric.at(places[best])) best = i;
     cell.vertex = cells_[cell.children[best]].vertex;
-    cell.place = options_.keepsClusterVertices ? places[best] : placeFor(cell.quadric, places);
-    heap_.emplace(std::max(0.0, cell.quadric.at(cell.place)), c);
+    cell.place = options_.keepsClusterVertices ? places[best] : placeFor(quadric, places);
+    heap_.emplace(std::max(0.0, quadric.at(cell.place)), c);
   }
 
   void join(std::uint32_t c) {
@@ -224,6 +276,7 @@ class Clustering {
       shape.triangles.push_back(corners);
     }
     DecimatedMesh result = carried(source_, std::move(shape), std::move(vertexOf), std::move(faceOf));
+    takeNearestAttributes({source_, shape_}, result);
     result.evaluations = evaluations_;
     result.steps = steps_;
     return {std::move(result), joinedTo()};
@@ -247,6 +300,7 @@ class Clustering {
   std::vector<Cluster> cells_;
   std::vector<std::uint32_t> leafOf_;  // by vertex; right for those of triangles that are there
   std::vector<std::uint8_t> isThere_;  // by triangle
+  AttributeChannels ofVertices_, ofWedges_;
   std::uint64_t triangleCount_ = 0, evaluations_ = 0, steps_ = 0;
   using Entry = std::tuple<double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap_;

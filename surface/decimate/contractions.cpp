@@ -44,6 +44,9 @@ constexpr std::size_t kMostAroundAtLast = 4096;
 /// A triangle that costs more than so many times what its short side does makes way for that. It removes
 /// twice as many triangles, and costs about four times as much where a surface bends evenly.
 constexpr double kMostDearer = 8;
+/// What attributes count where a place is solved, of what they count in its cost: places that follow sharp
+/// changes of colour leave the surface.
+constexpr double kShareInPlace = 0.1;
 
 struct Candidate {
   std::array<std::uint32_t, 2> ends{};  // of an edge; of a triangle its number
@@ -66,7 +69,7 @@ class Contractions {
         options_(options),
         context_(context),
         mesh_(mesh.shape, mesh.rounding),
-        attributes_(mesh.source),
+        attributes_(mesh.source, mesh.shape, options),
         isOffLines_(mesh.shape.positions.size(), 0),
         takesFaces_(options.method == DecimateOperator::face),
         candidatesOf_(mesh.shape.positions.size()),
@@ -259,18 +262,26 @@ class Contractions {
       if (isHeld(step.vertices[i])) held.push_back(i);
     const bool isAtEnds = options_.method == DecimateOperator::halfEdge || !held.empty();
     if (!isAtEnds) {
-      step.place = placeFor(quadric, places);
-      step.cost = std::max(0.0, quadric.at(step.place));
+      solve(step, quadric, places);
+      return step;
+    }
+    if (goesAlongLine(step.vertices, held.size())) {
+      solve(step, quadric, places);
       return step;
     }
     // The place of one of them; where some are held, of one of these, along their line.
     for (std::size_t i = 0; i < step.vertices.size(); ++i) {
       if (!held.empty() && std::ranges::find(held, i) == held.end()) continue;
-      const double cost = std::max(0.0, quadric.at(places[i]));
+      double cost = std::max(0.0, quadric.at(places[i]));
       if (!(cost < step.cost)) continue;
       SmallVector<std::uint32_t> order = step.vertices;
       std::swap(order[0], order[i]);
       if (!mayGo(order)) continue;
+      if (attributes_.areWeighed()) {
+        cost += std::max(0.0, attributes_.quadricOf(mesh_, order).at(places[i]));
+        if (options_.method == DecimateOperator::halfEdge) cost += attributes_.gapOf(mesh_, order);
+        if (!(cost < step.cost)) continue;
+      }
       step.cost = cost;
       step.place = places[i];
       std::swap(step.vertices, order);
@@ -278,6 +289,24 @@ class Contractions {
       for (std::size_t& h : held) h = h == i ? 0 : h == 0 ? i : h;
     }
     return step;
+  }
+  void solve(Step& step, const Quadric& ofShape, std::span<const Vec3> places) const {
+    if (!attributes_.areWeighed()) {
+      step.place = placeFor(ofShape, places);
+      step.cost = std::max(0.0, ofShape.at(step.place));
+      return;
+    }
+    const Quadric ofAttributes = attributes_.quadricOf(mesh_, step.vertices);
+    Quadric forPlace = ofShape, whole = ofShape;
+    step.place = placeFor(forPlace += ofAttributes.times(kShareInPlace), places);
+    step.cost = std::max(0.0, (whole += ofAttributes).at(step.place));
+  }
+  /// Whether an edge lies on a line that neither ends nor branches at it, so that the line may take any place
+  /// there: planes across it hold it, and what the sides of a seam have.
+  bool goesAlongLine(const SmallVector<std::uint32_t>& vertices, std::size_t held) const {
+    return attributes_.areWeighed() && options_.method != DecimateOperator::halfEdge &&
+           !options_.keepsBorders && vertices.size() == 2 && held == 2 && mayGo(vertices) &&
+           mayGo(std::array{vertices[1], vertices[0]});
   }
   /// A vertex that is on no line gets on none by what happens around it.
   bool isOnLine(std::uint32_t v) {
@@ -346,7 +375,8 @@ class Contractions {
     ++result_.decimated.steps;
     if (!chartOf_.empty()) forRemoved(step, [&](std::uint32_t t) { --leftOf_[chartOf_[t]]; });
     const std::uint32_t kept = step.vertices[0];
-    attributes_.join(mesh_, step.vertices, weightsOf(step));
+    attributes_.join(mesh_, step.vertices, weightsOf(step), step.place,
+                     options_.method != DecimateOperator::halfEdge);
     isOffLines_[kept] = 0;
     for (const std::uint32_t v : std::span(step.vertices).subspan(1)) {
       quadrics_[kept] += quadrics_[v];

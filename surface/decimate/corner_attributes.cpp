@@ -19,15 +19,77 @@ std::uint32_t cornerAt(const ContractionMesh& mesh, std::uint32_t t, std::uint32
   return 3 * t + static_cast<std::uint32_t>(std::ranges::find(corners, v) - corners.begin());
 }
 
+bool isDirection(const Attribute& attribute) {
+  return attribute.meaning == AttributeMeaning::normal || attribute.meaning == AttributeMeaning::tangent;
+}
+
 }  // namespace
 
-CornerAttributes::Records::Records(const std::vector<Attribute>& all, std::size_t elements)
-    : isAveraged(elements, 0) {
-  for (const Attribute& attribute : all)
-    if (!isLabel(attribute)) {
-      attributes.push_back(&attribute);
-      values.emplace_back();
-    }
+CornerAttributes::Records::Records(const std::vector<Attribute>& all, std::size_t elements,
+                                   const DecimateOptions& options, double diagonal)
+    : attributes(continuousOnes(all)),
+      values(attributes.size()),
+      isAveraged(elements, 0),
+      channels(attributes, options.attributeWeights, diagonal) {}
+
+double CornerAttributes::Records::number(std::size_t channel, std::uint32_t element) const {
+  const std::size_t a = channels.attributeOf(channel);
+  return values[a][element * attributes[a]->components + channels.componentOf(channel)];
+}
+
+void CornerAttributes::Records::addTriangle(const std::array<Vec3, 3>& places, double weight,
+                                            const std::array<std::uint32_t, 3>& elements) {
+  const AttributeQuadric quadric = channels.ofTriangle(
+      places, weight,
+      [&](std::size_t channel, std::size_t corner) { return number(channel, elements[corner]); });
+  for (const std::uint32_t e : elements) quadrics[e] += quadric;
+}
+
+AttributeQuadric CornerAttributes::Records::sum(std::span<const std::uint32_t> elements) const {
+  AttributeQuadric all;
+  for (const std::uint32_t e : elements) all += quadrics[e];
+  return all;
+}
+
+double CornerAttributes::Records::gap(std::span<const std::uint32_t> elements, const Vec3& place) const {
+  const AttributeQuadric all = sum(elements);
+  double gap = 0;
+  for (std::size_t k = 0; k < all.channels.size(); ++k)
+    gap += channels.gap(all, k, place, number(k, elements[0]));
+  return gap;
+}
+
+void CornerAttributes::Records::join(std::span<const std::uint32_t> elements) {
+  if (quadrics.empty()) return;
+  for (const std::uint32_t e : elements.subspan(1)) quadrics[elements[0]] += quadrics[e];
+}
+
+void CornerAttributes::Records::solve(std::uint32_t element, const Vec3& place) {
+  if (quadrics.empty()) return;
+  const AttributeQuadric& quadric = quadrics[element];
+  isAveraged[element] = 1;
+  for (std::size_t k = 0; k < quadric.channels.size(); ++k) {
+    if (!(quadric.channels[k].weight > 0)) continue;
+    const std::size_t a = channels.attributeOf(k);
+    const std::size_t at = element * attributes[a]->components + channels.componentOf(k);
+    const double best = AttributeChannels::best(quadric.channels[k], place, !isDirection(*attributes[a]));
+    if (std::isfinite(best)) values[a][at] = best;
+  }
+  for (std::size_t a = 0; a < attributes.size(); ++a) makeUnit(a, element);
+}
+
+void CornerAttributes::Records::makeUnit(std::size_t a, std::uint32_t element) {
+  if (!isDirection(*attributes[a])) return;
+  const std::size_t n = attributes[a]->components, first = element * n, count = std::min<std::size_t>(n, 3);
+  double size = 0;
+  for (std::size_t k = 0; k < count; ++k) size += values[a][first + k] * values[a][first + k];
+  // Integers stand for fractions of their largest value.
+  const Attribute& attribute = *attributes[a];
+  const double whole = isFloat(attribute.type) ? 1 : std::exp2(8 * double(sizeOf(attribute.type)) - 1) - 1;
+  if (attribute.meaning == AttributeMeaning::tangent && n > 3)
+    values[a][first + 3] = values[a][first + 3] < 0 ? -whole : whole;
+  if (!(size > 0)) return;
+  for (std::size_t k = 0; k < count; ++k) values[a][first + k] *= whole / std::sqrt(size);
 }
 
 void CornerAttributes::Records::average(std::span<const std::uint32_t> elements,
@@ -35,20 +97,14 @@ void CornerAttributes::Records::average(std::span<const std::uint32_t> elements,
   isAveraged[elements[0]] = 1;
   for (std::size_t a = 0; a < attributes.size(); ++a) {
     const std::size_t n = attributes[a]->components;
-    double size = 0;
     for (std::size_t k = 0; k < n; ++k) {
       double sum = 0;
       for (std::size_t i = 0; i < elements.size(); ++i) sum += weights[i] * values[a][elements[i] * n + k];
       values[a][elements[0] * n + k] = sum;
-      if (k < 3) size += sum * sum;
     }
     // The average of directions is shorter than they are, so it becomes a unit vector again unless they
     // cancel out.
-    const AttributeMeaning meaning = attributes[a]->meaning;
-    if ((meaning != AttributeMeaning::normal && meaning != AttributeMeaning::tangent) || !(size > 0))
-      continue;
-    for (std::size_t k = 0; k < std::min<std::size_t>(n, 3); ++k)
-      values[a][elements[0] * n + k] /= std::sqrt(size);
+    makeUnit(a, elements[0]);
   }
 }
 
@@ -69,11 +125,12 @@ Attribute CornerAttributes::Records::taken(const Attribute& attribute,
   return result;
 }
 
-CornerAttributes::CornerAttributes(const SurfaceMesh& mesh)
+CornerAttributes::CornerAttributes(const SurfaceMesh& mesh, const TriangleMesh& shape,
+                                   const DecimateOptions& options)
     : partOf_(partsOf(mesh, mesh.triangles.size())),
       hasClasses_(mesh.hasWedges() || !partOf_.empty()),
-      ofVertices_(mesh.vertexAttributes, mesh.positions.size()),
-      ofClasses_(mesh.wedgeAttributes, 0) {
+      ofVertices_(mesh.vertexAttributes, mesh.positions.size(), options, diagonalOf(mesh)),
+      ofClasses_(mesh.wedgeAttributes, 0, options, diagonalOf(mesh)) {
   const auto numbersOf = [](const Attribute& attribute, std::uint32_t element, std::vector<double>& to) {
     const std::vector<double> numbers = attribute.numbers(element);
     to.insert(to.end(), numbers.begin(), numbers.end());
@@ -81,6 +138,17 @@ CornerAttributes::CornerAttributes(const SurfaceMesh& mesh)
   for (std::size_t a = 0; a < ofVertices_.attributes.size(); ++a)
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
       numbersOf(*ofVertices_.attributes[a], v, ofVertices_.values[a]);
+  const auto addAll = [&](Records& records, std::size_t elements, const auto& elementsOf) {
+    if (records.attributes.empty()) return;
+    records.quadrics.resize(elements);
+    for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
+      const auto& [i, j, k] = shape.triangles[t];
+      const std::array<Vec3, 3> places = {shape.positions[i], shape.positions[j], shape.positions[k]};
+      const double size = norm(cross(places[1] - places[0], places[2] - places[0]));
+      records.addTriangle(places, options.weighsByArea ? size / 2 : 1, elementsOf(t));
+    }
+  };
+  addAll(ofVertices_, mesh.positions.size(), [&](std::uint32_t t) { return mesh.triangles[t]; });
   if (!hasClasses_) return;
   // Corners of one vertex with the same wedge and part form a class, which is averaged as a whole.
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> known;
@@ -98,6 +166,9 @@ CornerAttributes::CornerAttributes(const SurfaceMesh& mesh)
   for (std::size_t a = 0; a < ofClasses_.attributes.size(); ++a)
     for (const std::uint32_t wedge : wedgeOf_)
       numbersOf(*ofClasses_.attributes[a], wedge, ofClasses_.values[a]);
+  addAll(ofClasses_, wedgeOf_.size(), [&](std::uint32_t t) {
+    return std::array<std::uint32_t, 3>{classOf_[3 * t], classOf_[3 * t + 1], classOf_[3 * t + 2]};
+  });
 }
 
 bool CornerAttributes::isOnLine(const ContractionMesh& mesh, std::uint32_t v) const {
@@ -143,10 +214,59 @@ bool CornerAttributes::mayJoin(const ContractionMesh& mesh, std::span<const std:
   return true;
 }
 
+template <class Visit>
+void CornerAttributes::forJoined(const ContractionMesh& mesh, std::span<const std::uint32_t> vertices,
+                                 const Visit& visit) const {
+  // By class that stays, those that continue as it.
+  boost::container::small_vector<std::pair<std::uint32_t, std::uint32_t>, 32> pairs;
+  for (const std::uint32_t t : mesh.trianglesOf(vertices[0])) {
+    const std::uint32_t here = classOf_[cornerAt(mesh, t, vertices[0])];
+    pairs.emplace_back(here, here);
+  }
+  for (const std::uint32_t v : vertices.subspan(1)) {
+    const Continuations all = continuations(mesh, v, vertices[0]);
+    for (const auto& [from, to] : all)
+      if (to != MeshAttributes::kNone) pairs.emplace_back(to, from);
+  }
+  std::ranges::sort(pairs);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  boost::container::small_vector<std::uint32_t, 8> classes;
+  for (std::size_t i = 0; i < pairs.size();) {
+    const std::uint32_t to = pairs[i].first;
+    classes.assign(1, to);
+    for (; i < pairs.size() && pairs[i].first == to; ++i)
+      if (pairs[i].second != to) classes.push_back(pairs[i].second);
+    visit(std::span<const std::uint32_t>(classes.data(), classes.size()));
+  }
+}
+
+Quadric CornerAttributes::quadricOf(const ContractionMesh& mesh,
+                                    std::span<const std::uint32_t> vertices) const {
+  Quadric quadric;
+  if (ofVertices_.channels.areWeighed()) quadric += ofVertices_.channels.withBest(ofVertices_.sum(vertices));
+  if (hasClasses_ && ofClasses_.channels.areWeighed())
+    forJoined(mesh, vertices, [&](std::span<const std::uint32_t> classes) {
+      quadric += ofClasses_.channels.withBest(ofClasses_.sum(classes));
+    });
+  return quadric;
+}
+
+double CornerAttributes::gapOf(const ContractionMesh& mesh, std::span<const std::uint32_t> vertices) const {
+  const Vec3& place = mesh.position(vertices[0]);
+  double gap = 0;
+  if (ofVertices_.channels.areWeighed()) gap += ofVertices_.gap(vertices, place);
+  if (hasClasses_ && ofClasses_.channels.areWeighed())
+    forJoined(mesh, vertices,
+              [&](std::span<const std::uint32_t> classes) { gap += ofClasses_.gap(classes, place); });
+  return gap;
+}
+
 void CornerAttributes::join(const ContractionMesh& mesh, std::span<const std::uint32_t> vertices,
-                            std::span<const double> weights) {
+                            std::span<const double> weights, const Vec3& place, bool isSolved) {
   const bool moves = weights[0] < 1;
   if (moves) ofVertices_.average(vertices, weights);
+  ofVertices_.join(vertices);
+  if (isSolved) ofVertices_.solve(vertices[0], place);
   if (!hasClasses_) return;
   // By class of the vertex that stays: the classes that continue as it, with their weights.
   std::map<std::uint32_t, std::vector<std::pair<std::uint32_t, double>>> joined;
@@ -162,7 +282,6 @@ void CornerAttributes::join(const ContractionMesh& mesh, std::span<const std::ui
     }
   }
   for (const auto& [corner, to] : changes) classOf_[corner] = to;
-  if (!moves) return;
   // A class of the vertex that stays has only some of the others' classes, so its shares are scaled to 1.
   for (const auto& [to, from] : joined) {
     std::vector<std::uint32_t> elements = {to};
@@ -173,9 +292,14 @@ void CornerAttributes::join(const ContractionMesh& mesh, std::span<const std::ui
     }
     double sum = 0;
     for (const double s : shares) sum += s;
-    if (!(sum > 0)) continue;
-    for (double& s : shares) s /= sum;
-    ofClasses_.average(elements, shares);
+    if (moves && sum > 0) {
+      for (double& s : shares) s /= sum;
+      ofClasses_.average(elements, shares);
+    }
+    std::ranges::sort(elements.begin() + 1, elements.end());
+    elements.erase(std::unique(elements.begin() + 1, elements.end()), elements.end());
+    ofClasses_.join(elements);
+    if (isSolved) ofClasses_.solve(to, place);
   }
 }
 

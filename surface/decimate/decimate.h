@@ -28,6 +28,15 @@ enum class DecimateQueue {
   estimate,  ///< an estimate, the spread of the vertices, lazily; the quadric is solved in the step alone
 };
 
+/// What a change of an attribute counts beside a distance [Hoppe1999]. Attributes are solved together with
+/// the places, side by side of a seam, whatever they count.
+struct AttributeWeight {
+  std::string attribute;  ///< its name, of vertices and of wedges alike
+  /// How many diagonals of the mesh a change of 1 counts: texture coordinates and numbers in their own
+  /// unit, colours in the range of a channel, directions by the length between them.
+  double weight = 0;
+};
+
 struct DecimateOptions {
   DecimateOperator method = DecimateOperator::edge;
   DecimateQueue queue = DecimateQueue::lazy;
@@ -40,6 +49,8 @@ struct DecimateOptions {
   /// Steps that would make the surface cross itself are refused. Of the operators that contract edges or
   /// triangles.
   bool forbidsCrossings = false;
+  /// Of continuous attributes; one that is not here does not count. Of all methods but Lindstrom-Turk.
+  std::vector<AttributeWeight> attributeWeights = {};
 };
 
 struct DecimatedMesh {

@@ -24,9 +24,10 @@
 #include "surface/decimate/carried.h"
 #include "surface/decimate/contractions.h"
 #include "surface/decimate/edge_star.h"
+#include "surface/decimate/nearest_corners.h"
 #include "surface/decimate/part_lines.h"
 #include "surface/decimate/standing.h"
-#include "surface/model/parts.h"
+#include "surface/model/charts.h"
 
 namespace arete {
 namespace {
@@ -154,7 +155,8 @@ Result<FramedResult> collapse(const FramedMesh& framed, const DecimateOptions& o
   Constrained constrained;
   constrained.mesh = &mesh;
   constrained.keepsBorders = options.keepsBorders;
-  const std::vector<std::uint32_t> partOf = partsOf(source, source.triangles.size());
+  // Closed seams are lines as edges between parts are: charts lie on either side.
+  const std::vector<std::uint32_t> partOf = chartsOf(source);
   const PartLines<Mesh> lines(mesh, partOf);
   std::vector<std::uint32_t> joinedTo(source.positions.size());
   std::iota(joinedTo.begin(), joinedTo.end(), 0u);
@@ -184,6 +186,7 @@ Result<FramedResult> collapse(const FramedMesh& framed, const DecimateOptions& o
     faceOf.push_back(f);
   }
   DecimatedMesh result = carried(source, std::move(shape), std::move(vertexOf), std::move(faceOf));
+  takeNearestAttributes(framed, result);
   result.steps = static_cast<std::uint64_t>(steps);
   return FramedResult{std::move(result), std::move(joinedTo)};
 }
@@ -218,6 +221,7 @@ Result<FramedResult> decimateByLindstromTurk(const FramedMesh& framed, const Dec
   const std::uint64_t steps = before.steps + result.steps;
   result = carried(framed.source, std::move(result.mesh.shape()), std::move(result.vertexOf),
                    std::move(result.faceOf));
+  takeNearestAttributes(framed, result);
   result.steps = steps;
   last->joinedTo = std::move(narrow->joinedTo);
   return last;

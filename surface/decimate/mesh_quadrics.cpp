@@ -3,12 +3,7 @@
 
 #include <algorithm>
 
-#include "surface/topology/edges.h"
-
 namespace arete {
-namespace {
-
-/// Whether wedges or parts differ across an edge.
 bool isLine(const SurfaceMesh& source, const std::vector<std::uint32_t>& partOf,
             const MeshEdges::Edge& edge) {
   if (edge.sides.size() != 2) return false;
@@ -24,8 +19,6 @@ bool isLine(const SurfaceMesh& source, const std::vector<std::uint32_t>& partOf,
   }
   return false;
 }
-
-}  // namespace
 
 MeshQuadrics quadricsOf(const SurfaceMesh& source, const TriangleMesh& shape,
                         const std::vector<std::uint32_t>& partOf, bool weighsByArea) {

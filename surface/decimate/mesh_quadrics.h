@@ -7,6 +7,7 @@
 #include "engine/base/triangle_mesh.h"
 #include "surface/decimate/quadric.h"
 #include "surface/model/surface_mesh.h"
+#include "surface/topology/edges.h"
 
 namespace arete {
 
@@ -17,6 +18,9 @@ struct MeshQuadrics {
   std::vector<Quadric> ofVertex;
   std::vector<std::uint8_t> isOnBorder;  ///< by vertex: 1 or 0
 };
+
+/// Whether wedges or parts differ across an edge of two triangles.
+bool isLine(const SurfaceMesh& source, const std::vector<std::uint32_t>& partOf, const MeshEdges::Edge& edge);
 
 /// O(n log n).
 /// @param shape   of the source, in the frame of the quadrics

@@ -10,7 +10,10 @@ constexpr double kMostCondition = 1e8, kMostFlight = 2;
 }
 
 Quadric Quadric::ofPlane(const Vec3& point, const Vec3& n, double weight) {
-  const double d = -dot(n, point);
+  return ofLinear(n, -dot(n, point), weight);
+}
+
+Quadric Quadric::ofLinear(const Vec3& n, double d, double weight) {
   Quadric q;
   q.a_ = {weight * n.x * n.x, weight * n.x * n.y, weight * n.x * n.z,
           weight * n.y * n.y, weight * n.y * n.z, weight * n.z * n.z};
@@ -24,6 +27,14 @@ Quadric& Quadric::operator+=(const Quadric& other) {
   b_ = b_ + other.b_;
   c_ += other.c_;
   return *this;
+}
+
+Quadric Quadric::times(double factor) const {
+  Quadric q = *this;
+  for (double& a : q.a_) a *= factor;
+  q.b_ = factor * q.b_;
+  q.c_ *= factor;
+  return q;
 }
 
 double Quadric::at(const Vec3& p) const {

@@ -15,8 +15,11 @@ class Quadric {
   Quadric() = default;
   /// The plane through a point with a normal of length 1.
   static Quadric ofPlane(const Vec3& point, const Vec3& normal, double weight);
+  /// The weighted square of a linear function, by its gradient and its value at the origin.
+  static Quadric ofLinear(const Vec3& gradient, double atOrigin, double weight);
 
   Quadric& operator+=(const Quadric& other);
+  Quadric times(double factor) const;
   /// At least 0 but for rounding.
   double at(const Vec3& p) const;
 

@@ -16,10 +16,12 @@
 #include "io/query/mesh/seams.h"
 #include "io/query/request/cut_request.h"
 #include "io/query/surface/take_surface.h"
+#include "surface/attributes/attribute_names.h"
 #include "surface/builder/build.h"
 #include "surface/decimate/decimate.h"
 #include "surface/front/face_map.h"
 #include "surface/front/front.h"
+#include "surface/model/labels.h"
 
 namespace arete {
 namespace {
@@ -32,14 +34,22 @@ constexpr std::array<Operator, 6> kOperators = {{{"qem", DecimateOperator::edge}
                                                  {"face", DecimateOperator::face},
                                                  {"cluster", DecimateOperator::cluster}}};
 
-/// @param mesh whose attributes and parts keep more.
-Error tooFew(std::uint32_t budget, std::uint64_t least, const std::string& method, const SurfaceMesh& mesh) {
+/// @param mesh   whose attributes and parts keep more
+/// @param shapes what the shape alone comes to; empty: not known
+Error tooFew(std::uint32_t budget, std::uint64_t least, const std::string& method, const SurfaceMesh& mesh,
+             std::optional<std::uint64_t> shapes) {
+  const std::string seams = seamsText(mesh);
+  const bool areDear = !seams.empty() && shapes && *shapes < least;
   return {ErrorCode::usage,
           fmt::format(
               "the least that {} reaches is {}: components, handles, borders, seams and edges between "
               "objects, materials or labels of faces stay, edges of more than two faces too, and no triangle "
-              "turns over{}",
-              method, grouped(least, "triangle", "triangles"), seamsText(mesh)),
+              "turns over{}{}",
+              method, grouped(least, "triangle", "triangles"),
+              areDear ? fmt::format("; lines between attributes and parts cost {} of them",
+                                    grouped(least - *shapes, "triangle", "triangles"))
+                      : "",
+              seams),
           fmt::format("maxTriangles {}", budget)};
 }
 
@@ -54,9 +64,13 @@ Result<DecimatedOutcome> measured(SurfaceMesh mesh, const DecimationRequest& ask
   CutRequest request;
   request.fit = CutFit::rms;
   request.maxTriangles = maxTriangles;
-  if (maxTriangles && *maxTriangles < model.mt.rootTriangleCount())
-    return tl::unexpected(
-        tooFew(*maxTriangles, model.mt.rootTriangleCount(), "measured", finestSurfaceOf(model).mesh));
+  if (maxTriangles && *maxTriangles < model.mt.rootTriangleCount()) {
+    const SurfaceMesh finest = finestSurfaceOf(model).mesh;
+    std::optional<std::uint64_t> ofShape;
+    if (const auto bare = buildSurface(SurfaceMesh(finest.shape()), options, context))
+      ofShape = bare->mt.rootTriangleCount();
+    return tl::unexpected(tooFew(*maxTriangles, model.mt.rootTriangleCount(), "measured", finest, ofShape));
+  }
   if (asked.maxError) request.maxError = asked.maxError->of(model.diagonal);
   ARETE_TRY(TakenSurface taken, takeSurface(model, request, nullptr, context));
   DecimatedOutcome outcome;
@@ -78,6 +92,46 @@ Result<DecimatedOutcome> measured(SurfaceMesh mesh, const DecimationRequest& ask
   return outcome;
 }
 
+/// All attributes of vertices and wedges that a list names, or those that count where there is none.
+Result<std::vector<AttributeWeight>> weightsOf(const SurfaceMesh& mesh, const std::string& list) {
+  std::vector<AttributeWeight> weights;
+  if (list.empty()) {
+    for (const auto* all : {&mesh.vertexAttributes, &mesh.wedgeAttributes})
+      for (const Attribute& attribute : *all) {
+        if (attribute.meaning == AttributeMeaning::textureCoords)
+          weights.push_back({attribute.name, kUsualTexcoordWeight});
+        if (attribute.meaning == AttributeMeaning::color)
+          weights.push_back({attribute.name, kUsualColorWeight});
+      }
+    return weights;
+  }
+  ARETE_TRY(const std::vector<AttributeNumber> numbers, parseAttributeNumbers(list));
+  for (const AttributeNumber& asked : numbers) {
+    const std::string culprit = fmt::format("attributeWeight {}:{}{}", asked.name, asked.number, asked.unit);
+    if (!asked.unit.empty())
+      return failure(ErrorCode::usage, "a weight has no unit: it is how many diagonals a change of 1 counts",
+                     culprit);
+    Result<std::vector<NamedAttribute>> found = findAttributes(mesh, asked.name);
+    if (!found)
+      return failure(ErrorCode::usage, found.error().message,
+                     fmt::format("attributeWeight {}", found.error().culprit));
+    for (const NamedAttribute& one : *found) {
+      const bool isOfCorners = one.of == NamedAttribute::Of::wedges;
+      if (!isOfCorners && one.of != NamedAttribute::Of::vertices)
+        return failure(
+            ErrorCode::usage,
+            "belongs neither to vertices nor to corners: edges between faces that differ stay anyway",
+            culprit);
+      const Attribute& attribute =
+          isOfCorners ? mesh.wedgeAttributes[one.index] : mesh.vertexAttributes[one.index];
+      if (isLabel(attribute))
+        return failure(ErrorCode::usage, "has labels, which are not averaged and have no distance", culprit);
+      weights.push_back({attribute.name, asked.number});
+    }
+  }
+  return weights;
+}
+
 Result<DecimatedOutcome> contracted(const SurfaceMesh& mesh, const DecimationRequest& asked,
                                     const RunContext& context) {
   const std::uint32_t maxTriangles = *asked.maxTriangles;
@@ -92,10 +146,18 @@ Result<DecimatedOutcome> contracted(const SurfaceMesh& mesh, const DecimationReq
   options.keepsClusterVertices = asked.clusterVertices == "original";
   options.keepsBorders = asked.keepsBorders;
   options.forbidsCrossings = asked.forbidsCrossings;
+  ARETE_TRY(options.attributeWeights, weightsOf(mesh, asked.attributeWeights));
   ARETE_TRY(DecimatedMesh decimated, decimate(mesh, options, context));
-  if (decimated.mesh.triangles.size() > maxTriangles)
+  if (decimated.mesh.triangles.size() > maxTriangles) {
+    // As few as the shape alone comes to.
+    DecimateOptions ofShape = options;
+    ofShape.attributeWeights.clear();
+    ofShape.maxTriangles = 1;
+    const Result<DecimatedMesh> bare = decimate(SurfaceMesh(mesh.shape()), ofShape, context);
     return tl::unexpected(
-        tooFew(maxTriangles, decimated.mesh.triangles.size(), asked.method, decimated.mesh));
+        tooFew(maxTriangles, decimated.mesh.triangles.size(), asked.method, decimated.mesh,
+               bare ? std::optional<std::uint64_t>(bare->mesh.triangles.size()) : std::nullopt));
+  }
   DecimatedOutcome outcome;
   outcome.mesh = std::move(decimated.mesh);
   outcome.vertexOf = std::move(decimated.vertexOf);
@@ -137,6 +199,12 @@ Status checkDecimation(const DecimationRequest& a) {
     return refuse("quadricWeight", "qem, half-edge, vertex-pair, face or cluster");
   if (a.forbidsCrossings && (!hasQueue || a.method == "vertex-pair"))
     return refuse("noCrossings", "qem, half-edge or face");
+  if (!a.attributeWeights.empty() && !hasQueue && a.method != "cluster")
+    return refuse("attributeWeight", "qem, half-edge, vertex-pair, face or cluster");
+  if (!a.attributeWeights.empty())
+    if (const auto numbers = parseAttributeNumbers(a.attributeWeights); !numbers)
+      return failure(numbers.error().code, numbers.error().message,
+                     fmt::format("attributeWeight {}", numbers.error().culprit));
   if (a.clusterVertices != "quadric" && a.method != "cluster") return refuse("clusterVertices", "cluster");
   if (a.keepsBorders && a.method == "cluster")
     return failure(ErrorCode::usage, "cannot be combined with `operator` cluster", "keepBorders");

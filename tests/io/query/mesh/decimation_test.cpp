@@ -52,5 +52,57 @@ TEST(Decimation, ByEveryMethodReachesItsBudgetOrSaysWhatItReaches) {
   EXPECT_EQ(tooFew.error().culprit, "maxTriangles 1");
 }
 
+SurfaceMesh painted() {
+  SurfaceMesh mesh(shapes::globe(24, 12));
+  Attribute color{.name = "color", .meaning = AttributeMeaning::color, .components = 3};
+  Attribute zone{.name = "zone", .type = ScalarType::int32};
+  for (const Vec3& p : mesh.positions) {
+    color.append(std::vector<double>{p.x > 0 ? 1.0 : 0.0, 0, 0});
+    zone.append(std::vector<double>{3});
+  }
+  mesh.vertexAttributes = {color, zone};
+  return mesh;
+}
+
+TEST(Decimation, RefusesWeightsOfWhatHasNoneAndNamesThem) {
+  const auto refusalOf = [](const char* list, const char* method = "qem") {
+    const auto made =
+        decimateMesh(painted(), {.method = method, .maxTriangles = 100, .attributeWeights = list});
+    return made ? std::string() : made.error().culprit;
+  };
+  EXPECT_EQ(refusalOf("color:0.5"), "");
+  EXPECT_EQ(refusalOf("uv:1"), "attributeWeight uv");
+  EXPECT_EQ(refusalOf("color"), "attributeWeight color");
+  EXPECT_EQ(refusalOf("color:-1"), "attributeWeight color:-1");
+  EXPECT_EQ(refusalOf("color:nan"), "attributeWeight color:nan");
+  EXPECT_EQ(refusalOf("color:2px"), "attributeWeight color:2px");
+  EXPECT_EQ(refusalOf("zone:1"), "attributeWeight zone:1");
+  EXPECT_EQ(refusalOf("color:1,color:2"), "attributeWeight color:2");
+  for (const char* method : {"measured", "lindstrom-turk"})
+    EXPECT_EQ(refusalOf("color:1", method), "attributeWeight");
+}
+
+TEST(Decimation, WeighsColoursUnlessTheListLeavesThemOut) {
+  const auto made = [](const char* list) {
+    auto result = decimateMesh(painted(), {.method = "qem", .maxTriangles = 100, .attributeWeights = list});
+    if (!result) throw std::runtime_error(result.error().message);
+    return result->mesh;
+  };
+  EXPECT_TRUE(made("") == made("color:0.15"));
+  EXPECT_FALSE(made("").positions == made("color:0").positions);
+}
+
+TEST(Decimation, SaysWhatLinesCostWhereTheyStopABudget) {
+  SurfaceMesh mesh(shapes::globe(24, 12));
+  mesh.materials = {{.name = "a"}, {.name = "b"}};
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) mesh.materialOf.push_back(t / 2 % 2);
+  for (const char* method : {"qem", "measured"}) {
+    const auto refused = decimateMesh(mesh, {.method = method, .maxTriangles = 8});
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("lines between attributes and parts cost"), std::string::npos)
+        << refused.error().message;
+  }
+}
+
 }  // namespace
 }  // namespace arete
