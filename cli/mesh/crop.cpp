@@ -67,7 +67,9 @@ Status runCrop(const CropArguments& arguments, Session& session) {
                                                        {.format = arguments.output.format,
                                                         .existing = arguments.existing,
                                                         .placing = arguments.placing,
-                                                        .isOfFloats = isOfFloats},
+                                                        .isOfFloats = isOfFloats,
+                                                        .packing = packingOf(arguments.output),
+                                                        .flipsV = arguments.output.flipsV},
                                                        session.context()));
   warnOfConversion(converted, arguments.input, target.format.name, session);
   session.say(writtenText(target.path, converted) +

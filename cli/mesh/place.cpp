@@ -83,10 +83,13 @@ Status runPlace(const PlaceArguments& a, Session& session) {
   if (Status placed = placeMesh(mesh, placing); !placed)
     return failure(placed.error().code, placed.error().message,
                    fmt::format("{}, {}", a.input, placed.error().culprit));
-  ARETE_TRY(const ConvertedMesh converted,
-            convertMesh(std::move(mesh), target.path,
-                        {.format = a.output.format, .existing = a.existing, .placing = a.placing},
-                        session.context()));
+  ARETE_TRY(const ConvertedMesh converted, convertMesh(std::move(mesh), target.path,
+                                                       {.format = a.output.format,
+                                                        .existing = a.existing,
+                                                        .placing = a.placing,
+                                                        .packing = packingOf(a.output),
+                                                        .flipsV = a.output.flipsV},
+                                                       session.context()));
   warnOfConversion(converted, a.input, target.format.name, session);
   session.say(writtenText(target.path, converted));
   Json json = writtenJson(a.input, target.path, target.format.name, converted);

@@ -148,7 +148,9 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
                                                        {.format = arguments.output.format,
                                                         .existing = arguments.existing,
                                                         .placing = arguments.placing,
-                                                        .isOfFloats = isOfFloats},
+                                                        .isOfFloats = isOfFloats,
+                                                        .packing = packingOf(arguments.output),
+                                                        .flipsV = arguments.output.flipsV},
                                                        session.context()));
   warnOfConversion(converted, arguments.input, target.format.name, session);
   const MeshNumbers numbers{.first = target.format.holds.firstIndex, .vertexOf = {}, .faceOf = {}};

@@ -54,6 +54,9 @@ std::string extractText(const ExtractRequest& request, const ExtractedSurface& f
                             : fmt::format("; {:.3g} of each move, to keep the tolerance", found.fit->part));
   else if (found.isDisplaced)
     text += "  displaced  to where the distances are smaller (--no-displacement: as in the source)\n";
+  if (found.movedByGrid > 0)
+    text += fmt::format("  packed     on a grid that moves a point by up to {}, part of the error\n",
+                        withShare(found.movedByGrid, diagonal));
   if (found.otherWay)
     text += fmt::format("  other way  no point of the result farther than {}\n",
                         withShare(*found.otherWay, diagonal));

@@ -70,6 +70,7 @@ Json surfaceJson(const ExtractRequest& request, const ExtractedSurface& found) {
                        {"faces", *found.droppedFaces},
                        {"distance", found.droppedDistance ? Json(*found.droppedDistance) : Json()}};
   if (found.leftByRounding > 0) json["leftByRounding"] = found.leftByRounding;
+  if (request.packedBits) json["movedByGrid"] = found.movedByGrid;
   if (found.otherWay) json["otherWay"] = *found.otherWay;
   if (found.fit)
     json["fit"] = {{"rmsBefore", found.fit->rmsBefore},

@@ -84,6 +84,11 @@ std::string commentOf(const ExtractRequest& request, const TerrainModel& model, 
       request.region ? " in the region " + request.criterion.region : "", tin.fit ? ", heights fitted" : "");
 }
 
+std::optional<MeshPacking> packingOf(const ExtractRequest& request) {
+  if (!request.packedBits) return {};
+  return MeshPacking{.positionBits = *request.packedBits};
+}
+
 Status within(Status status, const std::string& path) {
   if (!status && status.error().culprit.empty()) status.error().culprit = path;
   return status;
@@ -250,6 +255,7 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
     if (auto degrees = warningOfDegrees(*format, crs, model_->georeference.verticalUnit))
       tin.warnings.push_back(std::move(*degrees));
   }
+  const double statedInFile = tin.promisedError;
   MeshWriteOptions write{.crsWkt = model_->georeference.crsWkt,
                          .verticalUnit = model_->georeference.verticalUnit,
                          .verticalUnitMetres = model_->georeference.verticalUnitMetres,
@@ -257,7 +263,8 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
                          .origin = exported.origin,
                          .format = request.format,
                          .notes = {commentOf(request, *model_, tin)},
-                         .existing = request.existing};
+                         .existing = request.existing,
+                         .packing = packingOf(request)};
   if (placed) placed->describe(write);
   TriangleMesh& mesh = placed ? placed->mesh : exported.mesh;
   Result<WrittenMesh> written =
@@ -266,6 +273,15 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
   tin.format = formatOf(request.output, *written, write);
   if (!placed && !request.criterion.promisesMaxError(tin.isComplete))
     tin.promisedError += tin.format.heightRounding;
+  // The note in a packed file tells what its grid adds, which is known once it is written.
+  const double promised = tin.promisedError, noted = tin.storedError + tin.format.heightRounding;
+  if (request.packedBits && !placed && noted > statedInFile) {
+    tin.promisedError = noted;
+    write.notes = {commentOf(request, *model_, tin)};
+    tin.promisedError = promised;
+    written = writeAndReadBack(mesh, request.output, write, false, context);
+    if (!written) return tl::unexpected(within(tl::unexpected(written.error()), request.output).error());
+  }
   TriangleMesh& held = written->mesh ? *written->mesh : mesh;
   if (!placed) return std::move(held);
   // The file's heights may count in metres.
@@ -306,6 +322,9 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
     mesh = cutAndWrite(request, reserve, std::nullopt, tin, context);
     if (!mesh) return tl::unexpected(mesh.error());
   }
+  // A grid that is coarse beside the tolerance moves more than a finer cut can make good.
+  if (request.packedBits && tin.storedError + tin.format.heightRounding > tin.promisedError)
+    tin.promisedError = tin.storedError + tin.format.heightRounding;
   // A fit promises nothing before it is measured.
   tin.isRaster = model_->isRaster;
   const bool needsMeasure =
