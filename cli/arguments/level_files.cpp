@@ -11,6 +11,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "io/files/text_scan.h"
+#include "io/files/written_files.h"
 
 namespace arete {
 
@@ -51,6 +52,7 @@ ExtractRequest LevelFiles::redirected(const ExtractRequest& request) {
 }
 
 void LevelFiles::describe(double error, std::uint64_t triangles) {
+  noteRestored(levels_.back().file);  // no file of the user's
   levels_.back().error = error;
   levels_.back().triangles = triangles;
 }
