@@ -28,7 +28,7 @@ class LevelFiles {
   ExtractRequest redirected(const ExtractRequest& request);
   /// What is known of the level that was written.
   void describe(double error, std::uint64_t triangles);
-  /// Writes the levels as one file, and says so. Errors: those of joinGltfLevels().
+  /// Writes the levels as one file, and says so. Errors: as joinGltfLevels().
   Status join(const ExtractRequest& like, Session& session) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The bound adds, per triangle, the largest vertical change of a corner and the largest shift times the
-// slope; a packed file has an order of its own, and its bound is that of its grid. What goes to a pipe is
+// slope; a packed file has an order of its own, and its grid bounds the change. What goes to a pipe is
 // written to a temporary file first, and that is read back.
 #include "io/formats/exchange/written_mesh.h"
 

@@ -36,13 +36,13 @@ TEST_F(PackedGltfFiles, OfCutsKeepTheErrorThatIsStated) {
     const Outcome cut = run({"extract", "sheet.amt", "-o", "cut.glb", "--max-error", "1%", "--packed",
                              "--position-bits", bits, "--certificate", "--json"});
     ASSERT_EQ(cut.code, 0) << cut.err;
-    const auto& cutJson = cut.json()["exports"][0];
+    const auto cutJson = cut.json()["exports"][0];
     EXPECT_TRUE(cutJson["kept"]);
     const std::string error = fmt::format("{}", cutJson["error"].get<double>());
     EXPECT_GT(cutJson["movedByGrid"].get<double>(), 0);
     EXPECT_EQ(run({"measure", "cut.glb", "sheet.obj", "--expect", error}).code, 0);
-    if (std::string(bits) != "8")
-      EXPECT_LE(cutJson["error"].get<double>(), cutJson["maxError"].get<double>());
+    const bool isCoarse = std::string(bits) == "8";
+    EXPECT_TRUE(isCoarse || cutJson["error"].get<double>() <= cutJson["maxError"].get<double>());
   }
 }
 
@@ -118,7 +118,7 @@ TEST_F(PackedGltfFiles, AreRefusedWhereTheyCannotBe) {
   for (const auto& [command, culprit] : refused) {
     const Outcome outcome = run(command);
     EXPECT_EQ(outcome.code, 2) << outcome.err;
-    EXPECT_TRUE(says(outcome, culprit + ":")) << outcome.err;
+    EXPECT_TRUE(says(outcome, culprit)) << outcome.err;
     EXPECT_FALSE(std::filesystem::exists(path(command[3])));
   }
 }

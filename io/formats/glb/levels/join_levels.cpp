@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Each list of a level is appended to that of the whole, and the numbers that name its elements grow by what
-// was there before. Arete's files have their bytes in the first buffer; a packed one has a second without
-// bytes, and the whole has at most one of each.
+// Each list of a level is appended to the list of the whole, and the numbers that name its elements grow by
+// what was there before. Arete's files have their bytes in the first buffer; a packed one has a second
+// without bytes, and the whole has at most one of each.
 #include "io/formats/glb/levels/join_levels.h"
 
 #include <algorithm>

@@ -20,9 +20,9 @@ struct GltfLevel {
 /// Writes one glTF with the levels of detail of MSFT_lod: the scene shows the level of most triangles, whose
 /// node names the others, from fine to coarse. A program without the extension so draws the finest. Each
 /// level is a node of its own, with "error" and "triangles" in extras.arete. Pictures and materials that
-/// levels have in common are written once. asset is that of the finest.
+/// levels have in common are written once. The asset comes from the finest.
 ///
-/// Errors: those of FileBytes::read() and writeContainer(). corrupt: a level is no GLB that Arete wrote, or
+/// Errors: as FileBytes::read() and writeContainer(). corrupt: a level was not written by Arete as a GLB, or
 /// shows nothing. O(size).
 Status joinGltfLevels(std::vector<GltfLevel> levels, const std::filesystem::path& path, bool asText,
                       const RunContext& context = {});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The library's encoders have a version as a global variable: that of indices is set once, to the one of
-// EXT_meshopt_compression, and that of vertices is the extension's by default.
+// The library's encoders have a version as a global variable: EXT_meshopt_compression wants 1 for indices,
+// which is set once, and 0 for vertices, which is the default.
 #include "io/formats/glb/packing/meshopt_streams.h"
 
 #include <meshoptimizer.h>

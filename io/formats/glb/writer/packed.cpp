@@ -133,7 +133,7 @@ class Packer {
     std::vector<std::uint32_t> indices = {};  ///< of triangles
   };
 
-  /// @return The number of the stream, which becomes that of its view.
+  /// @return The number of the stream, which its view has too.
   std::size_t streamOf(const std::string& key, std::size_t stride, const char* filter) {
     const auto found = std::ranges::find(streams_, key, &Stream::key);
     if (found == streams_.end()) streams_.push_back({.key = key, .stride = stride, .filter = filter});

@@ -12,7 +12,7 @@ namespace arete {
 
 /// The glTF of the parts with KHR_mesh_quantization and EXT_meshopt_compression, both required: positions on
 /// one grid for all (position_grid.h), attributes as packedValues() has them, triangles in the order of a
-/// cache and vertices in that of their first use. Errors in the file grow by what the grid may add.
+/// cache and vertices in the order of first use. Errors in the file grow by what the grid may add.
 ///
 /// @param lost Gets what is rounded, and how many vertices fall together and triangles lose their area.
 /// O(n log n).
