@@ -13,6 +13,7 @@
 
 #include "io/formats/common/colors.h"
 #include "io/formats/exchange/mesh_formats.h"
+#include "io/formats/glb/meshopt.h"
 #include "io/written_glb.h"
 
 namespace arete {
@@ -243,10 +244,25 @@ TEST(PackedGltf, StatesErrorsThatTheGridMakesLarger) {
     TemporaryFolder folder;
     MeshWriteOptions options{.triangleErrors = errors};
     options.packing = MeshPacking{.positionBits = bits};
-    ASSERT_TRUE(writeMesh(mesh, folder.file("a.gltf"), options));
-    const Json json = Json::parse(bytesOf(folder.file("a.gltf")));
-    EXPECT_TRUE(json["meshes"][0]["primitives"][0]["attributes"].contains("_ERROR"));
+    ASSERT_TRUE(writeMesh(mesh, folder.file("a.glb"), options));
+    const std::string glb = bytesOf(folder.file("a.glb"));
+    const Json json = jsonOf(glb);
     EXPECT_EQ(json["nodes"][0]["name"], "terrain");
+    std::uint32_t length = 0;
+    std::memcpy(&length, glb.data() + 12, sizeof length);
+    const auto accessor = json["meshes"][0]["primitives"][0]["attributes"]["_ERROR"].get<std::size_t>();
+    const Json view = json["bufferViews"][json["accessors"][accessor]["bufferView"].get<std::size_t>()];
+    const Json stream = view["extensions"]["EXT_meshopt_compression"];
+    const auto decoded =
+        decodeMeshopt(std::string_view(glb).substr(28 + length + stream["byteOffset"].get<std::size_t>(),
+                                                   stream["byteLength"].get<std::size_t>()),
+                      4, 4, "ATTRIBUTES", "");
+    ASSERT_TRUE(decoded) << decoded.error().describe();
+    std::array<float, 4> grown{};
+    std::memcpy(grown.data(), decoded->data(), sizeof grown);
+    const double more = 3.0 / ((1 << bits) - 1) / 2 * (1 + std::sqrt(2.0) * std::sqrt(5.0));
+    EXPECT_NEAR(std::ranges::max(grown), 0.5 + more, 1e-6);
+    EXPECT_NEAR(std::ranges::min(grown), 0.25 + more, 1e-6);
   }
 }
 
