@@ -330,6 +330,35 @@ void MeshOutput::addTo(CLI::App& command, const std::string& help, const std::st
                               fmt::join(names, ", ")))
       ->check(oneOf(names))
       ->type_name("NAME");
+  command.add_flag("--packed", isPacked,
+                   "Write a .glb or .gltf as small as it can be (EXT_meshopt_compression and\n"
+                   "KHR_mesh_quantization, which readers must know); convert: or an .amt in its packed form");
+  positionBitsOption =
+      command
+          .add_option(
+              "--position-bits", positionBits,
+              "In a packed file, round coordinates to a grid of at most 2^N steps along the longest side\n"
+              "(a glTF: 8 to 16, default 14; an .amt of a surface: 8 to 24, default: vertices stay to the\n"
+              "bit). What that moves is added to every stated error")
+          ->check(CLI::Range(8, 24))
+          ->type_name("N");
+  flipOption = command.add_flag(
+      "--flip-v", flipsV,
+      "Turn texture coordinates over, v to 1 - v, of a file that counts them from the other\n"
+      "side than its format says");
+}
+
+std::optional<int> MeshOutput::packedBits() const {
+  constexpr int kUsualBits = 14;
+  if (!isPacked) return {};
+  return positionBits == 0 ? kUsualBits : positionBits;
+}
+
+Status MeshOutput::checkPacking() const {
+  if (positionBits != 0 && !isPacked)
+    return failure(ErrorCode::usage, "is the grid of a packed file; add --packed",
+                   fmt::format("--position-bits {}", positionBits));
+  return {};
 }
 
 std::string MeshOutput::open(Session& session) const {

@@ -99,14 +99,22 @@ std::string inputPath(const std::string& path);
 /// The output of a mesh: a file, or "-" for stdout, and the format where the name does not say it.
 struct MeshOutput {
   std::string path, format;
+  bool isPacked = false, flipsV = false;
+  int positionBits = 0;  ///< 0: as many as usual
+  CLI::Option *positionBitsOption = nullptr, *flipOption = nullptr;
 
-  /// Adds --output, the same as an argument, and --format. Call behind the argument of the input.
+  /// Adds --output, the same as an argument, --format, --packed, --position-bits and --flip-v. Call behind
+  /// the argument of the input.
   ///
   /// @param help begins the help of --output.
   /// @param more ends it.
   /// @param otherExtensions of what the command writes beside meshes: ".tif".
   void addTo(CLI::App& command, const std::string& help, const std::string& more,
              std::vector<std::string> otherExtensions = {});
+  /// MeshPacking::positionBits of a packed glTF; empty: it is not packed.
+  std::optional<int> packedBits() const;
+  /// Errors: usage: --position-bits without --packed.
+  Status checkPacking() const;
   /// @return The path to write to. If that is stdout, the session leaves it to the mesh.
   std::string open(Session& session) const;
 };

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "io/files/text_scan.h"
+#include "io/geo/dem/raster_writer.h"
 
 namespace arete {
 namespace {
@@ -27,9 +29,30 @@ bool mayBeCertificate(const std::string& path) {
 }  // namespace
 
 Status ExtractOutputs::check(bool several) const {
-  if (several && isStdout) return failure(ErrorCode::usage, "takes one tolerance", "--output -");
+  if (areLevels) ARETE_CHECK(checkLevels(several));
+  if (several && isStdout && !areLevels)
+    return failure(ErrorCode::usage, "takes one tolerance", "--output -");
   if (certificate && certificate->empty() && isStdout)
     return failure(ErrorCode::usage, "needs a name if the mesh goes to stdout", "--certificate");
+  if (packedBits && format.empty() && isGeoTiffName(output))
+    return failure(ErrorCode::usage, "is for glTF (.glb, .gltf), not for a raster", "--packed");
+  if (packedBits && !map.empty())
+    return failure(ErrorCode::usage, "tells numbers of the file, whose order --packed makes anew",
+                   fmt::format("--map {}", map));
+  return {};
+}
+
+Status ExtractOutputs::checkLevels(bool several) const {
+  const std::string extension = format.empty() ? text::lowerExtension(output) : format;
+  if (extension != "glb" && extension != "gltf")
+    return failure(ErrorCode::usage, "go into a glTF (.glb, .gltf), the format that has them", "--levels");
+  if (!several)
+    return failure(ErrorCode::usage, "are several: state a list of tolerances or of budgets", "--levels");
+  if (certificate || !map.empty() || !errorRaster.empty())
+    return failure(ErrorCode::usage, "tells of one mesh; write that without --levels",
+                   certificate   ? "--certificate"
+                   : map.empty() ? "--error-raster"
+                                 : "--map");
   return {};
 }
 
@@ -39,8 +62,10 @@ ExtractRequest ExtractOutputs::requestOf(const CutRequest& criterion, const std:
   request.criterion = criterion;
   request.existing = existing;
   request.place = place;
-  request.output = outputName(output, tag, several);
+  request.output = areLevels ? output : outputName(output, tag, several);
   request.format = format;
+  request.packedBits = packedBits;
+  request.flipsV = flipsV;
   if (certificate)
     request.certificate =
         certificate->empty() ? certificateBeside(request.output) : outputName(*certificate, tag, several);

@@ -18,6 +18,9 @@ struct ExtractOutputs {
   std::string format = {};                      ///< MeshOutput::format
   bool isStdout = false;                        ///< the mesh goes to stdout
   std::optional<std::string> certificate = {};  ///< --certificate; empty: beside the output
+  std::optional<int> packedBits = {};           ///< MeshOutput::packedBits()
+  bool flipsV = false;                          ///< --flip-v
+  bool areLevels = false;                       ///< --levels: all go into one file
   std::string errorRaster = {};                 ///< --error-raster; empty: none
   std::string map = {};                         ///< --map; empty: none
   PlaceTarget place = {};                       ///< --to-crs, --metric
@@ -26,6 +29,7 @@ struct ExtractOutputs {
   /// Checks what does not depend on a model. Errors: usage.
   /// @param several there is more than one request.
   Status check(bool several) const;
+  Status checkLevels(bool several) const;
   /// The files of one request.
   /// @param tag what stands for the request in a name: "5", "1%_20000".
   ExtractRequest requestOf(const CutRequest& criterion, const std::string& tag, bool several) const;

@@ -13,9 +13,15 @@ Result<MeshTarget> meshTarget(const MeshOutput& output, const std::string& input
   const Result<MeshFormat> format = meshFormatOf(output.path, output.format);
   if (!format)
     return failure(ErrorCode::usage, format.error().message, fmt::format("--output {}", output.path));
+  ARETE_CHECK(output.checkPacking());
   const std::string path = output.open(session);
   ARETE_CHECK(checkOutput("--output", path, {input}));
   return MeshTarget{*format, path};
+}
+
+std::optional<MeshPacking> packingOf(const MeshOutput& output) {
+  const std::optional<int> bits = output.packedBits();
+  return bits ? std::optional(MeshPacking{.positionBits = *bits}) : std::nullopt;
 }
 
 void addMeshFilesTo(CLI::App& command, std::string& input, MeshOutput& output, ExistingFile& existing) {

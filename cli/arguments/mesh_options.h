@@ -20,6 +20,9 @@ struct MeshTarget {
 /// Errors: usage: no format has the name; those of checkOutput().
 Result<MeshTarget> meshTarget(const MeshOutput& output, const std::string& input, Session& session);
 
+/// ConvertOptions::packing.
+std::optional<MeshPacking> packingOf(const MeshOutput& output);
+
 /// MESH, and the options of the file that a command writes it to.
 void addMeshFilesTo(CLI::App& command, std::string& input, MeshOutput& output, ExistingFile& existing);
 

@@ -31,8 +31,6 @@ namespace {
 struct ConvertArguments {
   std::string input, crs;
   MeshOutput output;
-  bool isPacked = false;
-  int positionBits = 0;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   MeshPlacing placing;
   PlaceTarget place;
@@ -61,6 +59,8 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
                    fmt::format("--crs {}", arguments.crs));
   if (!arguments.dropAttributes.empty())
     return failure(ErrorCode::usage, "is for meshes; build the .amt without them", "--drop-attributes");
+  if (arguments.output.flipsV)
+    return failure(ErrorCode::usage, "is for meshes; `arete extract` has it too", "--flip-v");
   if (!arguments.placing.isNothing())
     return failure(ErrorCode::usage, "is for meshes; an .amt states its axes and units",
                    arguments.placing.unit.empty() ? "--up" : "--unit");
@@ -73,10 +73,11 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
   ARETE_TRY(AmtContainer file, openModelFile(arguments.input));
   ARETE_CHECK(arguments.kinds.refuseOther(kindOf(file)));
   if (file.isOfSurface())
-    return convertSurfaceFile({output, arguments.isPacked, arguments.positionBits}, file, session);
+    return convertSurfaceFile({output, arguments.output.isPacked, arguments.output.positionBits}, file,
+                              session);
   ARETE_TRY(const AmtFile terrain, openAmt(std::move(file)));
   ARETE_TRY(const TerrainModel model, terrain.read({}, session.context()));
-  const AmtWriteOptions options{.isPacked = arguments.isPacked};
+  const AmtWriteOptions options{.isPacked = arguments.output.isPacked};
   ARETE_CHECK(writeAmt(output, model, session.context(), options));
   // The size is only reported, so a failure to read it is not one of the command.
   std::error_code error;
@@ -87,7 +88,7 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
   session.answer({{"input", arguments.input},
                   {"output", output},
                   {"format", "AMT"},
-                  {"isPacked", arguments.isPacked},
+                  {"isPacked", arguments.output.isPacked},
                   {"bytes", bytes},
                   {"bytesPerSample", perSample}});
   return {};
@@ -95,10 +96,6 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
 
 Status runConvert(const ConvertArguments& arguments, Session& session) {
   if (isAmt(arguments.input)) return convertAmt(arguments, session);
-  if (arguments.isPacked)
-    return failure(ErrorCode::usage, "requires a multitriangulation (.amt)", "--packed");
-  if (arguments.positionBits != 0)
-    return failure(ErrorCode::usage, "requires a multitriangulation (.amt)", "--position-bits");
   ARETE_TRY(const MeshTarget target, meshTarget(arguments.output, arguments.input, session));
   ARETE_TRY(MeshFile mesh, readMesh(arguments.input, session.context()));
   ARETE_CHECK(dropNamed(mesh.mesh, arguments.dropAttributes));
@@ -108,7 +105,9 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
                                                        .existing = arguments.existing,
                                                        .placing = arguments.placing,
                                                        .place = arguments.place,
-                                                       .normals = arguments.normals.options},
+                                                       .normals = arguments.normals.options,
+                                                       .packing = packingOf(arguments.output),
+                                                       .flipsV = arguments.output.flipsV},
                                                       session.context());
   if (!converted) {
     Error error = converted.error();
@@ -135,6 +134,7 @@ void addConvertCommand(CLI::App& app, Session& session) {
                          "  arete convert scan.obj -o scan.glb --up z --unit mm\n"
                          "  arete convert tin.ply -o tin.stl --metric\n"
                          "  arete convert scan.gltf -o - --format ply | gzip > scan.ply.gz\n"
+                         "  arete convert scan.glb -o tiny.glb --packed --position-bits 14\n"
                          "  arete convert dem.amt -o small.amt --packed",
                          [arguments](Session& s) { return runConvert(*arguments, s); });
   command->add_option("MESH", arguments->input, "Triangle mesh: " + readableMeshExtensions() + "; or .amt")
@@ -142,9 +142,7 @@ void addConvertCommand(CLI::App& app, Session& session) {
       ->type_name("");
   arguments->output.addTo(*command, "File to write", "; .amt from .amt", {".amt"});
   addOverwriteTo(*command, arguments->existing);
-  command->add_flag("--packed", arguments->isPacked,
-                    "Write an .amt in the compressed form (default: the plain one)");
-  arguments->kinds.ofSurfaces(addPositionBitsTo(*command, arguments->positionBits));
+  arguments->kinds.ofSurfaces(arguments->output.positionBitsOption);
   command
       ->add_option("--crs", arguments->crs,
                    "CRS of the coordinates, where the file has none; --to-crs leads them into another")

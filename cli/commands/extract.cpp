@@ -18,6 +18,7 @@
 #include "cli/arguments/criterion.h"
 #include "cli/arguments/drop_attributes.h"
 #include "cli/arguments/extract_outputs.h"
+#include "cli/arguments/level_files.h"
 #include "cli/arguments/mesh_options.h"
 #include "cli/arguments/normals_option.h"
 #include "cli/arguments/option_kinds.h"
@@ -69,7 +70,7 @@ struct ExtractArguments {
   std::vector<std::string> dropAttributes;
   std::string attributeErrors = {};
   NormalsArguments normals;
-  bool measuresBothWays = false, staysUndisplaced = false;
+  bool areLevels = false, measuresBothWays = false, staysUndisplaced = false;
   PlaceTarget place;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   CLI::Option* certificateOption = nullptr;
@@ -78,6 +79,9 @@ struct ExtractArguments {
   ExtractOutputs outputs(Session& session) const {
     ExtractOutputs outputs{.output = output.open(session),
                            .format = output.format,
+                           .packedBits = output.packedBits(),
+                           .flipsV = output.flipsV,
+                           .areLevels = areLevels,
                            .errorRaster = errorRaster,
                            .map = map,
                            .place = place,
@@ -125,6 +129,7 @@ Status checkOutputs(const std::vector<ExtractRequest>& requests, const ExtractAr
                     const TerrainModel& model) {
   std::vector<std::string> inputs = {arguments.model, model.source};
   if (fs::exists(arguments.criterion.region())) inputs.push_back(arguments.criterion.region());
+  if (arguments.areLevels) return checkOutputsOf({requests.front()}, inputs);
   return checkOutputsOf(requests, inputs);
 }
 
@@ -214,6 +219,7 @@ Status runSurfaceExtract(const ExtractArguments& arguments, const AmtContainer& 
 
 Status runExtract(const ExtractArguments& arguments, Session& session) {
   ARETE_CHECK(arguments.criterion.check());
+  ARETE_CHECK(arguments.output.checkPacking());
   ARETE_TRY(AmtContainer container, openModelFile(arguments.model));
   ARETE_CHECK(arguments.kinds.refuseOther(kindOf(container)));
   if (container.isOfSurface()) return runSurfaceExtract(arguments, container, session);
@@ -241,9 +247,14 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
       });
   Json exports = Json::array();
   Status promise;
+  std::optional<LevelFiles> levels;
+  if (arguments.areLevels) {
+    ARETE_TRY(levels, LevelFiles::create());
+  }
   for (const ExtractRequest& request : requests) {
-    ARETE_TRY(ExtractedTin tin,
-              extractor.extract(request, session.context(), std::exchange(part.cut, std::nullopt)));
+    ARETE_TRY(ExtractedTin tin, extractor.extract(levels ? levels->redirected(request) : request,
+                                                  session.context(), std::exchange(part.cut, std::nullopt)));
+    if (levels) levels->describe(tin.promisedError, tin.triangles);
     if (wholes) {
       tin.relief = wholes->length;
       tin.finestTriangles = wholes->triangles;
@@ -255,6 +266,7 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
     if (!tin.isKept && promise)
       promise = failure(ErrorCode::brokenPromise, brokenPromise(tin), request.output);
   }
+  if (levels) ARETE_CHECK(levels->join(requests.front(), session));
   Json answer = {{"model", arguments.model}, {"verticalUnit", verticalUnit}};
   if (wholes) {
     answer["relief"] = wholes->length;
@@ -283,6 +295,8 @@ void addExtractCommand(CLI::App& app, Session& session) {
       "  arete extract dem.amt -o tin.ply --camera 384000,3800000,50 --look 120,-10 --pixel-error 2\n"
       "  arete extract dem.amt -o - --format ply --max-error 5 | gzip > tin.ply.gz\n"
       "  arete extract scan.amt -o small.glb --max-error 0.5% --certificate\n"
+      "  arete extract scan.amt -o tiny.glb --max-error 0.5% --packed --position-bits 14\n"
+      "  arete extract scan.amt -o tiny.glb --max-error 0.1%,0.5%,2% --levels --packed\n"
       "  arete extract scan.amt -o small.ply --max-triangles 10%,2%       small_10%.ply, small_2%.ply\n"
       "  arete extract scan.amt -o small.ply --max-error 0.1% --focus 1,2,0.5 --error-growth 0.01\n"
       "  arete extract dem.amt -o tin.stl --max-error 5 --metric\n"
@@ -296,7 +310,11 @@ void addExtractCommand(CLI::App& app, Session& session) {
       "with several tolerances and no {}, _E is put before the extension",
       {".tif", ".tiff"});
   addOverwriteTo(*command, arguments->existing);
+  command->add_flag(
+      "--levels", arguments->areLevels,
+      "Several tolerances or budgets become the levels of detail of one .glb or .gltf (MSFT_lod)");
   OptionKinds& kinds = arguments->kinds;
+  kinds.ofSurfaces(arguments->output.flipOption);
   const PlaceOptions placed = addPlaceTo(*command, arguments->place);
   kinds.ofTerrain(placed.toCrs);
   kinds.ofTerrain(placed.metric);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -24,9 +25,11 @@ std::string extractText(const ExtractRequest& request, const ExtractedTin& tin, 
           ? fmt::format(" ({:.4g} % of the finest)",
                         100 * static_cast<double>(tin.triangles) / static_cast<double>(*tin.finestTriangles))
           : "";
+  // What a grid moves is known of the promise alone.
+  const double error = request.packedBits ? std::max(tin.storedError, tin.promisedError) : tin.storedError;
   std::string text = fmt::format(
       "{}: {}{}, {}, error at most {}", request.output, grouped(tin.triangles, "triangle", "triangles"),
-      share, grouped(tin.vertices, "vertex", "vertices"), withReliefShare(tin.storedError, unit, tin.relief));
+      share, grouped(tin.vertices, "vertex", "vertices"), withReliefShare(error, unit, tin.relief));
   if (!request.criterion.region.empty())
     text += fmt::format(" (in the region {})", withUnit(tin.promisedError, unit));
   if (tin.pixels && std::isfinite(*tin.pixels))

@@ -70,7 +70,9 @@ Status runCrop(const CropArguments& arguments, Session& session) {
                                                         .existing = arguments.existing,
                                                         .placing = arguments.placing,
                                                         .normals = arguments.normals.options,
-                                                        .isOfFloats = isOfFloats},
+                                                        .isOfFloats = isOfFloats,
+                                                        .packing = packingOf(arguments.output),
+                                                        .flipsV = arguments.output.flipsV},
                                                        session.context()));
   warnOfConversion(converted, arguments.input, target.format.name, session);
   session.say(writtenText(target.path, converted) +

@@ -112,6 +112,9 @@ Result<DecimationRequest> requestOf(const DecimateArguments& arguments) {
 Status runDecimate(const DecimateArguments& arguments, Session& session) {
   ARETE_TRY(DecimationRequest request, requestOf(arguments));
   ARETE_TRY(const MeshTarget target, meshTarget(arguments.output, arguments.input, session));
+  if (!arguments.map.empty() && arguments.output.isPacked)
+    return failure(ErrorCode::usage, "tells numbers of the file, whose order --packed makes anew",
+                   fmt::format("--map {}", arguments.map));
   if (!arguments.map.empty())
     ARETE_CHECK(checkOutput("--map", arguments.map, {arguments.input}, {target.path}));
   ARETE_TRY(MeshInput input, readMeshInput(arguments.input, session.context()));
@@ -173,7 +176,9 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
                                                         .existing = arguments.existing,
                                                         .placing = arguments.placing,
                                                         .normals = arguments.normals.options,
-                                                        .isOfFloats = isOfFloats},
+                                                        .isOfFloats = isOfFloats,
+                                                        .packing = packingOf(arguments.output),
+                                                        .flipsV = arguments.output.flipsV},
                                                        session.context()));
   renumberForFile(outcome->triangleFor, converted.triangleOf);
   if (!arguments.map.empty())

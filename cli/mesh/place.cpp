@@ -89,7 +89,9 @@ Status runPlace(const PlaceArguments& a, Session& session) {
                                                        {.format = a.output.format,
                                                         .existing = a.existing,
                                                         .placing = a.placing,
-                                                        .normals = a.normals.options},
+                                                        .normals = a.normals.options,
+                                                        .packing = packingOf(a.output),
+                                                        .flipsV = a.output.flipsV},
                                                        session.context()));
   warnOfConversion(converted, a.input, target.format.name, session);
   session.say(writtenText(target.path, converted));

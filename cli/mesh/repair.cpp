@@ -151,7 +151,9 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
                                                         .existing = arguments.existing,
                                                         .placing = arguments.placing,
                                                         .normals = arguments.normals.options,
-                                                        .isOfFloats = isOfFloats},
+                                                        .isOfFloats = isOfFloats,
+                                                        .packing = packingOf(arguments.output),
+                                                        .flipsV = arguments.output.flipsV},
                                                        session.context()));
   warnOfConversion(converted, arguments.input, target.format.name, session);
   const MeshNumbers numbers{.first = target.format.holds.firstIndex, .vertexOf = {}, .faceOf = {}};

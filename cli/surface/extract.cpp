@@ -14,6 +14,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/conversion_report.h"
+#include "cli/arguments/level_files.h"
 #include "cli/mesh/tolerance.h"
 #include "cli/surface/criterion.h"
 #include "cli/surface/extract_text.h"
@@ -132,7 +133,12 @@ Status extractSurface(const SurfaceExtractArguments& arguments, const AmtContain
   std::vector<std::string> inputs = {arguments.model};
   std::error_code ignored;
   if (std::filesystem::exists(arguments.asked.region, ignored)) inputs.push_back(arguments.asked.region);
-  ARETE_CHECK(checkOutputsOf(requests.all, inputs));
+  const bool areLevels = arguments.outputs.areLevels;
+  ARETE_CHECK(checkOutputsOf(areLevels ? std::vector{requests.all.front()} : requests.all, inputs));
+  std::optional<LevelFiles> levels;
+  if (areLevels) {
+    ARETE_TRY(levels, LevelFiles::create());
+  }
   SurfaceExtractor extractor(model, arguments.model,
                              [&](const ExtractRequest& request, double promised, std::uint64_t samples) {
                                return surfaceCheckCommand(request, arguments.model, promised, samples);
@@ -141,8 +147,10 @@ Status extractSurface(const SurfaceExtractArguments& arguments, const AmtContain
   Status promise;
   for (std::size_t i = 0; i < requests.all.size(); ++i) {
     const ExtractRequest& request = requests.all[i];
-    const Result<ExtractedSurface> found = extractor.extract(request, session.context());
+    const Result<ExtractedSurface> found =
+        extractor.extract(levels ? levels->redirected(request) : request, session.context());
     if (!found) return tl::unexpected(named(found.error(), arguments, request, model, session.context()));
+    if (levels) levels->describe(found->error, found->triangles);
     Warnings warnings;
     for (const std::string& lost : found->written.lost)
       if (!isFineRounding(lost, model.diagonal, found->promisedError))
@@ -157,6 +165,7 @@ Status extractSurface(const SurfaceExtractArguments& arguments, const AmtContain
                                     found->promisedError),
                         request.output);
   }
+  if (levels) ARETE_CHECK(levels->join(requests.all.front(), session));
   session.answer({{"model", arguments.model},
                   {"kind", "surface"},
                   {"diagonal", model.diagonal},

@@ -58,6 +58,9 @@ std::string extractText(const ExtractRequest& request, const ExtractedSurface& f
     text += std::isfinite(of.number) ? fmt::format("  {:<10} at most {:.4g}{}{} off within that distance\n",
                                                    of.name, of.number, of.unit.empty() ? "" : " ", of.unit)
                                      : fmt::format("  {:<10} not bounded\n", of.name);
+  if (found.movedByGrid > 0)
+    text += fmt::format("  packed     on a grid that moves a point by up to {}, part of the error\n",
+                        withShare(found.movedByGrid, diagonal));
   if (found.otherWay)
     text += fmt::format("  other way  no point of the result farther than {}\n",
                         withShare(*found.otherWay, diagonal));

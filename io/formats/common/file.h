@@ -57,6 +57,11 @@ struct MeshFile {
   Warnings warnings;
 };
 
+/// How a glTF is made small: its numbers are rounded and compressed (io/formats/glb/writer/packed.h).
+struct MeshPacking {
+  int positionBits = 14;  ///< 1 to 16: the longest side of the box has 2^bits - 1 steps
+};
+
 /// What to write besides the mesh. A value is left out if the format has no field for it.
 struct MeshWriteOptions {
   std::string crsWkt = {};
@@ -84,6 +89,8 @@ struct MeshWriteOptions {
   MeshUp up = MeshUp::z;
   /// MeshFile::folder.
   std::filesystem::path pictureFolder = {};
+  /// Of a glTF only: what it takes to be small.
+  std::optional<MeshPacking> packing = {};
 };
 
 /// What became of a mesh that was written.

@@ -140,11 +140,24 @@ double movedByFloats(const TriangleMesh& mesh) {
   return farthest;
 }
 
+bool flipTextures(MeshAttributes& mesh) {
+  bool has = false;
+  for (auto* const attributes : {&mesh.vertexAttributes, &mesh.wedgeAttributes})
+    for (Attribute& attribute : *attributes)
+      if (attribute.meaning == AttributeMeaning::textureCoords) {
+        attribute.isFromTop = !attribute.isFromTop;
+        has = true;
+      }
+  return has;
+}
+
 Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& path,
                                   const ConvertOptions& options, const RunContext& context) {
   ARETE_TRY(const MeshFormat format, meshFormatOf(path, options.format));
   ConvertedMesh converted;
   converted.warnings = std::move(mesh.warnings);
+  if (options.flipsV && !flipTextures(mesh.mesh))
+    return failure(ErrorCode::usage, "the mesh has no texture coordinates", "flipV");
   const bool ofFloats = options.isOfFloats ? *options.isOfFloats : movedByFloats(mesh.mesh) == 0;
   ARETE_CHECK(place(mesh, options, format));
   ARETE_CHECK(stateCrs(mesh, options.crs, converted.warnings));
@@ -171,7 +184,8 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
                              .notes = std::move(writing.notes),
                              .existing = options.existing,
                              .up = mesh.up,
-                             .pictureFolder = mesh.folder};
+                             .pictureFolder = mesh.folder,
+                             .packing = options.packing};
   std::vector<std::uint32_t> triangleOf = trianglesOfFile(mesh.mesh, format);
   const Result<WrittenMesh> written = writeAndReadBack(mesh.mesh, path, writing, true, context);
   // A CRS that this format needs and GDAL does not understand is a fault of the mesh, not of the output.

@@ -27,6 +27,9 @@ struct ConvertOptions {
   NormalsOptions normals = {};  ///< of the mesh as it is written
   /// Whether the coordinates of the source are floats; empty: if those of the mesh are.
   std::optional<bool> isOfFloats = {};
+  std::optional<MeshPacking> packing = {};  ///< MeshWriteOptions::packing
+  /// Texture coordinates count from the other side of the picture: v becomes 1 - v (flipTextures()).
+  bool flipsV = false;
 };
 
 /// The result of a conversion.
@@ -50,6 +53,10 @@ struct ConvertedMesh {
 /// How far the farthest coordinate of a mesh lies from the nearest float of 32 bits. O(vertices).
 double movedByFloats(const TriangleMesh& mesh);
 
+/// Counts all texture coordinates from the other side of their pictures, for files that were written the
+/// other way than their format says. False if there are none. O(1).
+bool flipTextures(MeshAttributes& mesh);
+
 /// Writes a mesh in the format that options.format or the extension of `path` names, with its CRS, unit and
 /// errors as far as the format can hold them. A mesh is turned and scaled only where options.placing says so
 /// (placeMesh()), and a mesh of which y is up where options.crs states a CRS, in which z is up.
@@ -58,8 +65,8 @@ double movedByFloats(const TriangleMesh& mesh);
 /// the file states, or of a metre where it states none (placeInTarget()).
 ///
 /// Errors: as writeMesh(), placeMesh() and placeInTarget(). usage: attributes that splits cannot keep.
-/// usage, culprit `normals`: normals are to be made of a mesh in degrees.
-/// usage, with the text as culprit: options.crs is not a CRS; culprit `unit`: options.crs states the unit.
+/// usage, culprit `normals`: normals are to be made of a mesh in degrees; culprit `flipV`: no texture
+/// coordinates; with the text as culprit: options.crs is not a CRS; culprit `unit`: options.crs states the unit.
 /// O(size), O(n log n) to a format that rounds.
 Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& path,
                                   const ConvertOptions& options = {}, const RunContext& context = {});

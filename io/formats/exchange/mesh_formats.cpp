@@ -226,6 +226,11 @@ Result<MeshWriteReport> writeMesh(MeshRef mesh, const std::filesystem::path& pat
   if (!format.write)
     return failure(ErrorCode::unsupported, fmt::format("{} files can be read, not written", format.name),
                    path.string());
+  if (options.packing && !format.holds.isYUp)
+    return failure(
+        ErrorCode::usage,
+        fmt::format("is for glTF (.glb, .gltf), which has compression, and not for {}", format.name),
+        "packed");
   if (format.holds.sharesFile && isNoFile(path))
     return failure(ErrorCode::unsupported, "is not a file, and a GeoPackage is a database that needs one",
                    path.string());

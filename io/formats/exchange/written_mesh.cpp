@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The bound adds, per triangle, the largest vertical change of a corner and the largest shift times the
-// slope. What goes to a pipe is written to a temporary file first, and that is read back.
+// slope; a packed file has an order of its own, and its grid bounds the change. What goes to a pipe is
+// written to a temporary file first, and that is read back.
 #include "io/formats/exchange/written_mesh.h"
 
 #include <fmt/format.h>
@@ -49,6 +50,16 @@ double largestHeightChange(const TriangleMesh& before, const TriangleMesh& after
     largest = std::max(largest, up);
   }
   return largest;
+}
+
+/// The same of a file whose order is its own: each height moves by at most its rounding, and by a shift
+/// along the steepest slope.
+double heightChangeOf(const TriangleMesh& before, const Vec3& rounding) {
+  double steepest = 0;
+  for (const auto& t : before.triangles)
+    steepest =
+        std::max(steepest, slopeOf(before.positions[t[0]], before.positions[t[1]], before.positions[t[2]]));
+  return rounding.z + std::hypot(rounding.x, rounding.y) * steepest;
 }
 
 /// A file in the folder for such, removed at the end.
@@ -113,7 +124,8 @@ Result<WrittenMesh> writeAndReadBack(MeshRef mesh, const std::filesystem::path& 
     return failure(ErrorCode::corrupt, "does not hold the triangles that were written to it", path.string());
   // What goes to a pipe gets no name: the group removes it.
   ARETE_CHECK(mustPassOn ? passOn(OutputGroup::placeOf(written), path) : together.commit());
-  const double change = largestHeightChange(mesh.shape, file->mesh, onGrid);
+  const double change = options.packing ? heightChangeOf(mesh.shape, file->frame.rounding)
+                                        : largestHeightChange(mesh.shape, file->mesh, onGrid);
   return WrittenMesh{.mesh = std::move(file->mesh),
                      .frame = std::move(file->frame),
                      .heightRounding = change,

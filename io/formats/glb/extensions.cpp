@@ -18,19 +18,13 @@ namespace arete {
 namespace {
 
 constexpr std::string_view kMaterials = "KHR_materials_";
-constexpr std::array<std::string_view, 13> kRead = {"KHR_mesh_quantization",
-                                                    "KHR_texture_transform",
-                                                    "KHR_draco_mesh_compression",
-                                                    "EXT_meshopt_compression",
-                                                    "KHR_meshopt_compression",
-                                                    "EXT_mesh_gpu_instancing",
-                                                    "KHR_texture_basisu",
-                                                    "EXT_texture_webp",
-                                                    "EXT_texture_avif",
-                                                    "MSFT_texture_dds",
-                                                    "KHR_lights_punctual",
-                                                    "KHR_xmp_json_ld",
-                                                    "KHR_xmp"};
+constexpr std::array<std::string_view, 14> kRead = {"KHR_mesh_quantization",   "MSFT_lod",
+                                                    "KHR_texture_transform",   "KHR_draco_mesh_compression",
+                                                    "EXT_meshopt_compression", "KHR_meshopt_compression",
+                                                    "EXT_mesh_gpu_instancing", "KHR_texture_basisu",
+                                                    "EXT_texture_webp",        "EXT_texture_avif",
+                                                    "MSFT_texture_dds",        "KHR_lights_punctual",
+                                                    "KHR_xmp_json_ld",         "KHR_xmp"};
 
 bool isRead(const std::string& name) {
   return name.starts_with(kMaterials) || std::ranges::find(kRead, name) != kRead.end();

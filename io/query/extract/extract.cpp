@@ -75,6 +75,7 @@ Json surfaceJson(const ExtractRequest& request, const ExtractedSurface& found) {
       json["attributeErrors"][of.name] = std::isfinite(of.number) ? Json(of.number) : Json();
   }
   if (found.leftByRounding > 0) json["leftByRounding"] = found.leftByRounding;
+  if (request.packedBits) json["movedByGrid"] = found.movedByGrid;
   if (found.otherWay) json["otherWay"] = *found.otherWay;
   if (found.fit)
     json["fit"] = {{"rmsBefore", found.fit->rmsBefore},

@@ -84,6 +84,11 @@ std::string commentOf(const ExtractRequest& request, const TerrainModel& model, 
       request.region ? " in the region " + request.criterion.region : "", tin.fit ? ", heights fitted" : "");
 }
 
+std::optional<MeshPacking> packingOf(const ExtractRequest& request) {
+  if (!request.packedBits) return {};
+  return MeshPacking{.positionBits = *request.packedBits};
+}
+
 Status within(Status status, const std::string& path) {
   if (!status && status.error().culprit.empty()) status.error().culprit = path;
   return status;
@@ -226,6 +231,18 @@ Result<PlacedMesh> TinExtractor::lead(const ExtractRequest& request, const TinEx
   return placed;
 }
 
+// A vertex on the rim that moves inwards leaves samples without a triangle.
+void TinExtractor::warnOfRim(int bits, ExtractedTin& tin) const {
+  const Vec3& rounding = tin.format.frame.rounding;
+  const MeasureOptions options{.planRounding = {rounding.x, rounding.y}};
+  if (!model_->isRaster || planTolerancePixels(options, model_->georeference) < kMostPlanTolerance) return;
+  tin.warnings.push_back(
+      {WarningCode::bound,
+       fmt::format("a grid of {} bits moves the rim of the terrain by up to {:.2g}, {:.2g} (x, y), so that "
+                   "samples there may lie in no triangle; `positionBits` states more",
+                   bits, rounding.x, rounding.y)});
+}
+
 Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, double reserve,
                                                std::optional<Cut> taken, ExtractedTin& tin,
                                                const RunContext& context) {
@@ -250,6 +267,7 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
     if (auto degrees = warningOfDegrees(*format, crs, model_->georeference.verticalUnit))
       tin.warnings.push_back(std::move(*degrees));
   }
+  const double statedInFile = tin.promisedError;
   MeshWriteOptions write{.crsWkt = model_->georeference.crsWkt,
                          .verticalUnit = model_->georeference.verticalUnit,
                          .verticalUnitMetres = model_->georeference.verticalUnitMetres,
@@ -257,7 +275,8 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
                          .origin = exported.origin,
                          .format = request.format,
                          .notes = {commentOf(request, *model_, tin)},
-                         .existing = request.existing};
+                         .existing = request.existing,
+                         .packing = packingOf(request)};
   if (placed) placed->describe(write);
   TriangleMesh& mesh = placed ? placed->mesh : exported.mesh;
   Result<WrittenMesh> written =
@@ -266,10 +285,21 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
   tin.format = formatOf(request.output, *written, write);
   if (!placed && !request.criterion.promisesMaxError(tin.isComplete))
     tin.promisedError += tin.format.heightRounding;
+  // The heights of the file may count in metres.
+  const double unit = placed && placed->metresAbout ? model_->georeference.verticalUnitMetres : 1;
+  // The note in a packed file tells what its grid adds, which is known once it is written.
+  const double promised = tin.promisedError,
+               noted = (placed ? bound : tin.storedError) + tin.format.heightRounding / unit;
+  if (request.packedBits && noted > statedInFile) {
+    tin.promisedError = noted;
+    write.notes = {commentOf(request, *model_, tin)};
+    tin.promisedError = promised;
+    written = writeAndReadBack(mesh, request.output, write, false, context);
+    if (!written) return tl::unexpected(within(tl::unexpected(written.error()), request.output).error());
+  }
+  if (request.packedBits && !placed) warnOfRim(*request.packedBits, tin);
   TriangleMesh& held = written->mesh ? *written->mesh : mesh;
   if (!placed) return std::move(held);
-  // The file's heights may count in metres.
-  const double unit = placed->metresAbout ? model_->georeference.verticalUnitMetres : 1;
   tin.promisedError = std::max(tin.promisedError, bound + tin.format.heightRounding / unit);
   place_ = TinPlace{.crsWkt = placed->crsWkt, .metresAbout = placed->metresAbout};
   if (placed->isFramedByWriter && model_->georeference.isGeographic) {
@@ -306,6 +336,9 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
     mesh = cutAndWrite(request, reserve, std::nullopt, tin, context);
     if (!mesh) return tl::unexpected(mesh.error());
   }
+  // A grid that is coarse beside the tolerance moves more than a finer cut can make good.
+  if (request.packedBits && tin.storedError + tin.format.heightRounding > tin.promisedError)
+    tin.promisedError = tin.storedError + tin.format.heightRounding;
   // A fit promises nothing before it is measured.
   tin.isRaster = model_->isRaster;
   const bool needsMeasure =

@@ -112,6 +112,7 @@ class TinExtractor {
   /// Reads the whole model if the part is not enough for a tolerance smaller by `reserve`.
   Status deepen(double maxError, double reserve, const RunContext& context);
   /// takeTin(), written where the output is a mesh. Returns the mesh as the file holds it.
+  void warnOfRim(int bits, ExtractedTin& tin) const;
   Result<TriangleMesh> cutAndWrite(const ExtractRequest& request, double reserve, std::optional<Cut> taken,
                                    ExtractedTin& tin, const RunContext& context);
   /// The TIN where the request has it, with its errors and its promise restated.

@@ -28,6 +28,8 @@ struct ExtractRequest {
       {};  ///< of a surface: CSV of vertices and faces (io/query/surface/map_file.h); empty = none
   std::vector<std::string> dropAttributes = {};  ///< of a surface: names that dropAttributes() leaves out
   NormalsOptions normals = {};                   ///< of a surface: made of the faces of the cut
+  std::optional<int> packedBits = {};  ///< MeshPacking::positionBits of a packed glTF; empty: not packed
+  bool flipsV = false;                 ///< of a surface: flipTextures()
   bool keepsMesh = false;         ///< of terrain: the result holds the mesh, and the error of each sample
   bool measuresBothWays = false;  ///< of a surface: also measure how far the result is from the source
 };

@@ -36,6 +36,7 @@ MeshWriteOptions writeOptionsOf(const ExtractRequest& request, const SurfaceMode
   if (!taken.fit && (!hasOwnFrame || model.up == "z")) options.triangleErrors = taken.front.errors;
   options.format = request.format;
   options.existing = request.existing;
+  if (request.packedBits) options.packing = MeshPacking{.positionBits = *request.packedBits};
   options.up = model.up == "y" ? MeshUp::y : model.up == "z" ? MeshUp::z : MeshUp::unknown;
   return options;
 }
@@ -123,13 +124,24 @@ Status SurfaceExtractor::write(const ExtractRequest& request, TakenSurface& take
     return dropped;
   }
   ARETE_CHECK(makeNormals(taken.front.mesh, request.normals));
-  if (request.certificate.empty()) {
+  if (request.flipsV && !flipTextures(taken.front.mesh))
+    return failure(ErrorCode::usage, "the surface has no texture coordinates", "flipV");
+  if (request.packedBits && !request.map.empty())
+    return failure(ErrorCode::usage, "tells numbers of the file, whose order `packed` makes anew", "map");
+  if (request.certificate.empty() && !request.packedBits) {
     ARETE_TRY(MeshWriteReport written, writeMesh(taken.front.mesh, request.output, options, context));
     result.written = std::move(written);
   } else {
     ARETE_TRY(WrittenMesh written,
               writeAndReadBack(taken.front.mesh, request.output, options, false, context));
     result.written = std::move(written.report);
+    if (request.packedBits) {
+      // Each point of a triangle moves by at most as much as its corners.
+      result.movedByGrid = norm(written.frame.rounding);
+      result.error += result.movedByGrid;
+      result.promisedError = std::max(result.promisedError, result.error);
+    }
+    if (request.certificate.empty()) return together.commit();
     // Without an order of its own the file has the triangles of the mesh.
     const TriangleMesh& mesh = written.mesh ? *written.mesh : taken.front.mesh.shape();
     ARETE_CHECK(measure(request, taken, mesh, written.frame, result, context));
@@ -138,10 +150,27 @@ Status SurfaceExtractor::write(const ExtractRequest& request, TakenSurface& take
   return together.commit();
 }
 
+// What a grid moves is made good by a finer cut, where the tolerance leaves room.
 Result<ExtractedSurface> SurfaceExtractor::extract(const ExtractRequest& request,
                                                    const RunContext& context) try {
+  ARETE_TRY(ExtractedSurface first, extractWithin(request, 0, context));
+  const std::optional<double>& tolerance = request.criterion.maxError;
+  constexpr double kMore = 1.001;  // another cut has another box
+  const double reserve = kMore * first.movedByGrid;
+  if (first.movedByGrid == 0 || !tolerance || first.error <= *tolerance || reserve >= *tolerance ||
+      !request.criterion.promisesMaxError(first.isComplete))
+    return first;
+  return extractWithin(request, reserve, context);
+} catch (...) {
+  return caughtFailure(request.output);
+}
+
+Result<ExtractedSurface> SurfaceExtractor::extractWithin(const ExtractRequest& request, double reserve,
+                                                         const RunContext& context) {
   ARETE_CHECK(dropFor(request.criterion));
-  ARETE_TRY(TakenSurface taken, takeSurface(model_, request.criterion, dropped(), context));
+  CutRequest criterion = request.criterion;
+  if (reserve > 0) *criterion.maxError -= reserve;
+  ARETE_TRY(TakenSurface taken, takeSurface(model_, criterion, dropped(), context));
   ExtractedSurface result;
   result.finestTriangles = model_.mt.finestTriangleCount();
   result.diagonal = model_.diagonal;
@@ -182,11 +211,9 @@ Result<ExtractedSurface> SurfaceExtractor::extract(const ExtractRequest& request
   }
   if (request.measuresBothWays) {
     ARETE_TRY(const double distance, distanceFrom(taken.front.mesh, finest(), context));
-    result.otherWay = distance;
+    result.otherWay = distance + result.movedByGrid;
   }
   return result;
-} catch (...) {
-  return caughtFailure(request.output);
 }
 
 }  // namespace arete

@@ -22,6 +22,7 @@ struct ExtractedSurface {
   std::uint64_t finestTriangles = 0;  ///< of the model
   double diagonal = 0;                ///< of the model
   double storedError = 0;             ///< of the cut, as stored
+  double movedByGrid = 0;  ///< of a packed file: the farthest that it moves a point; part of `error`
   double error = 0;        ///< no point of the source is farther (but what is left out), also after a fit
   bool isComplete = true;  ///< false: a budget or a deadline ended the cut before the criterion was met
   bool isDisplaced = false;
@@ -69,6 +70,9 @@ class SurfaceExtractor {
   const DroppedComponents* dropped() const { return dropped_ ? &*dropped_ : nullptr; }
   Status write(const ExtractRequest& request, TakenSurface& taken, ExtractedSurface& result,
                const RunContext& context);
+  /// @param reserve Taken off the tolerance.
+  Result<ExtractedSurface> extractWithin(const ExtractRequest& request, double reserve,
+                                         const RunContext& context);
   Status writeMap(const ExtractRequest& request, const TakenSurface& taken) const;
   Status measure(const ExtractRequest& request, const TakenSurface& taken, const TriangleMesh& mesh,
                  const MeshFrame& frame, ExtractedSurface& result, const RunContext& context);

@@ -284,6 +284,7 @@ class GlbReader {
     if (bytes > std::max(kMostAttributesAtLeast, kMostAttributesPerByte * source))
       return failure(ErrorCode::unsupported, "has attributes that are far larger than the file");
     ARETE_CHECK(checkMemory(first + used, bytes));
+    takeGrid(group);
     for (std::uint64_t i = 0; i < used; ++i) {
       ARETE_CHECK(reportAndCheck(i, used));
       const std::uint32_t v = group.vertex(i);
@@ -298,6 +299,20 @@ class GlbReader {
     }
     attributes.add(group, first, used);
     return {};
+  }
+
+  /// Whole numbers lie on a grid: a position was rounded by up to half of its step.
+  void takeGrid(const VertexGroup& group) {
+    const GltfElements& positions = group.primitive.attributes.front().elements;
+    if (isFloat(positions.type)) return;
+    const double half = 0.5 / (positions.isNormalized ? GltfElements::largestOf(positions.type) : 1);
+    const std::array<double, 9>& a = group.placed.a;
+    const auto reach = [&](std::size_t row) {
+      return half * (std::abs(a[3 * row]) + std::abs(a[3 * row + 1]) + std::abs(a[3 * row + 2]));
+    };
+    // As gltfToLocal() has the axes.
+    const Vec3 here{reach(0), reach(frame_ ? 2 : 1), reach(frame_ ? 1 : 2)};
+    halfStep_ = {std::max(halfStep_.x, here.x), std::max(halfStep_.y, here.y), std::max(halfStep_.z, here.z)};
   }
 
   Status addTriangles(const Part& part) {
@@ -350,8 +365,9 @@ class GlbReader {
   }
 
   void setRounding() {
-    const Vec3 local{float32Rounding(largest_.x, 0), float32Rounding(largest_.y, 0),
-                     float32Rounding(largest_.z, 0)};
+    const Vec3 local{halfStep_.x + float32Rounding(largest_.x, 0),
+                     halfStep_.y + float32Rounding(largest_.y, 0),
+                     halfStep_.z + float32Rounding(largest_.z, 0)};
     result_.frame.rounding = local;
     const auto& positions = result_.mesh.positions;
     if (!frame_ || positions.empty()) return;
@@ -383,7 +399,8 @@ class GlbReader {
   std::vector<VertexGroup> groups_;
   std::unordered_map<std::string, std::size_t> groupOf_;
   std::vector<Part> parts_;
-  Vec3 largest_;  // |local coordinates|
+  Vec3 largest_;   // |local coordinates|
+  Vec3 halfStep_;  // of whole numbers, in local axes
   MeshFile result_;
 };
 

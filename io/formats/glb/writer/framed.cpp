@@ -145,6 +145,10 @@ std::array<Float3, 2> boxOf(std::span<const Float3> positions) {
   return {low, high};
 }
 
+Json groundMaterial() {
+  return {{"name", "ground"}, {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}}};
+}
+
 GltfContent terrainContent(const TriangleMesh& mesh, const FramedPositions& framed,
                            const std::vector<float>& errors) {
   GltfContent content;
@@ -170,8 +174,7 @@ GltfContent terrainContent(const TriangleMesh& mesh, const FramedPositions& fram
   document["scene"] = 0;
   document["scenes"] = {{{"nodes", {0}}}};
   document["nodes"] = {{{"name", "terrain"}, {"mesh", 0}}};
-  document["materials"] = {
-      {{"name", "ground"}, {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}}}};
+  document["materials"] = Json::array({groundMaterial()});
   document["meshes"] = {
       {{"name", "terrain"},
        {"primitives", {{{"attributes", attributes}, {"indices", indices}, {"material", 0}}}}}};

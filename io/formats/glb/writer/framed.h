@@ -36,6 +36,9 @@ std::vector<float> vertexErrors(const TriangleMesh& mesh, std::span<const float>
 /// The smallest and the largest coordinates, never -0: some readers do not take "-0.0" and "0.0" as equal.
 std::array<Float3, 2> boxOf(std::span<const Float3> positions);
 
+/// The material of a terrain without attributes.
+nlohmann::ordered_json groundMaterial();
+
 /// A mesh of terrain without attributes: positions, normals, errors and indices, in this order. The arguments
 /// must outlive the content.
 GltfContent terrainContent(const TriangleMesh& mesh, const FramedPositions& framed,

@@ -12,7 +12,6 @@
 #include <array>
 #include <iterator>
 #include <limits>
-#include <set>
 #include <utility>
 
 #include "engine/base/counted.h"
@@ -23,6 +22,8 @@
 #include "io/formats/glb/writer/local_positions.h"
 #include "io/formats/glb/writer/materials.h"
 #include "io/formats/glb/writer/mesh_plan.h"
+#include "io/formats/glb/writer/packed.h"
+#include "io/formats/glb/writer/parts.h"
 #include "io/formats/glb/writer/vertex_values.h"
 #include "surface/model/wedges.h"
 
@@ -34,112 +35,34 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kCornersPerCancelCheck = 1 << 14;
 constexpr std::size_t kMostShort = 0xFFFF;  // vertices whose indices are 16 bits and below the largest
 
-std::size_t padded(std::size_t bytes) {
-  return (bytes + 3) / 4 * 4;
-}
-
-int componentTypeOf(ScalarType type) {
-  switch (type) {
-    case ScalarType::int8:
-      return GltfCode::kByte;
-    case ScalarType::uint8:
-      return GltfCode::kUnsignedByte;
-    case ScalarType::int16:
-      return GltfCode::kShort;
-    case ScalarType::uint16:
-      return GltfCode::kUnsignedShort;
-    default:
-      return GltfCode::kFloat;
-  }
-}
-
-const char* typeNameOf(std::size_t components) {
-  switch (components) {
-    case 1:
-      return "SCALAR";
-    case 2:
-      return "VEC2";
-    case 3:
-      return "VEC3";
-    case 4:
-      return "VEC4";
-    case 9:
-      return "MAT3";
-    default:
-      return "MAT4";
-  }
-}
-
-/// All that the file is made of.
-struct Parts {
-  SurfaceMesh mesh;  ///< without wedges; its vertex attributes have moved to `values`
-  std::vector<Float3> positions;
-  Vec3 translation;
-  GltfVertexValues values;
-  WrittenMaterials materials;
-  MeshPlan plan;
-  Json asset;
-};
-
 class DocumentWriter {
  public:
-  explicit DocumentWriter(const Parts& parts) : parts_(parts) {}
+  explicit DocumentWriter(const GltfParts& parts) : parts_(parts) {}
 
   // The order of the additions to the plan is the order of the bytes in the buffer, which BufferWriter
   // repeats.
   Json document() {
-    Json document = {{"asset", parts_.asset}};
-    if (parts_.plan.objects.empty()) return document;
-    Json nodes = Json::array(), meshes = Json::array(), roots = Json::array();
-    for (const ObjectPlan& object : parts_.plan.objects) {
-      Json node = Json::object(), mesh = Json::object();
-      if (!object.name.empty()) node["name"] = mesh["name"] = object.name;
-      node["mesh"] = meshes.size();
-      // Positions are stored near the origin, where 32-bit floats have most digits; the node moves them back
-      // to where they belong.
-      if (const Vec3& t = parts_.translation; !(t == Vec3{})) node["translation"] = {t.x, t.y, t.z};
-      mesh["primitives"] = primitivesOf(object);
-      roots.push_back(nodes.size());
-      nodes.push_back(std::move(node));
-      meshes.push_back(std::move(mesh));
-    }
-    Json images = Json::array();
+    if (parts_.plan.objects.empty()) return {{"asset", parts_.asset}};
+    GltfLists lists;
+    for (const ObjectPlan& object : parts_.plan.objects) lists.addObject(object, primitivesOf(object));
+    // Positions are stored near the origin, where 32-bit floats have most digits; the nodes move them back to
+    // where they belong.
+    if (const Vec3& t = parts_.translation; !(t == Vec3{}))
+      for (Json& node : lists.nodes) node["translation"] = {t.x, t.y, t.z};
     for (const auto& picture : parts_.materials.pictures) {
-      images.push_back(
-          {{"mimeType", picture.mimeType}, {"bufferView", plan_.addBytes(picture.bytes.size())}});
-      if (!picture.name.empty()) images.back()["name"] = picture.name;
+      lists.addImage(picture, plan_.addBytes(picture.bytes.size()));
       plan_.align();
     }
-    addExtensions(document);
-    document["scene"] = 0;
-    document["scenes"] = {{{"nodes", std::move(roots)}}};
-    document["nodes"] = std::move(nodes);
-    // The standard does not allow an empty list, so lists without elements are left out.
-    const auto add = [&](const char* key, Json list) {
-      if (!list.empty()) document[key] = std::move(list);
-    };
-    add("materials", parts_.materials.materials);
-    add("textures", parts_.materials.textures);
-    add("images", std::move(images));
-    add("samplers", parts_.materials.samplers);
-    document["meshes"] = std::move(meshes);
-    document["accessors"] = std::move(plan_.accessors);
-    document["bufferViews"] = std::move(plan_.views);
-    document["buffers"] = {{{"byteLength", plan_.size}}};
-    return document;
+    if (std::ranges::any_of(parts_.values.values, &GltfValues::isQuantized))
+      lists.required.insert("KHR_mesh_quantization");
+    lists.accessors = std::move(plan_.accessors);
+    lists.views = std::move(plan_.views);
+    lists.buffers = {{{"byteLength", plan_.size}}};
+    return assembledDocument(parts_, std::move(lists));
   }
   std::uint64_t bufferSize() const { return plan_.size; }
 
  private:
-  void addExtensions(Json& document) const {
-    std::set<std::string> used = parts_.materials.extensions, required = parts_.materials.required;
-    if (std::ranges::any_of(parts_.values.values, &GltfValues::isQuantized))
-      required.insert("KHR_mesh_quantization");
-    used.insert(required.begin(), required.end());
-    if (!used.empty()) document["extensionsUsed"] = used;
-    if (!required.empty()) document["extensionsRequired"] = required;
-  }
-
   // Every primitive of an object shares its vertices; only the indices differ. The standard requires the box
   // of the positions.
   Json primitivesOf(const ObjectPlan& object) {
@@ -151,8 +74,8 @@ class DocumentWriter {
     plan_.accessors.back()["max"] = {double{high[0]}, double{high[1]}, double{high[2]}};
     for (const GltfValues& v : parts_.values.values) {
       const std::size_t bytes = v.values.elementBytes();
-      attributes[v.semantic] = plan_.add(count, bytes, padded(bytes), GltfCode::kVertexData,
-                                         componentTypeOf(v.values.type), typeNameOf(v.values.components));
+      attributes[v.semantic] = plan_.add(count, bytes, paddedToFour(bytes), GltfCode::kVertexData,
+                                         gltfComponentOf(v.values.type), gltfTypeOf(v.values.components));
       if (v.values.isNormalized && !isFloat(v.values.type)) plan_.accessors.back()["normalized"] = true;
       if (!v.name.empty()) plan_.accessors.back()["name"] = v.name;
     }
@@ -178,14 +101,14 @@ class DocumentWriter {
     return positions;
   }
 
-  const Parts& parts_;
+  const GltfParts& parts_;
   BufferPlan plan_;
 };
 
 /// Writes what DocumentWriter plans, in the same order.
 class BufferWriter {
  public:
-  BufferWriter(const Parts& parts, ByteSink& sink) : parts_(parts), sink_(sink) {}
+  BufferWriter(const GltfParts& parts, ByteSink& sink) : parts_(parts), sink_(sink) {}
 
   bool write() {
     numberOf_.resize(parts_.positions.size());
@@ -200,7 +123,7 @@ class BufferWriter {
   }
 
  private:
-  void align() { sink_.zeros(padded(sink_.written()) - sink_.written()); }
+  void align() { sink_.zeros(paddedToFour(sink_.written()) - sink_.written()); }
 
   template <class Put>
   bool forEach(std::size_t count, const Put& put) {
@@ -218,7 +141,7 @@ class BufferWriter {
     for (std::size_t i = 0; i < count; ++i) numberOf_[vertexAt(i)] = static_cast<std::uint32_t>(i);
     if (!forEach(count, [&](std::size_t i) { sink_.put(parts_.positions[vertexAt(i)]); })) return false;
     for (const GltfValues& v : parts_.values.values) {
-      const std::size_t bytes = v.values.elementBytes(), padding = padded(bytes) - bytes;
+      const std::size_t bytes = v.values.elementBytes(), padding = paddedToFour(bytes) - bytes;
       const auto* const values = reinterpret_cast<const char*>(v.values.values.data());
       if (!forEach(count, [&](std::size_t i) {
             sink_.write({values + vertexAt(i) * bytes, bytes});
@@ -240,13 +163,13 @@ class BufferWriter {
     return true;
   }
 
-  const Parts& parts_;
+  const GltfParts& parts_;
   ByteSink& sink_;
   std::vector<std::uint32_t> numberOf_;  // in the object that is written
 };
 
 /// The positions, and what becomes of directions.
-Status placePositions(Parts& parts, const MeshWriteOptions& options, GltfDirections& directions,
+Status placePositions(GltfParts& parts, const MeshWriteOptions& options, GltfDirections& directions,
                       std::vector<std::string>& lost) {
   parts.asset = {{"version", "2.0"}, {"generator", "Arete"}};
   if (options.up == MeshUp::z) {
@@ -262,11 +185,25 @@ Status placePositions(Parts& parts, const MeshWriteOptions& options, GltfDirecti
   if (!options.crsWkt.empty()) lost.emplace_back("a CRS of a mesh whose z is not up");
   if (!options.triangleErrors.empty())
     lost.emplace_back("the error of each triangle of a mesh whose z is not up");
-  if (const Vec3& r = local.rounding; !(r == Vec3{}))
+  if (const Vec3& r = local.rounding; !(r == Vec3{}) && !options.packing)
     lost.push_back(fmt::format("coordinates finer than {:.2g}, {:.2g}, {:.2g} (x, y, z)", r.x, r.y, r.z));
   parts.positions = std::move(local.positions);
   parts.translation = local.translation;
   return {};
+}
+
+bool hasLooks(const MeshAttributes& of) {
+  return !of.vertexAttributes.empty() || !of.wedgeAttributes.empty() || !of.objects.empty() ||
+         !of.materials.empty() || of.hasWedges();
+}
+
+/// The names and the material that a terrain has in any glTF of ours.
+void nameTerrain(GltfParts& parts) {
+  for (ObjectPlan& object : parts.plan.objects) {
+    object.name = "terrain";
+    for (PrimitivePlan& primitive : object.primitives) primitive.material = 0;
+  }
+  if (!parts.plan.objects.empty()) parts.materials.materials.push_back(groundMaterial());
 }
 
 }  // namespace
@@ -274,13 +211,8 @@ Status placePositions(Parts& parts, const MeshWriteOptions& options, GltfDirecti
 Result<SurfaceContent> surfaceContent(MeshRef mesh, const MeshWriteOptions& options) {
   SurfaceContent surface;
   std::vector<std::string>& lost = surface.lost;
-  const auto parts = std::make_shared<Parts>(Parts{.mesh = splitByWedges(mesh).mesh,
-                                                   .positions = {},
-                                                   .translation = {},
-                                                   .values = {},
-                                                   .materials = {},
-                                                   .plan = {},
-                                                   .asset = {}});
+  const auto parts = std::make_shared<GltfParts>();
+  parts->mesh = splitByWedges(mesh).mesh;
   if (parts->mesh.positions.size() >= std::numeric_limits<std::uint32_t>::max())
     return failure(ErrorCode::invalidData,
                    fmt::format("{} vertices are more than a glTF can hold", parts->mesh.positions.size()));
@@ -290,10 +222,11 @@ Result<SurfaceContent> surfaceContent(MeshRef mesh, const MeshWriteOptions& opti
 
   GltfDirections directions = GltfDirections::asTheyAre;
   ARETE_CHECK(placePositions(*parts, options, directions, lost));
-  if (const std::uint64_t flattened =
-          countFlattened(parts->mesh, [&](std::uint32_t v) { return parts->positions[v]; });
-      flattened > 0)
-    lost.push_back(flattenedLoss(flattened));
+  if (!options.packing)
+    if (const std::uint64_t flattened =
+            countFlattened(parts->mesh, [&](std::uint32_t v) { return parts->positions[v]; });
+        flattened > 0)
+      lost.push_back(flattenedLoss(flattened));
   const auto take = [&](std::vector<std::string>& from) {
     std::ranges::move(from, std::back_inserter(lost));
     from.clear();
@@ -322,6 +255,11 @@ Result<SurfaceContent> surfaceContent(MeshRef mesh, const MeshWriteOptions& opti
                                                                .pictures = true});
   take(others);
 
+  if (options.packing) {
+    if (options.up == MeshUp::z && !hasLooks(mesh.attributes)) nameTerrain(*parts);
+    surface.content = packedContent(*parts, options, lost);
+    return surface;
+  }
   DocumentWriter writer(*parts);
   surface.content.document = writer.document();
   surface.content.bufferSize = writer.bufferSize();

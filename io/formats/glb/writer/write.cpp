@@ -42,7 +42,10 @@ Result<MeshWriteReport> write(MeshRef mesh, const std::filesystem::path& path, b
   if (status && !options.triangleErrors.empty() && options.triangleErrors.size() != triangles)
     status = failure(ErrorCode::invalidData,
                      fmt::format("{} errors for {} triangles", options.triangleErrors.size(), triangles));
-  if (status && options.up == MeshUp::z && !hasAttributes(mesh.attributes)) {
+  if (const int bits = options.packing ? options.packing->positionBits : 1; status && (bits < 1 || bits > 16))
+    status = failure(ErrorCode::usage, "must be from 1 to 16 in a glTF, which has no longer whole numbers",
+                     fmt::format("positionBits {}", bits));
+  if (status && options.up == MeshUp::z && !options.packing && !hasAttributes(mesh.attributes)) {
     status = writeTerrain(mesh.shape, path, asText, options, context, report.lost);
   } else if (status) {
     Result<SurfaceContent> surface = surfaceContent(mesh, options);
