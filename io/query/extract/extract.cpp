@@ -69,6 +69,8 @@ Json surfaceJson(const ExtractRequest& request, const ExtractedSurface& found) {
     json["dropped"] = {{"components", *found.droppedComponents},
                        {"faces", *found.droppedFaces},
                        {"distance", found.droppedDistance ? Json(*found.droppedDistance) : Json()}};
+  for (const AttributeChange& change : found.attributeChanges)
+    json["attributeChanges"].push_back(toJson(change));
   if (found.leftByRounding > 0) json["leftByRounding"] = found.leftByRounding;
   if (found.otherWay) json["otherWay"] = *found.otherWay;
   if (found.fit)

@@ -168,6 +168,7 @@ Result<ExtractedSurface> SurfaceExtractor::extract(const ExtractRequest& request
     result.droppedFaces = dropped_->sourceFaces;
   }
   ARETE_CHECK(write(request, taken, result, context));
+  result.attributeChanges = changesOfCut(model_, taken);
   const Result<MeshFormat> format = meshFormatOf(request.output, request.format);
   const bool mayDouble =
       format && format->holds.statesScalarType && model_.up != "z" && model_.mt.vertices().places64.empty();
