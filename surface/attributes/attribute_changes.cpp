@@ -36,56 +36,32 @@ const std::string* partNameOf(const MeshAttributes& mesh, Elements of, std::uint
                                    : &mesh.groups[numbers[face]];
 }
 
-std::size_t elementAt(const SurfaceMesh& mesh, Elements of, std::size_t triangle, std::size_t corner) {
-  return of == Elements::vertices ? mesh.triangles[triangle][corner]
-         : of == Elements::wedges ? mesh.wedges[triangle][corner]
-                                  : triangle;
-}
-
 /// One attribute of the source and that of the result.
 class Change {
  public:
-  Change(const SurfaceMesh& source, const SurfaceMesh& result, const NamedAttribute& named,
+  Change(const MeshAttributes& source, const SurfaceMesh& result, const NamedAttribute& named,
          const Attribute* from, const Attribute* to)
       : source_(source), result_(result), named_(named), from_(from), to_(to) {
-    if (!from) return;
-    distance_ = {AttributeDistance(*from), AttributeDistance(*to)};
-    if (named.of != Elements::triangles) least_.assign(from->elementCount(), kNotSeen);
+    if (from) distance_ = {AttributeDistance(*from), AttributeDistance(*to)};
   }
 
-  void takeFace(std::uint32_t face, std::uint32_t triangle) {
-    if (!least_.empty()) return;
+  /// @param at of the triangle: nearest to the middle of the face
+  void take(const ComparedFace& face, const TrianglePoint& at) {
     if (!from_) {
-      const std::string *a = partNameOf(source_, named_.of, face),
-                        *b = partNameOf(result_, named_.of, triangle);
+      const std::string* const a = partNameOf(source_, named_.of, face.face);
+      const std::string* const b = partNameOf(result_, named_.of, face.triangle);
       take((a && b ? *a == *b : a == b) ? 0 : kInfinite);
+    } else if (named_.of == Elements::triangles) {
+      take(distance_[0](from(face.face), to(face.triangle)));
     } else {
-      take(distance_[0](distance_[0].values(*from_, face), distance_[1].values(*to_, triangle)));
+      take(atCorners(
+          named_.of == Elements::vertices ? face.vertices : face.wedges,
+          named_.of == Elements::vertices ? result_.triangles[face.triangle] : result_.wedges[face.triangle],
+          at));
     }
-  }
-
-  void takeCorner(std::uint32_t face, std::size_t corner, std::uint32_t triangle, const TrianglePoint& at) {
-    if (least_.empty()) return;
-    const std::size_t element = elementAt(source_, named_.of, face, corner);
-    if (least_[element] == 0) return;
-    std::vector<double> there(distance_[0].components(), 0);
-    if (distance_[0].isLinear()) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (at.shares[i] == 0) continue;
-        const auto values = distance_[1].values(*to_, elementAt(result_, named_.of, triangle, i));
-        for (std::size_t c = 0; c < there.size(); ++c) there[c] += at.shares[i] * values[c];
-      }
-    } else {
-      const auto heaviest = std::size_t(std::ranges::max_element(at.shares) - at.shares.begin());
-      there = distance_[1].values(*to_, elementAt(result_, named_.of, triangle, heaviest));
-    }
-    const double apart = distance_[0](distance_[0].values(*from_, element), there);
-    if (least_[element] == kNotSeen || apart < least_[element]) least_[element] = apart;
   }
 
   AttributeChange found() {
-    for (const double apart : least_)
-      if (apart != kNotSeen) take(apart);
     change_.name = named_.name;
     change_.isEquality = !from_ || !distance_[0].isLinear();
     if (from_) change_.unit = distance_[0].unit();
@@ -93,7 +69,33 @@ class Change {
   }
 
  private:
-  static constexpr double kNotSeen = -1, kInfinite = std::numeric_limits<double>::infinity();
+  static constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+  std::vector<double> from(std::size_t element) const { return distance_[0].values(*from_, element); }
+  std::vector<double> to(std::size_t element) const { return distance_[1].values(*to_, element); }
+
+  double atCorners(const std::array<std::uint32_t, 3>& here, const std::array<std::uint32_t, 3>& there,
+                   const TrianglePoint& at) const {
+    if (!distance_[0].isLinear()) {
+      // A label is that of some corner.
+      const auto heaviest = std::size_t(std::ranges::max_element(at.shares) - at.shares.begin());
+      double least = kInfinite;
+      for (const std::uint32_t corner : here)
+        least = std::min(least, distance_[0](from(corner), to(there[heaviest])));
+      return least;
+    }
+    // A mean of equal numbers is that number, to the bit.
+    std::vector<double> mean = from(here[0]), found = to(there[0]);
+    const std::vector<double> first = mean, second = found;
+    for (const std::size_t i : {1u, 2u}) {
+      const std::vector<double> a = from(here[i]), b = to(there[i]);
+      for (std::size_t c = 0; c < mean.size(); ++c) {
+        mean[c] += (a[c] - first[c]) / 3;
+        if (at.shares[i] != 0) found[c] += at.shares[i] * (b[c] - second[c]);
+      }
+    }
+    return distance_[0](mean, found);
+  }
 
   void take(double apart) {
     ++change_.compared;
@@ -101,20 +103,18 @@ class Change {
     change_.largest = std::max(change_.largest, apart);
   }
 
-  const SurfaceMesh& source_;
+  const MeshAttributes& source_;
   const SurfaceMesh& result_;
   NamedAttribute named_;
   const Attribute *from_, *to_;
   std::array<AttributeDistance, 2> distance_{AttributeDistance(Attribute{}), AttributeDistance(Attribute{})};
-  std::vector<double> least_;  // by element
   AttributeChange change_;
 };
 
 }  // namespace
 
-std::vector<AttributeChange> attributeChanges(const SurfaceMesh& source, const SurfaceMesh& result,
-                                              std::span<const std::uint32_t> triangleFor,
-                                              std::uint64_t mostVertices) {
+std::vector<AttributeChange> attributeChanges(const MeshAttributes& source, const SurfaceMesh& result,
+                                              std::span<const ComparedFace> faces) {
   std::vector<Change> changes;
   const std::vector<NamedAttribute> ofResult = namedAttributes(result);
   for (const NamedAttribute& named : namedAttributes(source)) {
@@ -129,27 +129,34 @@ std::vector<AttributeChange> attributeChanges(const SurfaceMesh& source, const S
     }
     changes.emplace_back(source, result, named, from, to);
   }
-  if (changes.empty()) return {};
-  const std::uint64_t step = std::max<std::uint64_t>(
-      1, (source.positions.size() + mostVertices - 1) / std::max<std::uint64_t>(mostVertices, 1));
-  for (std::uint32_t face = 0; face < source.triangles.size(); ++face) {
-    const std::uint32_t triangle = triangleFor[face];
-    if (triangle == MeshAttributes::kNone) continue;
-    const auto& t = result.triangles[triangle];
-    const auto& corners = source.triangles[face];
-    if (corners[0] % step == 0)
-      for (Change& change : changes) change.takeFace(face, triangle);
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (corners[i] % step != 0) continue;
-      const TrianglePoint at =
-          nearestWithShares(source.positions[corners[i]],
-                            {result.positions[t[0]], result.positions[t[1]], result.positions[t[2]]});
-      for (Change& change : changes) change.takeCorner(face, i, triangle, at);
-    }
-  }
   std::vector<AttributeChange> found;
+  if (changes.empty()) return found;
+  for (const ComparedFace& face : faces) {
+    const auto& t = result.triangles[face.triangle];
+    const TrianglePoint at = nearestWithShares(
+        face.middle, {result.positions[t[0]], result.positions[t[1]], result.positions[t[2]]});
+    for (Change& change : changes) change.take(face, at);
+  }
   for (Change& change : changes) found.push_back(change.found());
   return found;
+}
+
+std::vector<AttributeChange> attributeChanges(const SurfaceMesh& source, const SurfaceMesh& result,
+                                              std::span<const std::uint32_t> triangleFor,
+                                              std::uint64_t mostFaces) {
+  if (namedAttributes(source).empty()) return {};
+  std::vector<ComparedFace> faces;
+  const std::uint64_t step = source.triangles.size() / std::max<std::uint64_t>(mostFaces, 1) + 1;
+  for (std::uint64_t f = 0; f < source.triangles.size(); f += step) {
+    if (triangleFor[f] == MeshAttributes::kNone) continue;
+    const auto& v = source.triangles[f];
+    faces.push_back({.vertices = v,
+                     .wedges = source.hasWedges() ? source.wedges[f] : v,
+                     .face = static_cast<std::uint32_t>(f),
+                     .middle = (source.positions[v[0]] + source.positions[v[1]] + source.positions[v[2]]) / 3,
+                     .triangle = triangleFor[f]});
+  }
+  return attributeChanges(source, result, faces);
 }
 
 }  // namespace arete

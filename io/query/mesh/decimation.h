@@ -38,7 +38,7 @@ struct DecimatedOutcome {
   std::vector<std::uint32_t> triangleFor;
   std::optional<std::uint64_t> crossings = {},
                                sourceCrossings = {};   ///< pairs of triangles; the source's if there are any
-  std::vector<AttributeChange> attributeChanges = {};  ///< at the input's vertices
+  std::vector<AttributeChange> attributeChanges = {};  ///< at faces of the input
   std::vector<std::string> lost = {};
   std::uint64_t evaluations = 0, steps = 0;
   std::optional<FitOutcome> fit = {};

@@ -36,7 +36,7 @@ struct ExtractedSurface {
   std::optional<std::uint64_t> droppedComponents, droppedFaces;  ///< where components may be left out
   std::optional<double> droppedDistance;          ///< the farthest that what is left out is from the result
   std::optional<double> otherWay;                 ///< the farthest that the result is from the source
-  std::vector<AttributeChange> attributeChanges;  ///< at the source's vertices; of those that are written
+  std::vector<AttributeChange> attributeChanges;  ///< changesOfCut(); of those that are written
   double movedByFloats = 0;  ///< of a PLY with doubles of a source that states no frame (convert.h)
   double promisedError = 0;  ///< the tolerance, or what a budget, a deadline, a place or a fit came to
   MeshWriteReport written;

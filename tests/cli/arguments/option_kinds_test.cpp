@@ -160,7 +160,7 @@ const std::map<std::string, Tried>& triedCommands() {
                      {"--samples", {"--samples 60", "", ""}},
                      {"--seed", {"--seed 2"}},
                      {"--attributes", {"--attributes"}},
-                     {"--expect-attribute", {"--expect-attribute normal:9"}},
+                     {"--expect-attribute", {"--expect-attribute uv:9"}},
                      {"--error-mesh", {"--error-mesh $.ply"}}})}},
       {"view",
        {"view dem.amt --headless --screenshot $.png --size 48x32",

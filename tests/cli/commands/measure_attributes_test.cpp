@@ -143,7 +143,7 @@ TEST_F(MeasureAttributes, PixelsAreThoseOfTheMaterialsPicture) {
 
 TEST_F(MeasureAttributes, AgainstADemAreRefused) {
   write("a.obj", sheet(1, 0));
-  ASSERT_TRUE(writeGeoTiff(path("dem.tif"), 2, 2, std::vector<float>{0, 0, 0, 0}, {}));
+  ASSERT_TRUE(writeGeoTiff(path("dem.tif"), 2, 2, std::vector<double>(4, 0.0), {}));
   for (const char* option : {"--attributes", "--expect-attribute"}) {
     std::vector<std::string> words = {"measure", "a.obj", "dem.tif", option};
     if (std::string(option) == "--expect-attribute") words.push_back("uv:1");
@@ -163,7 +163,8 @@ TEST_F(MeasureAttributes, ExtractAndDecimateSayTheLargestChangeOfEach) {
       run({"measure", "small.obj", "scan.obj", "--samples", "2000", "--attributes", "--json"}).json();
   const double said = json["exports"][0]["attributeChanges"][0]["largest"];
   EXPECT_GT(said, 0.01) << json;
-  EXPECT_GE(said, 0.99 * double(measured["attributes"]["uv"]["largest"])) << json << measured;
+  // At the nearest points, and not at the best within some distance.
+  EXPECT_GE(said, 0.9 * double(measured["attributes"]["uv"]["largest"])) << json << measured;
   for (const char* method : {"measured", "qem", "half-edge"}) {
     const Outcome outcome = run(
         {"mesh", "decimate", "scan.obj", "-o", "less.obj", "--max-triangles", "20", "--operator", method});
@@ -171,7 +172,8 @@ TEST_F(MeasureAttributes, ExtractAndDecimateSayTheLargestChangeOfEach) {
     EXPECT_NE(outcome.out.find("  uv         changes by up to "), std::string::npos) << method << outcome.out;
   }
   const Json finest = run({"extract", "scan.amt", "-o", "all.obj", "--max-error", "0", "--json"}).json();
-  EXPECT_LT(finest["exports"][0]["attributeChanges"][0]["compared"], 170);
+  EXPECT_EQ(finest["exports"][0]["attributeChanges"][0]["compared"], 288);
+  EXPECT_LT(finest["exports"][0]["attributeChanges"][0]["largest"], 1e-12);
 }
 
 }  // namespace
