@@ -26,7 +26,7 @@ class LeastOnTriangle {
   explicit LeastOnTriangle(NumbersNorm norm, std::size_t components)
       : norm_(norm), components_(components), scratch_(components) {}
 
-  /// The numbers at a point of the triangle, linear means of those of its corners.
+  /// The numbers at a point of the triangle, linear means of its corners'.
   /// @param corners  corner by corner
   std::span<const double> at(const SpaceTriangle& t, std::span<const double> corners, const Vec3& p);
 

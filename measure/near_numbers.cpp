@@ -2,7 +2,7 @@
 //
 // Points are corners and middles of sides, once for each side of a seam: where several triangles of the
 // source have the same numbers at one place it is one point. Then points spread over the area. For each the
-// triangles of the mesh within E are found once for all numbers; those of which a bound says that they have
+// triangles of the mesh within E are found once for all numbers; where a bound says that they have
 // nothing nearer than what is found are skipped. Sums are added in the order of the points.
 #include "measure/near_numbers.h"
 
@@ -46,7 +46,7 @@ std::uint64_t mixedInto(std::uint64_t hash, std::uint64_t more) {
   return x ^ (x >> 31);
 }
 
-/// Linear; of numbers that are not interpolated those of the heaviest corner.
+/// Linear; numbers that are not interpolated are the heaviest corner's.
 void numbersAt(const ComparedNumbers& of, const SourcePoint& x, std::vector<double>& numbers) {
   const std::size_t n = of.components;
   const double* const corners = of.ofSource.data() + std::size_t{3} * n * x.triangle;

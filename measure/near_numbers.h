@@ -57,7 +57,7 @@ struct NearNumbersOptions {
   std::uint64_t seed = 1;
 };
 
-/// For points x of the source, the least distance of its numbers from those of a point y of the mesh with
+/// For points x of the source, the least distance of its numbers from the ones at a point y of the mesh with
 /// |x - y| <= E: every triangle of the mesh within E is searched. A corner and a side that several triangles
 /// of the source share are points of each of them whose numbers differ there: of each side of a seam.
 ///

@@ -135,7 +135,7 @@ Error named(Error error, const MeasureMeshesArguments& arguments) {
   return error;
 }
 
-/// The attributes of the second mesh beside those of the first.
+/// The attributes of the second mesh beside the first's.
 /// @param within  no point of the second is farther from the first than this
 Result<AttributeReport> attributesOf(const MeasureMeshesArguments& arguments, const MeshFile& first,
                                      const MeshFile& second, const std::optional<MetricMeshes>& metric,

@@ -39,6 +39,28 @@ class Mesh:
         return self._tin.source_vertices
 
     @property
+    def wedges(self) -> NDArray[np.uint32]:
+        """Of a surface with attributes of corners, (m, 3): which row of wedge_attributes each corner has; else empty. Corners
+        on two sides of a seam have one vertex and two wedges."""
+        return self._tin.wedges
+
+    @property
+    def vertex_attributes(self) -> Dict[str, NDArray[Any]]:
+        """Of a surface, by names as options have them ("uv", "uv2", "color", "normal", or the file's own): (n, components), with
+        the numbers of the source's file. Materials and objects are not among them."""
+        return self._tin.vertex_attributes
+
+    @property
+    def wedge_attributes(self) -> Dict[str, NDArray[Any]]:
+        """The same of corners: a row for each wedge."""
+        return self._tin.wedge_attributes
+
+    @property
+    def triangle_attributes(self) -> Dict[str, NDArray[Any]]:
+        """The same of triangles, (m, components)."""
+        return self._tin.triangle_attributes
+
+    @property
     def crs(self) -> Optional[str]:
         """WKT, as pyproj, rasterio and geopandas take it; None where the source has no CRS."""
         return self._tin.crs_wkt or None

@@ -15,6 +15,7 @@
 #include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
 #include "python/bindings/export_files.h"
+#include "surface/attributes/attribute_names.h"
 
 namespace arete::python {
 namespace {
@@ -40,6 +41,40 @@ CutTin::CutTin(Tin taken) : tin(std::move(taken)), errors(tin.errors) {
 }
 
 namespace {
+
+py::dtype numbersOf(ScalarType type) {
+  switch (type) {
+    case ScalarType::int8:
+      return py::dtype::of<std::int8_t>();
+    case ScalarType::uint8:
+      return py::dtype::of<std::uint8_t>();
+    case ScalarType::int16:
+      return py::dtype::of<std::int16_t>();
+    case ScalarType::uint16:
+      return py::dtype::of<std::uint16_t>();
+    case ScalarType::int32:
+      return py::dtype::of<std::int32_t>();
+    case ScalarType::uint32:
+      return py::dtype::of<std::uint32_t>();
+    case ScalarType::float32:
+      return py::dtype::of<float>();
+    case ScalarType::float64:
+      break;
+  }
+  return py::dtype::of<double>();
+}
+
+/// By the names that options have: elements by components, as views.
+py::dict attributesOf(const std::vector<Attribute>& attributes, const py::object& owner) {
+  py::dict all;
+  for (const Attribute& a : attributes) {
+    py::array view(numbersOf(a.type), std::vector<py::ssize_t>{py::ssize_t(a.elementCount()), a.components},
+                   a.values.data(), owner);
+    py::detail::array_proxy(view.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+    all[py::str(optionNameOf(a.name))] = view;
+  }
+  return all;
+}
 
 void defineRequest(py::module_& module) {
   py::class_<CutRequest>(module, "CutRequest")
@@ -162,6 +197,26 @@ void defineTin(py::module_& module) {
                                const auto& triangles = self.cast<const CutTin&>().tin.mesh.triangles;
                                return viewOf(reinterpret_cast<const std::uint32_t*>(triangles.data()),
                                              {sizeOf(triangles), 3}, self);
+                             })
+      .def_property_readonly(
+          "wedges",
+          [](const py::object& self) {
+            const auto& wedges = self.cast<const CutTin&>().tin.mesh.wedges;
+            return viewOf(reinterpret_cast<const std::uint32_t*>(wedges.data()), {sizeOf(wedges), 3}, self);
+          })
+      .def_property_readonly("vertex_attributes",
+                             [](const py::object& self) {
+                               return attributesOf(self.cast<const CutTin&>().tin.mesh.vertexAttributes,
+                                                   self);
+                             })
+      .def_property_readonly("wedge_attributes",
+                             [](const py::object& self) {
+                               return attributesOf(self.cast<const CutTin&>().tin.mesh.wedgeAttributes, self);
+                             })
+      .def_property_readonly("triangle_attributes",
+                             [](const py::object& self) {
+                               return attributesOf(self.cast<const CutTin&>().tin.mesh.triangleAttributes,
+                                                   self);
                              })
       .def_property_readonly("source_vertices",
                              [](const py::object& self) {

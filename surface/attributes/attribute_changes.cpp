@@ -36,7 +36,7 @@ const std::string* partNameOf(const MeshAttributes& mesh, Elements of, std::uint
                                    : &mesh.groups[numbers[face]];
 }
 
-/// One attribute of the source and that of the result.
+/// One attribute, of the source and of the result.
 class Change {
  public:
   Change(const MeshAttributes& source, const SurfaceMesh& result, const NamedAttribute& named,
@@ -77,7 +77,7 @@ class Change {
   double atCorners(const std::array<std::uint32_t, 3>& here, const std::array<std::uint32_t, 3>& there,
                    const TrianglePoint& at) const {
     if (!distance_[0].isLinear()) {
-      // A label is that of some corner.
+      // Any corner's label counts.
       const auto heaviest = std::size_t(std::ranges::max_element(at.shares) - at.shares.begin());
       double least = kInfinite;
       for (const std::uint32_t corner : here)

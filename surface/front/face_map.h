@@ -16,7 +16,7 @@ namespace arete {
 /// @throw std::bad_alloc where the source's faces, which are only stated, are more than the memory holds.
 std::vector<std::uint32_t> facesOf(const SurfaceModel& model, const Cut& cut);
 
-/// A triangle of the finest front, and that of a cut which stands for its middle.
+/// A triangle of the finest front, and the one of a cut which stands for its middle.
 struct FaceInCut {
   std::uint32_t finest = 0;  ///< of the MT
   Vec3 middle;

@@ -70,7 +70,7 @@ TEST(NearNumbers, ASlopeIsMadeUpForByTheDistance) {
                           })};
   for (const double within : {0.0, 0.25, 1.0, 2.0}) {
     const NumbersFound found = measured(coarse, fine, numbers, within);
-    // At x = 0 there is no mesh beyond its side, and y may be no nearer than that.
+    // At x = 0 the mesh ends, and no y lies beyond.
     EXPECT_NEAR(found.largest, 3, 1e-9) << within;
     EXPECT_NEAR(found.worst.x, 0, 1e-9) << within;
     EXPECT_NEAR(found.meanAtNearest, 3, 1e-9) << within;

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "engine/base/counted.h"
 #include "io/query/attributes/attribute_parts.h"
 #include "io/query/attributes/picture_sizes.h"
 #include "surface/attributes/attribute_distance.h"
@@ -43,7 +44,7 @@ double srgbOf(double linear) {
 }
 
 /// An attribute as numbers at the corners: in its unit, texture coordinates counted from below.
-/// @param isToSrgb  linear colours become those of sRGB; alpha stays
+/// @param isToSrgb  linear colours become sRGB; alpha stays
 std::vector<double> cornerNumbers(const SurfaceMesh& mesh, const NamedAttribute& named,
                                   std::size_t components, bool isToSrgb) {
   const Attribute& attribute = attributeOf(mesh, named);
@@ -170,9 +171,9 @@ class Comparison {
 
   static std::string whyNot(const Attribute& source, const Attribute& other) {
     const bool isColor = source.meaning == AttributeMeaning::color;
-    if (source.meaning != other.meaning) return "that of the first mesh has another meaning";
+    if (source.meaning != other.meaning) return "has another meaning in the first mesh";
     if (source.components == other.components || isColor) return {};
-    return fmt::format("that of the first mesh has {} numbers, not {}", other.components, source.components);
+    return fmt::format("has {} numbers in the first mesh, not {}", other.components, source.components);
   }
 
   Status fill(ComparedNumbers& numbers, const NamedAttribute& named, const NamedAttribute& there,
@@ -189,7 +190,7 @@ class Comparison {
     return isInPixels ? toPixels(numbers, named) : Status();
   }
 
-  /// Pixels of the source's pictures; those of the other mesh count where the source has no such material.
+  /// Pixels of the source's pictures, in the other mesh too: by the names of its materials.
   Status toPixels(ComparedNumbers& numbers, const NamedAttribute& named) {
     ARETE_TRY(const auto sizes, pictureSizesOf(source_.mesh, source_.folder, setOf(named.inFile)));
     const auto sizeOf = [&](std::size_t t) -> std::array<double, 2> {
@@ -220,8 +221,8 @@ class Comparison {
                      "expectAttribute " + named.name);
     if (without > 0)
       report_.warnings.push_back(
-          {WarningCode::omitted,
-           fmt::format("{} faces have no picture: their {} is not compared in pixels", without, named.name)});
+          {WarningCode::omitted, fmt::format("{} no picture: {} is not compared in pixels there",
+                                             counted(without, "face has", "faces have"), named.name)});
     const auto& of = other_.mesh.materialOf;
     for (std::size_t t = 0; t < other_.mesh.triangles.size(); ++t) {
       std::array<double, 2> size = any;

@@ -20,10 +20,10 @@ namespace arete {
 struct AttributeSubject {
   const SurfaceMesh& mesh;
   std::filesystem::path folder = {};    ///< MeshFile::folder
-  const TriangleMesh* shape = nullptr;  ///< null: that of the mesh
+  const TriangleMesh* shape = nullptr;  ///< null: the mesh's own
 };
 
-/// How far one attribute of a source is from that of another mesh.
+/// How far one attribute of a source is from another mesh's.
 struct AttributeDeviation {
   std::string name;           ///< as options have it: "uv"
   std::string unit;           ///< AttributeDistance::unit(): "pixels", "" of what is equal or not
@@ -57,7 +57,7 @@ struct AttributeReport {
 /// Largest distances are at most what is expected, but for the rounding of 32-bit floats: 2^-22 of the
 /// largest number, 0.0001 degrees. Errors: as measureNearNumbers(); usage, with "expectAttribute" and the
 /// name as culprit: the source has no such attribute; pixels of what has none; no material has a picture;
-/// those of PictureSource.
+/// a picture that PictureSource refuses.
 Result<AttributeReport> measureAttributes(const AttributeSubject& other, const AttributeSubject& source,
                                           const AttributeOptions& options, const RunContext& context = {});
 
