@@ -35,7 +35,7 @@ struct AttributeDeviation {
 };
 
 struct AttributeOptions {
-  /// E: the other point is no farther than this, in the unit of the shapes.
+  /// E: the largest distance of the other point, in the unit of the shapes.
   double within = 0;
   /// In pixels where "px" is behind the number.
   std::vector<AttributeNumber> expected = {};
