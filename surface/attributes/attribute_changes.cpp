@@ -71,8 +71,8 @@ class Change {
  private:
   static constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-  std::vector<double> from(std::size_t element) const { return distance_[0].values(*from_, element); }
-  std::vector<double> to(std::size_t element) const { return distance_[1].values(*to_, element); }
+  std::vector<double> from(std::size_t element) const { return distance_[0].drawnValues(*from_, element); }
+  std::vector<double> to(std::size_t element) const { return distance_[1].drawnValues(*to_, element); }
 
   double atCorners(const std::array<std::uint32_t, 3>& here, const std::array<std::uint32_t, 3>& there,
                    const TrianglePoint& at) const {

@@ -53,7 +53,7 @@ std::vector<double> cornerNumbers(const SurfaceMesh& mesh, const NamedAttribute&
   numbers.reserve(3 * components * mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) {
-      std::vector<double> values = distance.values(attribute, elementOf(mesh, named.of, t, i));
+      std::vector<double> values = distance.drawnValues(attribute, elementOf(mesh, named.of, t, i));
       if (attribute.isFromTop && values.size() > 1) values[1] = 1 - values[1];
       if (isToSrgb)
         for (std::size_t c = 0; c < std::min<std::size_t>(3, values.size()); ++c)

@@ -141,6 +141,17 @@ TEST_F(MeasureAttributes, PixelsAreThoseOfTheMaterialsPicture) {
             5);
 }
 
+// A glTF has normals of length 1; an OBJ may have longer ones, which count no more than others.
+TEST_F(MeasureAttributes, NormalsOfAnyLengthAreTheSameAsThoseOfLengthOne) {
+  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn 5 0 5\nvn 0 0.1 0.1\nf 1//1 2//2 3//3\n");
+  ASSERT_EQ(run({"convert", "a.obj", "-o", "b.glb"}).code, 0);
+  const Outcome outcome = run({"measure", "b.glb", "a.obj", "--samples", "500", "--attributes", "--expect",
+                               "1e-6", "--expect-attribute", "normal:0.01", "--json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_LT(outcome.json()["attributes"]["normal"]["largest"], 0.001);
+  EXPECT_LT(outcome.json()["attributes"]["normal"]["meanAtNearest"], 0.001);
+}
+
 TEST_F(MeasureAttributes, AgainstADemAreRefused) {
   write("a.obj", sheet(1, 0));
   ASSERT_TRUE(writeGeoTiff(path("dem.tif"), 2, 2, std::vector<double>(4, 0.0), {}));

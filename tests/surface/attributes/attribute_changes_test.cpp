@@ -85,6 +85,16 @@ TEST(AttributeChanges, CountFacesOfAnotherMaterialByName) {
   EXPECT_TRUE(std::isinf(found[0].largest));
 }
 
+TEST(AttributeChanges, OfNormalsDoNotDependOnTheirLengths) {
+  SurfaceMesh fine = strip(), same = strip();
+  fine.vertexAttributes = {numbers("normal", AttributeMeaning::normal, 3,
+                                   {0, 0, 1, 9, 0, 9, 0, 2, 2, .1, 0, .1, 0, 0, 5, 0, 0, 1})};
+  const double h = std::sqrt(0.5);
+  same.vertexAttributes = {
+      numbers("normal", AttributeMeaning::normal, 3, {0, 0, 1, h, 0, h, 0, h, h, h, 0, h, 0, 0, 1, 0, 0, 1})};
+  EXPECT_LT(attributeChanges(fine, same, std::array<std::uint32_t, 4>{0, 1, 2, 3})[0].largest, 1e-9);
+}
+
 TEST(AttributeChanges, WhatOneOfThemHasNotIsLeftOut) {
   SurfaceMesh fine = strip();
   fine.vertexAttributes = {numbers("h", AttributeMeaning::other, 1, {.5, 1, 2, 3, 4, 5})};
