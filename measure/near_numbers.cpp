@@ -30,6 +30,7 @@ namespace {
 constexpr std::size_t kPointsPerRun = 1024;
 constexpr std::uint64_t kLeastSpread = 100'000, kSpreadPerTriangle = 2;
 constexpr int kSteps = 20, kFineSteps = 40;
+constexpr std::size_t kMany = 64;  // triangles within E
 /// Of the largest number, or of 180 degrees: what is nearer is not searched further.
 constexpr double kNumberSlack = 1e-12;
 
@@ -215,31 +216,38 @@ class NearNumbers {
     for (std::size_t i = run * kPointsPerRun; i < end; ++i) {
       const SourcePoint& point = points_[i];
       const Vec3 x = placeOf(point);
-      tree_.find(x, within_, near);
       const bool isSpread = i >= spreadFrom_;
       // Those that hold the nearest point: several on a side.
-      if (isSpread) {
-        const double distance = nearest_.nearest(x).distance;
-        if (distance + rounding_ <= within_) {
-          nearest.clear();
-          for (const auto& n : near)
-            if (n.squaredDistance <= (distance + rounding_) * (distance + rounding_)) nearest.push_back(n);
-        } else {
-          tree_.find(x, distance + rounding_, nearest);
+      if (isSpread) tree_.find(x, nearest_.nearest(x).distance + rounding_, nearest);
+      std::vector<LeastOnTriangle::Found> best(compared_.size(),
+                                               {std::numeric_limits<double>::infinity(), x});
+      // Where many are near, the nearest may do.
+      const bool areFew = tree_.find(x, within_, near, kMany);
+      for (double within = areFew ? within_ : within_ / 64;; within *= 4) {
+        const bool isAll = within >= within_;
+        if (!areFew) tree_.find(x, isAll ? within_ : within, near);
+        bool isDone = true;
+        for (std::size_t k = 0; k < compared_.size(); ++k) {
+          if (partOf(k, point) == ComparedNumbers::kNotCompared) continue;
+          numbersAt(compared_[k], point, numbers);
+          best[k] = leastOf(k, partOf(k, point), numbers, x, near, least[k], best[k], isAll);
+          isDone = isDone && best[k].apart <= slack_[k];
         }
+        if (isAll || isDone) break;
       }
       for (std::size_t k = 0; k < compared_.size(); ++k) {
-        const ComparedNumbers& of = compared_[k];
-        const std::uint32_t part =
-            of.partOfSource.empty() ? ComparedNumbers::kNoPart : of.partOfSource[point.triangle];
-        if (part == ComparedNumbers::kNotCompared) continue;
-        numbersAt(of, point, numbers);
-        const LeastOnTriangle::Found found = leastOf(k, part, numbers, x, near, least[k]);
+        if (partOf(k, point) == ComparedNumbers::kNotCompared) continue;
+        numbersAt(compared_[k], point, numbers);
         const double atNearest = isSpread ? atNearestOf(k, numbers, nearest, least[k]) : 0;
-        totals[k].take(found.apart, atNearest, x,
-                       std::isfinite(found.apart) ? std::optional(found.place) : std::nullopt, isSpread);
+        totals[k].take(best[k].apart, atNearest, x,
+                       std::isfinite(best[k].apart) ? std::optional(best[k].place) : std::nullopt, isSpread);
       }
     }
+  }
+
+  std::uint32_t partOf(std::size_t k, const SourcePoint& point) const {
+    const auto& parts = compared_[k].partOfSource;
+    return parts.empty() ? ComparedNumbers::kNoPart : parts[point.triangle];
   }
 
   std::span<const double> cornersOf(std::size_t k, std::uint32_t triangle) const {
@@ -249,7 +257,7 @@ class NearNumbers {
 
   LeastOnTriangle::Found leastOf(std::size_t k, std::uint32_t part, std::span<const double> numbers,
                                  const Vec3& x, std::span<const TrianglesWithin::Near> near,
-                                 LeastOnTriangle& least) const {
+                                 LeastOnTriangle& least, LeastOnTriangle::Found best, bool isFine) const {
     const ComparedNumbers& of = compared_[k];
     std::vector<std::pair<double, const TrianglesWithin::Near*>> order;
     for (const TrianglesWithin::Near& n : near) {
@@ -262,7 +270,6 @@ class NearNumbers {
       return a.first < b.first ||
              (a.first == b.first && a.second->squaredDistance < b.second->squaredDistance);
     });
-    LeastOnTriangle::Found best{std::numeric_limits<double>::infinity(), x};
     const auto search = [&](int steps) {
       for (const auto& [bound, n] : order) {
         if (best.apart <= slack_[k] || bound >= best.apart) break;
@@ -272,7 +279,7 @@ class NearNumbers {
       }
     };
     search(kSteps);
-    if (best.apart > of.expected && of.norm != NumbersNorm::equality) search(kFineSteps);
+    if (isFine && best.apart > of.expected && of.norm != NumbersNorm::equality) search(kFineSteps);
     return best;
   }
 

@@ -56,9 +56,9 @@ std::uint32_t TrianglesWithin::build(std::uint32_t begin, std::uint32_t end, std
   return number;
 }
 
-void TrianglesWithin::find(const Vec3& p, double distance, std::vector<Near>& found) const {
+bool TrianglesWithin::find(const Vec3& p, double distance, std::vector<Near>& found, std::size_t most) const {
   found.clear();
-  const double most = distance * distance;
+  const double squares = distance * distance;
   std::array<std::uint32_t, 64> open;
   std::size_t count = 1;
   open[0] = 0;
@@ -66,7 +66,7 @@ void TrianglesWithin::find(const Vec3& p, double distance, std::vector<Near>& fo
     const std::uint32_t number = open[--count];
     const Node& node = nodes_[number];
     // Boxes are a little larger than they need to be: what decides is the triangle.
-    if (squaredToBox(node.box, p) > most * (1 + 1e-12)) continue;
+    if (squaredToBox(node.box, p) > squares * (1 + 1e-12)) continue;
     if (node.second != 0) {
       open[count++] = node.second;
       open[count++] = number + 1;
@@ -75,10 +75,13 @@ void TrianglesWithin::find(const Vec3& p, double distance, std::vector<Near>& fo
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
       const Vec3 nearest = nearestOnTriangle(p, at(order_[i]));
       const double squared = squaredDistance(p, nearest);
-      if (squared <= most) found.push_back({order_[i], nearest, squared});
+      if (squared > squares) continue;
+      found.push_back({order_[i], nearest, squared});
+      if (found.size() > most) return false;
     }
   }
   std::ranges::sort(found, {}, &Near::triangle);
+  return true;
 }
 
 }  // namespace arete

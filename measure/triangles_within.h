@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,7 +27,9 @@ class TrianglesWithin {
 
   /// All triangles no farther than `distance` from p, by rising number. O(log n + found) where triangles are
   /// of like size.
-  void find(const Vec3& p, double distance, std::vector<Near>& found) const;
+  /// @param most  where there are more, it ends with one more than these. @return whether it found all
+  bool find(const Vec3& p, double distance, std::vector<Near>& found,
+            std::size_t most = std::numeric_limits<std::size_t>::max()) const;
 
   SpaceTriangle at(std::uint32_t triangle) const {
     const auto& t = mesh_.triangles[triangle];

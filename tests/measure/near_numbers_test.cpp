@@ -209,6 +209,21 @@ TEST(LeastOnTriangle, IsTheLeastOfADenseGrid) {
     }
 }
 
+// Where many triangles are near, the nearest are looked at first; the answer is that of all.
+TEST(NearNumbers, OfManyNearTrianglesAreThoseOfAll) {
+  const TriangleMesh mesh = plane(15, 1, 0);
+  // A number that nothing near has: the least is at the end of E, far beyond the first triangles.
+  ComparedNumbers numbers{.norm = NumbersNorm::length,
+                          .components = 1,
+                          .ofSource = cornersBy(mesh, [](const Vec3& p) { return std::vector{p.x}; }),
+                          .ofMesh = cornersBy(mesh, [](const Vec3& p) { return std::vector{p.x + 0.5}; })};
+  const NumbersFound found = measured(mesh, mesh, numbers, 0.3);
+  EXPECT_NEAR(found.largest, 0.5, 1e-9);
+  EXPECT_NEAR(found.mean, 0.3 * 0.35 + 0.7 * 0.2, 5e-3);
+  numbers.ofMesh = numbers.ofSource;
+  EXPECT_LT(measured(mesh, mesh, numbers, 0.3).largest, 1e-12);
+}
+
 TEST(NearNumbers, AreTheSameForAnyNumberOfThreads) {
   const TriangleMesh fine = sphere(20, 1), coarse = sphere(7, 1);
   const auto direction = [](const Vec3& p) { return std::vector{p.x, p.y, p.z}; };
