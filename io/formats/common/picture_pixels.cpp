@@ -97,10 +97,7 @@ Result<PicturePixels> decodePicture(std::span<const std::byte> bytes, std::uint3
   registerGdal();
   const FileInMemory file(bytes);
   const GdalErrors errors;
-  const GdalDatasetPtr picture(
-      GDALDataset::Open(file.name().c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, kDrivers, nullptr, nullptr));
-  if (!picture || picture->GetRasterCount() < 1)
-    return failure(ErrorCode::unsupported, "is no picture in PNG, JPEG, WebP, GIF or BMP");
+  ARETE_TRY(GdalDatasetPtr picture, openPicture(file));
   const auto width = static_cast<std::uint32_t>(picture->GetRasterXSize()),
              height = static_cast<std::uint32_t>(picture->GetRasterYSize());
   const int bands = picture->GetRasterCount();
