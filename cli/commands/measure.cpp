@@ -46,7 +46,8 @@ struct MeasureArguments {
   double distance = 0;
   bool allowCoveredNodata = false, measuresBothWays = false;
   std::int64_t samples = 0, seed = -1;  // not stated
-  std::string errorMesh;
+  std::string errorMesh, expectAttribute;
+  bool wantsAttributes = false;
   OptionKinds kinds{"Against a DEM", "Against a mesh"};
 };
 
@@ -229,6 +230,8 @@ Status runMeasure(MeasureArguments arguments, Session& session) {
     meshes.samples = arguments.samples;
     if (arguments.seed >= 0) meshes.seed = arguments.seed;
     meshes.errorMesh = arguments.errorMesh;
+    meshes.wantsAttributes = arguments.wantsAttributes;
+    meshes.expectAttribute = arguments.expectAttribute;
     return measureMeshes(meshes, session);
   }
   if (!arguments.errorRaster.empty()) {
@@ -265,7 +268,8 @@ void addMeasureCommand(CLI::App& app, Session& session) {
       "  arete measure tin.ply dem.tif --expect 1 --region park.gpkg\n"
       "  arete measure small.ply original.obj             distances in space: Hausdorff, mean, RMS, both "
       "ways\n"
-      "  arete measure small.ply original.obj --error-mesh distances.ply",
+      "  arete measure small.ply original.obj --error-mesh distances.ply\n"
+      "  arete measure small.glb scan.obj --attributes --expect-attribute uv:2px,color:8,normal:10",
       [arguments](Session& s) { return runMeasure(*arguments, s); });
   OptionKinds& kinds = arguments->kinds;
   command->add_option("TIN", arguments->tin, "Triangle mesh: " + readableMeshExtensions())
@@ -335,6 +339,17 @@ void addMeasureCommand(CLI::App& app, Session& session) {
           ->add_option("--error-mesh", arguments->errorMesh,
                        "PLY to write: the first mesh, each vertex with its distance as 'quality' and colour")
           ->type_name("FILE"));
+  kinds.ofSurfaces(command->add_flag(
+      "--attributes", arguments->wantsAttributes,
+      "Compare attributes too: of points of the second mesh the least change among all points of the first\n"
+      "within E (--expect, else the largest distance), on their side of a seam"));
+  kinds.ofSurfaces(
+      command
+          ->add_option(
+              "--expect-attribute", arguments->expectAttribute,
+              "Promise to check of attributes: none changes by more. Colours in 255ths, normals in degrees,\n"
+              "texture coordinates in their unit or in pixels: uv:2px,color:8,normal:10,material:0")
+          ->type_name("LIST"));
   arguments->dem.addKindTo(*command);
   arguments->dem.addTo(*command);
   kinds.groupOfTerrain(*command, DemArguments::kGroup);

@@ -20,6 +20,7 @@
 #include "io/formats/exchange/metric_mesh.h"
 #include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/names.h"
+#include "io/query/attributes/deviation_text.h"
 #include "io/query/certificate/report_json.h"
 #include "io/query/extract/model_file.h"
 #include "io/store/amt/surface_file.h"
@@ -134,6 +135,38 @@ Error named(Error error, const MeasureMeshesArguments& arguments) {
   return error;
 }
 
+/// The attributes of the second mesh beside the first's.
+/// @param within  no point of the second is farther from the first than this
+Result<AttributeReport> attributesOf(const MeasureMeshesArguments& arguments, const MeshFile& first,
+                                     const MeshFile& second, const std::optional<MetricMeshes>& metric,
+                                     double within, const RunContext& context) {
+  AttributeOptions options{.within = within,
+                           .samples = static_cast<std::uint64_t>(arguments.samples),
+                           .seed = static_cast<std::uint64_t>(arguments.seed)};
+  if (!arguments.expectAttribute.empty()) {
+    ARETE_TRY(options.expected, parseAttributeNumbers(arguments.expectAttribute));
+  }
+  Result<AttributeReport> report =
+      measureAttributes({first.mesh, first.folder, metric ? &metric->first : nullptr},
+                        {second.mesh, second.folder, metric ? &metric->second : nullptr}, options, context);
+  if (report) {
+    const auto restore = [&](Vec3& place, const Vec3& units) {
+      place = {place.x / units.x, place.y / units.y, place.z / units.z};
+    };
+    for (AttributeDeviation& a : report->attributes) {
+      if (!metric) break;
+      restore(a.found.worst, metric->secondUnits);
+      if (a.found.worstNear) restore(*a.found.worstNear, metric->firstUnits);
+    }
+    return report;
+  }
+  Error error = report.error();
+  constexpr std::string_view kExpected = "expectAttribute ";
+  if (error.culprit.starts_with(kExpected))
+    error.culprit = "--expect-attribute " + error.culprit.substr(kExpected.size());
+  return tl::unexpected(named(std::move(error), arguments));
+}
+
 }  // namespace
 
 Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) {
@@ -144,6 +177,11 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
                      fmt::format("--error-mesh {}", arguments.errorMesh));
     ARETE_CHECK(checkOutput("--error-mesh", arguments.errorMesh, {arguments.first, arguments.second}));
   }
+  // Before the meshes are read: a list may be wrong by itself.
+  if (const auto list = arguments.expectAttribute.empty() ? Result<std::vector<AttributeNumber>>()
+                                                          : parseAttributeNumbers(arguments.expectAttribute);
+      !list)
+    return failure(ErrorCode::usage, list.error().message, "--expect-attribute " + list.error().culprit);
   ARETE_TRY(const Measured first, readMeasured(arguments.first, session));
   ARETE_TRY(const Measured second, readMeasured(arguments.second, session));
   session.warn(first.warnings, arguments.first);
@@ -175,6 +213,13 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
   const PromisedWay way = arguments.measuresBothWays ? PromisedWay::both : PromisedWay::fromSecond;
   // A promise is broken by what is found, and proven by what is certain of the source itself.
   const Status promise = expects ? checkDistance(*report, expected, way) : Status();
+  std::optional<AttributeReport> attributes;
+  if (arguments.wantsAttributes || !arguments.expectAttribute.empty()) {
+    const double within = expects ? expected : report->backward.atMost;
+    ARETE_TRY(attributes, attributesOf(arguments, first, second, *metric, within + moved, session.context()));
+    session.warn(attributes->warnings, arguments.second);
+  }
+  const Status attributePromise = attributes ? checkAttributes(*attributes) : Status();
   report->raise(moved);
   if (!arguments.errorMesh.empty())
     ARETE_CHECK(writeDistances(arguments.errorMesh, first, arguments.second, distances, session));
@@ -193,6 +238,9 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
                     ? fmt::format("kept: nowhere farther than {}\n", limit)
                     : fmt::format("kept as far as found: nothing is known to be farther than {}\n", limit));
   }
+  if (attributes) session.say(attributeReportText(*attributes, unit));
+  if (attributePromise && !arguments.expectAttribute.empty())
+    session.say(fmt::format("kept at every point that was looked at: {}\n", arguments.expectAttribute));
   Json json = {{"first", {{"path", arguments.first}, {"crs", crsName(first.crsWkt)}}},
                {"second", {{"path", arguments.second}, {"crs", crsName(second.crsWkt)}}},
                {"unit", unit},
@@ -209,8 +257,13 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
     json["proven"] = !promise || isProven(*report, expected, way);
     if (!promise) json["broken"] = promise.error().message;
   }
+  if (attributes) {
+    json.update(toJson(*attributes));
+    if (!arguments.expectAttribute.empty()) json["attributesKept"] = attributePromise.has_value();
+  }
   session.answer(json);
-  if (!promise) return failure(promise.error().code, promise.error().message, arguments.first);
+  for (const Status& broken : {promise, attributePromise})
+    if (!broken) return failure(broken.error().code, broken.error().message, arguments.first);
   return {};
 }
 

@@ -17,6 +17,8 @@ struct MeasureMeshesArguments {
   std::int64_t samples = 0;       ///< 0: the library's default
   std::int64_t seed = 1;
   std::string errorMesh;  ///< empty: none
+  bool wantsAttributes = false;
+  std::string expectAttribute;  ///< as parseAttributeNumbers() takes it; empty: nothing is expected
 };
 
 /// The distance between two meshes, both ways, as text and JSON; with `errorMesh` the first one's vertices

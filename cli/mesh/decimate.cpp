@@ -25,6 +25,7 @@
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/geo/crs/names.h"
 #include "io/query/mesh/decimation.h"
+#include "io/query/surface/changes_of_cut.h"
 #include "io/query/surface/map_file.h"
 #include "io/query/surface/mesh_input.h"
 #include "surface/edit/small_components.h"
@@ -200,6 +201,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
     text += fmt::format("  seams      {}\n", withOptionNames(outcome->seams).substr(2));
   if (hasBoth)
     text += fmt::format("  ended by   {}\n", outcome->isComplete ? "--max-error" : "--max-triangles");
+  text += changesText(outcome->attributeChanges);
   if (outcome->sourceCrossings)
     text += fmt::format("  crossings  {} of triangles; the source has {}\n",
                         grouped(*outcome->crossings, "pair", "pairs"), grouped(*outcome->sourceCrossings));
@@ -224,6 +226,8 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
     json["errorPercent"] = 100 * outcome->fit->distance / diagonal;
     json["rms"] = outcome->fit->rmsAfter;
   }
+  for (const AttributeChange& change : outcome->attributeChanges)
+    json["attributeChanges"].push_back(toJson(change));
   if (outcome->crossings) json["selfIntersections"] = *outcome->crossings;
   if (outcome->sourceCrossings) json["sourceSelfIntersections"] = *outcome->sourceCrossings;
   if (outcome->evaluations > 0) {

@@ -70,6 +70,7 @@ std::string extractText(const ExtractRequest& request, const ExtractedSurface& f
                         grouped(*found.droppedFaces, "face", "faces"),
                         agreeing(*found.droppedComponents, "it", "them"),
                         withShare(*found.droppedDistance, diagonal));
+  text += changesText(found.attributeChanges);
   if (found.crossings > 0)
     text += fmt::format("  crossings  {} of triangles; the source has {}\n",
                         grouped(found.crossings, "pair", "pairs"), grouped(*found.sourceCrossings));

@@ -16,7 +16,7 @@ from ._sizes import Size
 
 def measure(mesh: Any, against: Any, *, expect: Optional[Size] = None, allow_covered_nodata: bool = False, region: Any = None,
             region_crs: Any = None, distance: Optional[float] = None, samples: int = 0, seed: int = 1,
-            both_ways: bool = False,
+            both_ways: bool = False, attributes: bool = False, expect_attribute: Optional[str] = None,
             band: Optional[int] = None, layer: Optional[str] = None, z_field: Optional[str] = None,
             same_place: Optional[str] = None, nodata: Optional[float] = None, vertical_unit: Optional[str] = None,
             positive: Optional[str] = None, crs: Any = None, tin_crs: Any = None, progress: Progress = None) -> Dict[str, Any]:
@@ -29,15 +29,23 @@ def measure(mesh: Any, against: Any, *, expect: Optional[Size] = None, allow_cov
         meshes it is asked of the points of the second, with both_ways of all.
     region, region_crs, distance: of a DEM, where its samples count, as for cut(). allow_covered_nodata: triangles over NODATA
         break no promise. samples, seed: between meshes. band and so on: how the DEM is read, as for build().
+    attributes: between files of meshes, how far each attribute of the second is from the first's at the best of its points
+        within expect, else within the largest distance: "attributes", by names. expect_attribute: "uv:2px,color:8,normal:10":
+        "attributes_kept" says whether none changes by more, "attributes_broken" which does.
     A mesh in another CRS than the DEM, or in metres (save() with to_crs or metric), is measured where it is, as its file says;
         tin_crs says it where the file cannot (an STL).
     """
     if _is_mesh(against):
         if tin_crs is not None:
             raise TypeError("tin_crs is for a DEM: distances between meshes are in their own coordinates")
+        if (attributes or expect_attribute is not None) and not (_checks.is_path(mesh) and _checks.is_path(against)):
+            raise TypeError("attributes are compared between files: save() writes one of a mesh")
         return _between_meshes(report_of(_arete.measure_meshes(
             source_of(mesh, None), source_of(against, None), _checks.whole("samples", samples, 0, 2**62) or 0,
-            _checks.whole("seed", seed, 0, 2**62) or 0, _checks.size_text("expect", expect), bool(both_ways), progress)))
+            _checks.whole("seed", seed, 0, 2**62) or 0, _checks.size_text("expect", expect), bool(both_ways),
+            bool(attributes), expect_attribute or "", progress)))
+    if attributes or expect_attribute is not None:
+        raise TypeError("attributes are compared between meshes alone")
     request = _arete.BuildRequest()
     depth = None if positive is None else _checks.word("positive", positive, ("up", "down")) == "down"
     if not _checks.is_path(against) and not (isinstance(against, (list, tuple)) and against
@@ -62,6 +70,9 @@ def _promise_of(report: Dict[str, Any]) -> Dict[str, Any]:
 def _between_meshes(report: Dict[str, Any]) -> Dict[str, Any]:
     answer: Dict[str, Any] = _named_way(report["both_ways"])
     answer["from_first"], answer["from_second"] = (_named_way(report[name]) for name in ("from_first", "from_second"))
+    for name in ("within", "attributes", "attributes_kept", "attributes_broken"):
+        if name in report:
+            answer[name] = report[name]
     return {**answer, **_promise_of(report)}
 
 

@@ -39,23 +39,25 @@ class Mesh:
         return self._tin.source_vertices
 
     @property
-    def vertex_attributes(self) -> Dict[str, NDArray[Any]]:
-        """By name ("color", "normal", "uv", the file's own): (n, components), in the type of the file."""
-        return self._tin.vertex_attributes
-
-    @property
     def wedges(self) -> NDArray[np.uint32]:
-        """(m, 3): the wedge of each corner, for wedge_attributes; empty where corners of a vertex do not differ."""
+        """Of a surface with attributes of corners, (m, 3): which row of wedge_attributes each corner has; else empty. Corners
+        on two sides of a seam have one vertex and two wedges."""
         return self._tin.wedges
 
     @property
+    def vertex_attributes(self) -> Dict[str, NDArray[Any]]:
+        """Of a surface, by names as options have them ("uv", "uv2", "color", "normal", or the file's own): (n, components), with
+        the numbers of the source's file. Materials and objects are not among them."""
+        return self._tin.vertex_attributes
+
+    @property
     def wedge_attributes(self) -> Dict[str, NDArray[Any]]:
-        """By name: (wedges, components). A wedge is what corners at one vertex share that have the same attributes."""
+        """The same of corners: a row for each wedge."""
         return self._tin.wedge_attributes
 
     @property
     def triangle_attributes(self) -> Dict[str, NDArray[Any]]:
-        """By name: (m, components)."""
+        """The same of triangles, (m, components)."""
         return self._tin.triangle_attributes
 
     @property

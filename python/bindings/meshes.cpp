@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -21,6 +22,7 @@
 #include "io/geo/crs/names.h"
 #include "io/geo/crs/reader.h"
 #include "io/geo/dem/dem_reader.h"
+#include "io/query/attributes/deviation_text.h"
 #include "io/query/certificate/report_json.h"
 #include "io/query/mesh/decimation.h"
 #include "io/query/mesh/diagnosis_json.h"
@@ -197,24 +199,27 @@ Reported decimate(const MeshSource& source, DecimationRequest request, const std
 
 /// Distances between two meshes, as `arete measure --json` has them.
 std::string measureMeshes(const MeshSource& first, const MeshSource& second, std::uint64_t samples,
-                          std::uint64_t seed, const std::string& expect, bool bothWays,
-                          const py::object& progress) {
+                          std::uint64_t seed, const std::string& expect, bool bothWays, bool wantsAttributes,
+                          const std::string& expectAttribute, const py::object& progress) {
   const std::string names[] = {nameOfSource(first), nameOfSource(second)};
   std::optional<TriangleMesh> arrays[] = {arraysOf(first), arraysOf(second)};
   const bool isArgument = isOfArrays(first) && isOfArrays(second);
   return callOn(isArgument, progress, [&](const RunContext& context) -> Result<std::string> {
-    TriangleMesh meshes[2];
+    SurfaceMesh meshes[2];
+    std::filesystem::path folders[2];
     for (int i = 0; i < 2; ++i) {
       if (arrays[i]) {
-        meshes[i] = std::move(*arrays[i]);
+        meshes[i] = SurfaceMesh(std::move(*arrays[i]));
         continue;
       }
       ARETE_TRY(MeshFile file, readMesh(names[i], context));
+      folders[i] = file.folder;
       meshes[i] = std::move(file.mesh);
     }
     ARETE_TRY(const MeshDistanceReport report,
               measureDistance(meshes[0], meshes[1], {.samples = samples, .seed = seed}, context));
     Json json = toJson(report);
+    double within = report.backward.atMost;
     if (!expect.empty()) {
       ARETE_TRY(const StatedSize stated, parseStatedSize(expect, "expect"));
       const double most = stated.of(report.second.diagonal);
@@ -222,6 +227,20 @@ std::string measureMeshes(const MeshSource& first, const MeshSource& second, std
       json["expect"] = most;
       json["kept"] = kept.has_value();
       if (!kept) json["broken"] = kept.error().message;
+      within = most;
+    }
+    if (wantsAttributes || !expectAttribute.empty()) {
+      AttributeOptions options{.within = within, .samples = samples, .seed = seed};
+      if (!expectAttribute.empty()) {
+        ARETE_TRY(options.expected, parseAttributeNumbers(expectAttribute));
+      }
+      ARETE_TRY(const AttributeReport attributes,
+                measureAttributes({meshes[0], folders[0]}, {meshes[1], folders[1]}, options, context));
+      json.update(toJson(attributes));
+      if (const Status kept = checkAttributes(attributes); !expectAttribute.empty()) {
+        json["attributesKept"] = kept.has_value();
+        if (!kept) json["attributesBroken"] = kept.error().message;
+      }
     }
     return json.dump();
   });

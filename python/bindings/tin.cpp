@@ -15,6 +15,7 @@
 #include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
 #include "python/bindings/export_files.h"
+#include "surface/attributes/attribute_names.h"
 
 namespace arete::python {
 namespace {
@@ -33,7 +34,15 @@ py::ssize_t sizeOf(const auto& array) {
   return static_cast<py::ssize_t>(array.size());
 }
 
-py::dtype typeOf(ScalarType type) {
+}  // namespace
+
+CutTin::CutTin(Tin taken) : tin(std::move(taken)), errors(tin.errors) {
+  if (errors.empty()) errors.assign(tin.mesh.triangles.size(), floatAtLeast(tin.error));
+}
+
+namespace {
+
+py::dtype numbersOf(ScalarType type) {
   switch (type) {
     case ScalarType::int8:
       return py::dtype::of<std::int8_t>();
@@ -49,29 +58,23 @@ py::dtype typeOf(ScalarType type) {
       return py::dtype::of<std::uint32_t>();
     case ScalarType::float32:
       return py::dtype::of<float>();
-    default:
-      return py::dtype::of<double>();
+    case ScalarType::float64:
+      break;
   }
+  return py::dtype::of<double>();
 }
 
-/// Copies of attributes by the names that options have, each in the type of the file: (n, components).
-py::dict arraysOf(const std::vector<Attribute>& attributes) {
-  py::dict arrays;
+/// By the names that options have: elements by components, as views.
+py::dict attributesOf(const std::vector<Attribute>& attributes, const py::object& owner) {
+  py::dict all;
   for (const Attribute& a : attributes) {
-    const auto count = static_cast<py::ssize_t>(a.elementCount());
-    arrays[py::str(optionNameOf(a.name))] =
-        py::array(typeOf(a.type), {count, py::ssize_t{a.components}}, a.values.data());
+    py::array view(numbersOf(a.type), std::vector<py::ssize_t>{py::ssize_t(a.elementCount()), a.components},
+                   a.values.data(), owner);
+    py::detail::array_proxy(view.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+    all[py::str(optionNameOf(a.name))] = view;
   }
-  return arrays;
+  return all;
 }
-
-}  // namespace
-
-CutTin::CutTin(Tin taken) : tin(std::move(taken)), errors(tin.errors) {
-  if (errors.empty()) errors.assign(tin.mesh.triangles.size(), floatAtLeast(tin.error));
-}
-
-namespace {
 
 void defineRequest(py::module_& module) {
   py::class_<CutRequest>(module, "CutRequest")
@@ -201,6 +204,26 @@ void defineTin(py::module_& module) {
                                return viewOf(reinterpret_cast<const std::uint32_t*>(triangles.data()),
                                              {sizeOf(triangles), 3}, self);
                              })
+      .def_property_readonly(
+          "wedges",
+          [](const py::object& self) {
+            const auto& wedges = self.cast<const CutTin&>().tin.mesh.wedges;
+            return viewOf(reinterpret_cast<const std::uint32_t*>(wedges.data()), {sizeOf(wedges), 3}, self);
+          })
+      .def_property_readonly("vertex_attributes",
+                             [](const py::object& self) {
+                               return attributesOf(self.cast<const CutTin&>().tin.mesh.vertexAttributes,
+                                                   self);
+                             })
+      .def_property_readonly("wedge_attributes",
+                             [](const py::object& self) {
+                               return attributesOf(self.cast<const CutTin&>().tin.mesh.wedgeAttributes, self);
+                             })
+      .def_property_readonly("triangle_attributes",
+                             [](const py::object& self) {
+                               return attributesOf(self.cast<const CutTin&>().tin.mesh.triangleAttributes,
+                                                   self);
+                             })
       .def_property_readonly("source_vertices",
                              [](const py::object& self) {
                                const auto& numbers = self.cast<const CutTin&>().tin.vertexOf;
@@ -219,18 +242,6 @@ void defineTin(py::module_& module) {
                                  errors[py::str(of.name)] = of.number;
                                return errors;
                              })
-      .def_property_readonly("vertex_attributes",
-                             [](const CutTin& self) { return arraysOf(self.tin.mesh.vertexAttributes); })
-      .def_property_readonly("wedge_attributes",
-                             [](const CutTin& self) { return arraysOf(self.tin.mesh.wedgeAttributes); })
-      .def_property_readonly("triangle_attributes",
-                             [](const CutTin& self) { return arraysOf(self.tin.mesh.triangleAttributes); })
-      .def_property_readonly(
-          "wedges",
-          [](const py::object& self) {
-            const auto& wedges = self.cast<const CutTin&>().tin.mesh.wedges;
-            return viewOf(reinterpret_cast<const std::uint32_t*>(wedges.data()), {sizeOf(wedges), 3}, self);
-          })
       .def_property_readonly("is_complete", [](const CutTin& self) { return self.tin.isComplete; })
       .def_property_readonly("pixels", [](const CutTin& self) { return self.tin.pixels; })
       .def_property_readonly("crs_wkt", [](const CutTin& self) { return self.tin.crsWkt; })

@@ -61,6 +61,15 @@ std::vector<double> AttributeDistance::values(const Attribute& attribute, std::s
   return numbers;
 }
 
+std::vector<double> AttributeDistance::drawnValues(const Attribute& attribute, std::size_t element) const {
+  std::vector<double> numbers = values(attribute, element);
+  if (!isDirection(meaning_)) return numbers;
+  const double length = std::hypot(numbers[0], numbers[1], numbers[2]);
+  if (length > 0 && std::isfinite(length))
+    for (std::size_t c = 0; c < 3; ++c) numbers[c] /= length;
+  return numbers;
+}
+
 double AttributeDistance::operator()(std::span<const double> a, std::span<const double> b) const {
   if (std::ranges::equal(a, b)) return 0;
   // NaN is the same as NaN: a file that has it keeps it.

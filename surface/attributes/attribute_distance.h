@@ -34,6 +34,9 @@ class AttributeDistance {
 
   /// The numbers of an element in the unit of the distance, as are averaged.
   std::vector<double> values(const Attribute& attribute, std::size_t element) const;
+  /// The same as they are drawn: directions have length 1, so that one of another length at another corner
+  /// does not pull the mean towards itself; (0, 0, 0) stays.
+  std::vector<double> drawnValues(const Attribute& attribute, std::size_t element) const;
   /// Precondition: both have components() numbers from values(), or are linear means of such. In [0,
   /// infinity]; infinity where a number is not finite and the other is not the same.
   double operator()(std::span<const double> a, std::span<const double> b) const;

@@ -34,12 +34,50 @@ std::vector<Vec3> middlesOf(const SurfaceModel& model) {
   return middles;
 }
 
+/// From a finest triangle, by the nearest of what its node replaced, to one that has a number.
+std::uint32_t climbed(const MultiTriangulation& mt, std::uint32_t finest, const Vec3& middle,
+                      const std::vector<std::uint32_t>& numberOf) {
+  std::uint32_t t = finest;
+  while (numberOf[t] == MeshAttributes::kNone) {
+    std::uint32_t nearest = MeshAttributes::kNone;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t candidate : mt.floor(mt.creator(TriangleId(t)))) {
+      const double distance = distanceToTriangle(middle, placeOf(mt, TriangleId(candidate)));
+      if (distance < least || nearest == MeshAttributes::kNone) nearest = candidate;
+      least = std::min(least, distance);
+    }
+    t = nearest;
+  }
+  return t;
+}
+
+std::vector<std::uint32_t> numbersIn(const MultiTriangulation& mt, const Cut& cut) {
+  std::vector<std::uint32_t> numberOf(mt.triangleIdCount(), MeshAttributes::kNone);
+  for (std::uint32_t i = 0; i < cut.ids.size(); ++i) numberOf[cut.ids[i]] = i;
+  return numberOf;
+}
+
 }  // namespace
+
+std::vector<FaceInCut> someFacesOf(const SurfaceModel& model, const Cut& cut, std::uint32_t most) {
+  const MultiTriangulation& mt = model.mt;
+  const std::vector<std::uint32_t> numberOf = numbersIn(mt, cut);
+  std::vector<FaceInCut> found;
+  const std::uint32_t step = mt.finestTriangleCount() / std::max(most, 1u) + 1;
+  std::uint32_t next = 0;
+  for (std::uint32_t finest = 0; finest < mt.triangleIdCount(); ++finest) {
+    if (mt.remover(TriangleId(finest)).isValid()) continue;
+    if (next++ % step != 0) continue;
+    const SpaceTriangle place = placeOf(mt, TriangleId(finest));
+    const Vec3 middle = (place[0] + place[1] + place[2]) / 3.0;
+    found.push_back({finest, middle, numberOf[climbed(mt, finest, middle, numberOf)]});
+  }
+  return found;
+}
 
 std::vector<std::uint32_t> facesOf(const SurfaceModel& model, const Cut& cut) {
   const MultiTriangulation& mt = model.mt;
-  std::vector<std::uint32_t> numberOf(mt.triangleIdCount(), MeshAttributes::kNone);
-  for (std::uint32_t i = 0; i < cut.ids.size(); ++i) numberOf[cut.ids[i]] = i;
+  const std::vector<std::uint32_t> numberOf = numbersIn(mt, cut);
   requireMemory(model.sourceFaces * (sizeof(std::uint32_t) + sizeof(Vec3) + 2 * sizeof(double)));
   std::vector<std::uint32_t> found(model.sourceFaces, MeshAttributes::kNone);
   const std::vector<Vec3> middles = middlesOf(model);
@@ -52,18 +90,7 @@ std::vector<std::uint32_t> facesOf(const SurfaceModel& model, const Cut& cut) {
     const double away = distanceToTriangle(middle, placeOf(mt, TriangleId(finest)));
     if (!(away < distances[of])) continue;
     distances[of] = away;
-    std::uint32_t t = finest;
-    while (numberOf[t] == MeshAttributes::kNone) {
-      std::uint32_t nearest = MeshAttributes::kNone;
-      double least = std::numeric_limits<double>::infinity();
-      for (const std::uint32_t candidate : mt.floor(mt.creator(TriangleId(t)))) {
-        const double distance = distanceToTriangle(middle, placeOf(mt, TriangleId(candidate)));
-        if (distance < least || nearest == MeshAttributes::kNone) nearest = candidate;
-        least = std::min(least, distance);
-      }
-      t = nearest;
-    }
-    found[of] = numberOf[t];
+    found[of] = numberOf[climbed(mt, finest, middle, numberOf)];
   }
   for (const auto& [face, in] : model.leftOutFaces) found[face] = found[in];
   return found;

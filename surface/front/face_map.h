@@ -16,4 +16,14 @@ namespace arete {
 /// @throw std::bad_alloc where the source's faces, which are only stated, are more than the memory holds.
 std::vector<std::uint32_t> facesOf(const SurfaceModel& model, const Cut& cut);
 
+/// A triangle of the finest front, and the one of a cut which stands for its middle.
+struct FaceInCut {
+  std::uint32_t finest = 0;  ///< of the MT
+  Vec3 middle;
+  std::uint32_t triangle = 0;  ///< its number in the cut
+};
+
+/// Some finest triangles, spread evenly over their numbers. O(triangle ids + most * depth)
+std::vector<FaceInCut> someFacesOf(const SurfaceModel& model, const Cut& cut, std::uint32_t most);
+
 }  // namespace arete

@@ -38,6 +38,37 @@ def write_obj(path, vertices, triangles):
         file.writelines(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in triangles)
 
 
+class Attributes(unittest.TestCase):
+    def test_are_arrays_and_are_measured(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scan, small = os.path.join(folder, "scan.obj"), os.path.join(folder, "small.obj")
+            n = 12
+            with open(scan, "w", encoding="utf-8") as file:
+                for r in range(n + 1):
+                    for c in range(n + 1):
+                        file.write(f"v {c / n} {r / n} 0\nvt {c / n + 0.1 * np.sin(3 * r / n)} {r / n}\n")
+                for r in range(n):
+                    for c in range(n):
+                        corners = [r * (n + 1) + c + 1, r * (n + 1) + c + 2, (r + 1) * (n + 1) + c + 2, (r + 1) * (n + 1) + c + 1]
+                        file.write("f " + " ".join(f"{v}/{v}" for v in corners) + "\n")
+            cut = arete.build_surface(scan).cut(max_error=0)
+            uv = cut.vertex_attributes.get("uv")
+            if uv is None:
+                self.assertEqual(cut.wedges.shape, cut.triangles.shape)
+                uv = np.empty((len(cut.vertices), 2))
+                uv[cut.triangles] = cut.wedge_attributes["uv"][cut.wedges]
+            np.testing.assert_allclose(uv[:, 0], cut.vertices[:, 0] + 0.1 * np.sin(3 * cut.vertices[:, 1]), atol=1e-6)
+            for values in {**cut.vertex_attributes, **cut.wedge_attributes}.values():
+                self.assertFalse(values.flags.writeable)
+            arete.build_surface(scan).cut(max_triangles=2).save(small)
+            found = arete.measure(small, scan, samples=500, expect_attribute="uv:0.5")
+            self.assertTrue(found["attributes_kept"])
+            self.assertGreater(found["attributes"]["uv"]["largest"], 0.01)
+            self.assertFalse(arete.measure(small, scan, samples=500, expect_attribute="uv:0.001")["attributes_kept"])
+            with self.assertRaisesRegex(TypeError, "between files"):
+                arete.measure(cut, scan, attributes=True)
+
+
 class Surfaces(unittest.TestCase):
     @classmethod
     def setUpClass(cls):

@@ -74,16 +74,30 @@ void applyColorTable(const GDALColorTable& table, PicturePixels& pixels) {
   }
 }
 
+Result<GdalDatasetPtr> openPicture(const FileInMemory& file) {
+  GdalDatasetPtr picture(
+      GDALDataset::Open(file.name().c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, kDrivers, nullptr, nullptr));
+  if (!picture || picture->GetRasterCount() < 1)
+    return failure(ErrorCode::unsupported, "is no picture in PNG, JPEG, WebP, GIF or BMP");
+  return picture;
+}
+
 }  // namespace
+
+Result<std::array<std::uint32_t, 2>> pictureSize(std::span<const std::byte> bytes) {
+  registerGdal();
+  const FileInMemory file(bytes);
+  const GdalErrors errors;
+  ARETE_TRY(GdalDatasetPtr picture, openPicture(file));
+  return std::array{static_cast<std::uint32_t>(picture->GetRasterXSize()),
+                    static_cast<std::uint32_t>(picture->GetRasterYSize())};
+}
 
 Result<PicturePixels> decodePicture(std::span<const std::byte> bytes, std::uint32_t mostSide) {
   registerGdal();
   const FileInMemory file(bytes);
   const GdalErrors errors;
-  const GdalDatasetPtr picture(
-      GDALDataset::Open(file.name().c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, kDrivers, nullptr, nullptr));
-  if (!picture || picture->GetRasterCount() < 1)
-    return failure(ErrorCode::unsupported, "is no picture in PNG, JPEG, WebP, GIF or BMP");
+  ARETE_TRY(GdalDatasetPtr picture, openPicture(file));
   const auto width = static_cast<std::uint32_t>(picture->GetRasterXSize()),
              height = static_cast<std::uint32_t>(picture->GetRasterYSize());
   const int bands = picture->GetRasterCount();

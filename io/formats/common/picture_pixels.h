@@ -24,4 +24,8 @@ struct PicturePixels {
 /// Errors: unsupported: not such a picture; corrupt: it cannot be decoded.
 Result<PicturePixels> decodePicture(std::span<const std::byte> bytes, std::uint32_t mostSide);
 
+/// Width and height of such a picture, of which only the head is read. Errors: unsupported: not such a
+/// picture.
+Result<std::array<std::uint32_t, 2>> pictureSize(std::span<const std::byte> bytes);
+
 }  // namespace arete

@@ -74,6 +74,8 @@ Json surfaceJson(const ExtractRequest& request, const ExtractedSurface& found) {
     for (const AttributeNumber& of : found.attributeErrors)
       json["attributeErrors"][of.name] = std::isfinite(of.number) ? Json(of.number) : Json();
   }
+  for (const AttributeChange& change : found.attributeChanges)
+    json["attributeChanges"].push_back(toJson(change));
   if (found.leftByRounding > 0) json["leftByRounding"] = found.leftByRounding;
   if (request.packedBits) json["movedByGrid"] = found.movedByGrid;
   if (found.otherWay) json["otherWay"] = *found.otherWay;

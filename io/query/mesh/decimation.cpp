@@ -15,6 +15,7 @@
 #include "io/files/text/grouped.h"
 #include "io/query/mesh/seams.h"
 #include "io/query/request/cut_request.h"
+#include "io/query/surface/changes_of_cut.h"
 #include "io/query/surface/take_surface.h"
 #include "surface/attributes/attribute_names.h"
 #include "surface/builder/build.h"
@@ -75,6 +76,7 @@ Result<DecimatedOutcome> measured(SurfaceMesh mesh, const DecimationRequest& ask
   ARETE_TRY(TakenSurface taken, takeSurface(model, request, nullptr, context));
   DecimatedOutcome outcome;
   if (asked.wantsFaces) outcome.triangleFor = facesOf(model, taken.whole);
+  outcome.attributeChanges = changesOfCut(model, taken);
   outcome.mesh = std::move(taken.front.mesh);
   outcome.vertexOf = std::move(taken.front.vertexOf);
   outcome.fit = taken.fit;
@@ -166,6 +168,7 @@ Result<DecimatedOutcome> contracted(const SurfaceMesh& mesh, const DecimationReq
   outcome.evaluations = decimated.evaluations;
   outcome.steps = decimated.steps;
   outcome.dropsFlatNormals = decimated.dropsFlatNormals;
+  outcome.attributeChanges = attributeChanges(mesh, outcome.mesh, outcome.triangleFor);
   return outcome;
 }
 

@@ -10,6 +10,7 @@
 #include "engine/parallel/run_context.h"
 #include "io/files/text/stated_size.h"
 #include "io/query/surface/fit_front.h"
+#include "surface/attributes/attribute_changes.h"
 #include "surface/model/surface_mesh.h"
 
 namespace arete {
@@ -43,7 +44,8 @@ struct DecimatedOutcome {
   /// where it is wanted.
   std::vector<std::uint32_t> triangleFor;
   std::optional<std::uint64_t> crossings = {},
-                               sourceCrossings = {};  ///< pairs of triangles; the source's if there are any
+                               sourceCrossings = {};   ///< pairs of triangles; the source's if there are any
+  std::vector<AttributeChange> attributeChanges = {};  ///< at faces of the input
   std::vector<std::string> lost = {};
   std::uint64_t evaluations = 0, steps = 0;
   std::optional<FitOutcome> fit = {};

@@ -181,7 +181,10 @@ Result<ExtractedSurface> SurfaceExtractor::extractWithin(const ExtractRequest& r
   result.isDisplaced = taken.isDisplaced;
   result.pixels = taken.pixels;
   result.fit = taken.fit;
-  result.attributeErrors = taken.attributeErrors;
+  // Packing rounds every attribute, and normals that are made anew are not the source's.
+  if (!request.packedBits) result.attributeErrors = taken.attributeErrors;
+  if (request.normals.kind != NormalsKind::keep)
+    std::erase_if(result.attributeErrors, [](const AttributeNumber& of) { return of.name == kNormalName; });
   result.leftByRounding = taken.leftByRounding;
   result.triangles = taken.front.mesh.triangles.size();
   result.vertices = taken.front.mesh.positions.size();
@@ -200,6 +203,7 @@ Result<ExtractedSurface> SurfaceExtractor::extractWithin(const ExtractRequest& r
     result.droppedFaces = dropped_->sourceFaces;
   }
   ARETE_CHECK(write(request, taken, result, context));
+  result.attributeChanges = changesOfCut(model_, taken);
   const Result<MeshFormat> format = meshFormatOf(request.output, request.format);
   const bool mayDouble =
       format && format->holds.statesScalarType && model_.up != "z" && model_.mt.vertices().places64.empty();

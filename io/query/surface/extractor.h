@@ -5,12 +5,14 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
 #include "io/formats/common/file.h"
 #include "io/query/certificate/surface.h"
 #include "io/query/request/extract_request.h"
+#include "io/query/surface/changes_of_cut.h"
 #include "io/query/surface/take_surface.h"
 #include "surface/model/surface_model.h"
 
@@ -33,9 +35,10 @@ struct ExtractedSurface {
   std::optional<FitOutcome> fit;
   double leftByRounding = 0;                                     ///< TakenSurface::leftByRounding
   std::optional<std::uint64_t> droppedComponents, droppedFaces;  ///< where components may be left out
-  std::optional<double> droppedDistance;         ///< the farthest that what is left out is from the result
-  std::optional<double> otherWay;                ///< the farthest that the result is from the source
-  std::vector<AttributeNumber> attributeErrors;  ///< TakenSurface::attributeErrors
+  std::optional<double> droppedDistance;          ///< the farthest that what is left out is from the result
+  std::optional<double> otherWay;                 ///< the farthest that the result is from the source
+  std::vector<AttributeChange> attributeChanges;  ///< changesOfCut(); of those that are written
+  std::vector<AttributeNumber> attributeErrors;   ///< TakenSurface::attributeErrors
   double movedByFloats = 0;  ///< of a PLY with doubles of a source that states no frame (convert.h)
   double promisedError = 0;  ///< the tolerance, or what a budget, a deadline, a place or a fit came to
   MeshWriteReport written;

@@ -170,6 +170,8 @@ const std::map<std::string, Tried>& triedCommands() {
                      {"--both-ways", {"--both-ways"}},
                      {"--samples", {"--samples 60", "", ""}},
                      {"--seed", {"--seed 2"}},
+                     {"--attributes", {"--attributes"}},
+                     {"--expect-attribute", {"--expect-attribute uv:9"}},
                      {"--error-mesh", {"--error-mesh $.ply"}}})}},
       {"view",
        {"view dem.amt --headless --screenshot $.png --size 48x32",
