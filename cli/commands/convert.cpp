@@ -65,7 +65,7 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
     return failure(ErrorCode::usage, "is for meshes; an .amt states its axes and units",
                    arguments.placing.unit.empty() ? "--up" : "--unit");
   if (arguments.normals.options != NormalsOptions{})
-    return failure(ErrorCode::usage, "is for meshes; arete extract makes normals of a cut", "--normals");
+    return failure(ErrorCode::usage, "is for meshes, as --crease-angle is; arete extract makes normals of a cut", "--normals");
   if (arguments.place.isStated())
     return failure(ErrorCode::usage, "is for meshes; `arete extract` leads a cut there",
                    arguments.place.isMetric ? "--metric" : fmt::format("--to-crs {}", arguments.place.crs));

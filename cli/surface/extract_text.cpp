@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -70,7 +71,13 @@ std::string extractText(const ExtractRequest& request, const ExtractedSurface& f
                         grouped(*found.droppedFaces, "face", "faces"),
                         agreeing(*found.droppedComponents, "it", "them"),
                         withShare(*found.droppedDistance, diagonal));
-  text += changesText(found.attributeChanges);
+  // What is bounded needs no sample.
+  std::vector<AttributeChange> sampled = found.attributeChanges;
+  std::erase_if(sampled, [&](const AttributeChange& change) {
+    return std::ranges::find(found.attributeErrors, change.name, &AttributeNumber::name) !=
+           found.attributeErrors.end();
+  });
+  text += changesText(sampled);
   if (found.crossings > 0)
     text += fmt::format("  crossings  {} of triangles; the source has {}\n",
                         grouped(found.crossings, "pair", "pairs"), grouped(*found.sourceCrossings));

@@ -177,13 +177,13 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
           .add_option(
               "--color", color,
               "Colour by height (default), slope, aspect, plain or error; a surface by material (default), "
-              "plain or error")
-          ->check(oneOf({"height", "slope", "aspect", "plain", "error", "material"}))
+              "plain, error, charts (of its texture and parts) or stretch (of the texture)")
+          ->check(oneOf({"height", "slope", "aspect", "plain", "error", "material", "charts", "stretch"}))
           ->type_name("NAME")
           ->group(group);
   // Some colours exist for one kind of model alone; with the other kind they are refused.
   kinds.valuesOf(ModelKind::terrain, colors, {"height", "slope", "aspect"});
-  kinds.valuesOf(ModelKind::surface, colors, {"material"});
+  kinds.valuesOf(ModelKind::surface, colors, {"material", "charts", "stretch"});
   this->colors.addTo(command, group, kinds);
   CLI::Option* picture = kinds.ofTerrain(
       command

@@ -9,7 +9,7 @@
 
 #include "cli/view/layer_argument.h"
 #include "surface/front/front.h"
-#include "viewer/beside/distance_colors.h"
+#include "viewer/inks/distance_colors.h"
 #include "viewer/fronts/drawn_vertices.h"
 
 namespace arete {

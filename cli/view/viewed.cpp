@@ -17,9 +17,10 @@
 #include "cli/view/beside.h"
 #include "io/geo/crs/data_unit.h"
 #include "io/query/extract/camera_argument.h"
-#include "viewer/beside/distance_colors.h"
 #include "viewer/gl/terrain_drawable.h"
 #include "viewer/heights/contour_labels.h"
+#include "viewer/inks/chart_colors.h"
+#include "viewer/inks/distance_colors.h"
 #include "viewer/layers/contour_heights.h"
 #include "viewer/scene/scene_subject.h"
 #include "viewer/surface/surface_drawable.h"
@@ -107,9 +108,20 @@ Result<Viewed> viewedSurface(const ViewArguments& a, SurfaceModel opened) {
   Viewed viewed{.subject = subject,
                 .finestTriangles = model->mt.finestTriangleCount(),
                 .files = {a.model},
-                .addModel = [model, subject](Scene& scene) -> Status {
-                  ARETE_TRY(SurfaceDrawable made, SurfaceDrawable::create(*model, subject));
-                  return scene.add(std::make_unique<SurfaceDrawable>(std::move(made)));
+                .addModel = [model, subject, color = a.appearance.color,
+                             isComputed = a.appearance.hasComputedColors()](Scene& scene) -> Status {
+                  ComputedColors computed;
+                  if (isComputed) {
+                    auto made = color == "charts" ? chartColors(*model) : stretchColors(*model);
+                    if (!made) made.error().culprit = "--color " + color;
+                    ARETE_TRY(computed, std::move(made));
+                  }
+                  ARETE_TRY(auto assets,
+                            SurfaceAssets::create(*model, subject->upright(), std::move(computed.colors)));
+                  ARETE_CHECK(scene.add(std::make_unique<SurfaceDrawable>(std::move(assets), subject)));
+                  if (isComputed)
+                    scene.layers.put(color, SpaceVertices{}).legend = std::move(computed.legend);
+                  return {};
                 }};
   const Similarity placedThere = placed(subject->placement(), nullptr);
   ARETE_TRY(viewed.camera, statedCamera(a, subject->space(), [&](const Vec3& p) {

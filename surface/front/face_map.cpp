@@ -51,6 +51,31 @@ std::uint32_t climbed(const MultiTriangulation& mt, std::uint32_t finest, const 
   return t;
 }
 
+/// The same within a chart: a triangle and one that replaces it on its side of a seam have a wedge in common.
+/// kNone where none of what replaced it has.
+std::uint32_t climbedInChart(const SurfaceModel& model, std::uint32_t finest, const Vec3& middle,
+                             const std::vector<std::uint32_t>& numberOf) {
+  const MultiTriangulation& mt = model.mt;
+  std::uint32_t t = finest;
+  while (numberOf[t] == MeshAttributes::kNone) {
+    const auto& own = model.wedgesOf[t];
+    std::uint32_t nearest = MeshAttributes::kNone;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t candidate : mt.floor(mt.creator(TriangleId(t)))) {
+      const bool isInChart = std::ranges::any_of(model.wedgesOf[candidate], [&](std::uint32_t w) {
+        return std::ranges::find(own, w) != own.end();
+      });
+      const double distance = distanceToTriangle(middle, placeOf(mt, TriangleId(candidate)));
+      if (!isInChart || !(distance < least)) continue;
+      nearest = candidate;
+      least = distance;
+    }
+    if (nearest == MeshAttributes::kNone) return nearest;
+    t = nearest;
+  }
+  return t;
+}
+
 std::vector<std::uint32_t> numbersIn(const MultiTriangulation& mt, const Cut& cut) {
   std::vector<std::uint32_t> numberOf(mt.triangleIdCount(), MeshAttributes::kNone);
   for (std::uint32_t i = 0; i < cut.ids.size(); ++i) numberOf[cut.ids[i]] = i;
@@ -70,7 +95,9 @@ std::vector<FaceInCut> someFacesOf(const SurfaceModel& model, const Cut& cut, st
     if (next++ % step != 0) continue;
     const SpaceTriangle place = placeOf(mt, TriangleId(finest));
     const Vec3 middle = (place[0] + place[1] + place[2]) / 3.0;
-    found.push_back({finest, middle, numberOf[climbed(mt, finest, middle, numberOf)]});
+    const std::uint32_t t = model.hasWedges() ? climbedInChart(model, finest, middle, numberOf)
+                                              : climbed(mt, finest, middle, numberOf);
+    if (t != MeshAttributes::kNone) found.push_back({finest, middle, numberOf[t]});
   }
   return found;
 }

@@ -23,7 +23,8 @@ struct FaceInCut {
   std::uint32_t triangle = 0;  ///< its number in the cut
 };
 
-/// Some finest triangles, spread evenly over their numbers. O(triangle ids + most * depth)
+/// Some finest triangles, spread evenly over their numbers, each with one on its side of every seam; those
+/// that have none are left out. O(triangle ids + most * depth)
 std::vector<FaceInCut> someFacesOf(const SurfaceModel& model, const Cut& cut, std::uint32_t most);
 
 }  // namespace arete

@@ -89,6 +89,21 @@ def scan(path, rings=40):
     path.write_text(header + "".join("%.17g %.17g %.17g\n" % v for v in vertices) + "".join("3 %d %d %d\n" % f for f in faces))
 
 
+def painted(ply, obj):
+    """The same mesh with a colour, a texture coordinate and a normal of each vertex."""
+    lines = ply.read_text().split("end_header\n")[1].split("\n")
+    vertices = [tuple(map(float, line.split())) for line in lines if len(line.split()) == 3]
+    faces = [tuple(map(int, line.split()[1:])) for line in lines if len(line.split()) == 4]
+    with open(obj, "w", encoding="utf-8") as file:
+        for a, b, c in vertices:
+            file.write(f"v {a!r} {b!r} {c!r} {0.5 + 0.3 * a:.4f} {0.5 + 0.3 * b:.4f} 0.5\n")
+        for a, b, c in vertices:
+            length = math.sqrt(a * a + b * b + c * c)
+            file.write(f"vt {0.5 + 0.3 * a:.6f} {0.5 + 0.3 * c:.6f}\nvn {a / length:.6f} {b / length:.6f} {c / length:.6f}\n")
+        for face in faces:
+            file.write("f " + " ".join(f"{v + 1}/{v + 1}/{v + 1}" for v in face) + "\n")
+
+
 def make(folder, arete):
     """Writes all inputs into a folder; `arete` is the program."""
     folder = pathlib.Path(folder)
@@ -113,12 +128,14 @@ def make(folder, arete):
         void, part = [-32768] * 1001, [int(500 + 300 * math.sin(c / 40)) for c in range(200)]
         archive.writestr("N46E008.hgt", struct.pack(">1201h", *part, *void) * 200 + struct.pack(">h", -32768) * 1201 * 1001)
     scan(folder / "scan.ply")
-    run("convert", "scan.ply", "-o", "scan.obj")
+    painted(folder / "scan.ply", folder / "scan.obj")
+    run("convert", "scan.ply", "-o", "scan.stl")
     run("convert", "scan.ply", "-o", "scan.glb")
     run("convert", "scan.ply", "-o", "original.obj")
     run("mesh", "decimate", "scan.ply", "-o", "small.ply", "--max-triangles", "10%")
     run("build", "dem.tif", "-o", "dem.amt")
     run("build", "scan.ply", "-o", "scan.amt")
+    run("extract", "scan.amt", "-o", "small.glb", "--max-error", "2%")
     run("extract", "dem.amt", "-o", "tin.ply", "--max-error", "5")
     (folder / "scene.json").write_text(json.dumps({"objects": [
         {"file": "dem.amt"}, {"name": "mast", "file": "scan.obj", "at": [405000, 3801000], "scale": 20, "anchor": "base"}]}))

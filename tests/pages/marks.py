@@ -24,7 +24,7 @@ CHANGED = [(re.compile(pattern), added) for pattern, added in (
 )]
 
 # Programs that a page uses and that a machine may lack; what needs them is then counted as not run here.
-PROGRAMS = ("gdalinfo", "gdal_translate", "gdalbuildvrt", "gdaldem", "gdalwarp", "ogr2ogr", "ogrinfo", "rio", "jq", "xvfb-run", "ffmpeg")
+PROGRAMS = ("gdalinfo", "gdal_translate", "gdalbuildvrt", "gdaldem", "gdalwarp", "ogr2ogr", "ogrinfo", "rio", "jq", "xvfb-run", "ffmpeg", "assimp")
 
 # Python packages of which the same holds.
 MODULES = {"rasterio", "rioxarray", "xarray", "geopandas", "shapely", "fiona", "meshio", "matplotlib", "trimesh", "pyvista", "osgeo",

@@ -70,8 +70,13 @@ EXCEPTED = {
     ("mesh repair", "normals"): "of the output", ("mesh repair", "crease-angle"): "of the output",
     ("mesh decimate", "normals"): "of the output", ("mesh decimate", "crease-angle"): "of the output",
     ("extract", "normals"): "of the output", ("extract", "crease-angle"): "of the output",
-    ("convert", "normals"): "of the output", ("convert", "crease-angle"): "of the output",
+    ("convert", "normals"): "of the output", 
     ("mesh repair", "unit"): "of the output", ("mesh decimate", "up"): "of the output", ("mesh decimate", "unit"): "of the output",
+    ("convert", "flip-v"): "of a file written of a file", ("extract", "flip-v"): "of the output", ("extract", "levels"): "output",
+    ("extract", "packed"): "of the output", ("extract", "position-bits"): "of the output",
+    ("mesh decimate", "flip-v"): "of the output", ("mesh decimate", "packed"): "of the output",
+    ("mesh decimate", "position-bits"): "of the output", ("mesh repair", "flip-v"): "of the output",
+    ("mesh repair", "packed"): "of the output", ("mesh repair", "position-bits"): "of the output",
 }
 
 

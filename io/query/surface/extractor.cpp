@@ -126,6 +126,9 @@ Status SurfaceExtractor::write(const ExtractRequest& request, TakenSurface& take
   ARETE_CHECK(makeNormals(taken.front.mesh, request.normals));
   if (request.flipsV && !flipTextures(taken.front.mesh))
     return failure(ErrorCode::usage, "the surface has no texture coordinates", "flipV");
+  if (request.packedBits && !request.criterion.attributeErrors.empty())
+    return failure(ErrorCode::usage, "cannot be combined with `packed`, which rounds attributes",
+                   "attributeErrors");
   if (request.packedBits && !request.map.empty())
     return failure(ErrorCode::usage, "tells numbers of the file, whose order `packed` makes anew", "map");
   if (request.certificate.empty() && !request.packedBits) {

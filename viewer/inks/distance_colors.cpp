@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/beside/distance_colors.h"
+#include "viewer/inks/distance_colors.h"
 
 #include <fmt/format.h>
 
