@@ -96,16 +96,20 @@ void AttributeBound::addPiece(const Triangle& triangle, const Piece& piece, std:
   compare(corners, errors);
 }
 
-// The triangle beyond the side has the side's corners in the chart of the piece; where a vertex has several
-// there, the worst counts.
+// The triangle beyond the side has the side's ends as the chart of the piece has them.
 void AttributeBound::addAcross(const Triangle& triangle, const Piece& piece, std::span<double> errors) {
   const std::size_t opposite = oppositeCorner(piece.across, triangle.vertices);
   const std::size_t i = (opposite + 1) % 3, j = (opposite + 2) % 3;
-  const auto first = field_.drawnOf(triangle.vertices[i], piece.face),
-             second = field_.drawnOf(triangle.vertices[j], piece.face);
-  if (first.empty() || second.empty()) {
-    std::ranges::fill(errors, kInfinity);
-    return;
+  const std::uint32_t first = triangle.vertices[i], second = triangle.vertices[j];
+  std::array<std::uint32_t, 2> ends{first, second};
+  if (field_.hasWedges()) {
+    const auto side =
+        std::ranges::find_if(triangle.across, [&](const AcrossSide& s) { return s.isOf(first, second); });
+    if (side == triangle.across.end()) {
+      std::ranges::fill(errors, kInfinity);
+      return;
+    }
+    ends = {side->drawnAt(first), side->drawnAt(second)};
   }
   const std::size_t components = field_.components(), corners = piece.polygon.size();
   ofPiece_.resize(components * corners);
@@ -113,18 +117,15 @@ void AttributeBound::addAcross(const Triangle& triangle, const Piece& piece, std
   const SpaceTriangle face = original_.face(piece.face);
   const Vec3 a = triangle.places[i], along = triangle.places[j] - a;
   const double length = dot(along, along);
-  for (const std::uint32_t from : first)
-    for (const std::uint32_t to : second) {
-      for (std::size_t k = 0; k < corners; ++k) {
-        field_.mean(field_.cornersOf(piece.face), sharesOf(piece.polygon[k]),
-                    std::span(ofPiece_).subspan(components * k, components));
-        const Vec3 p = placeOf(piece.polygon[k], face);
-        const double at = length > 0 ? std::clamp(dot(p - a, along) / length, 0.0, 1.0) : 0;
-        field_.mean({from, to, to}, {1 - at, at, 0},
-                    std::span(ofTriangle_).subspan(components * k, components));
-      }
-      compare(corners, errors);
-    }
+  for (std::size_t k = 0; k < corners; ++k) {
+    field_.mean(field_.cornersOf(piece.face), sharesOf(piece.polygon[k]),
+                std::span(ofPiece_).subspan(components * k, components));
+    const Vec3 p = placeOf(piece.polygon[k], face);
+    const double at = length > 0 ? std::clamp(dot(p - a, along) / length, 0.0, 1.0) : 0;
+    field_.mean({ends[0], ends[1], ends[1]}, {1 - at, at, 0},
+                std::span(ofTriangle_).subspan(components * k, components));
+  }
+  compare(corners, errors);
 }
 
 void AttributeBound::compare(std::size_t corners, std::span<double> errors) {

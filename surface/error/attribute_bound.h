@@ -12,6 +12,17 @@
 
 namespace arete {
 
+/// A side of a triangle on a line, and the drawn corners that the line's other side has at its ends.
+struct AcrossSide {
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+  std::array<std::uint32_t, 2> vertices{kNone, kNone}, drawn{kNone, kNone};
+
+  bool isOf(std::uint32_t a, std::uint32_t b) const {
+    return (vertices[0] == a && vertices[1] == b) || (vertices[0] == b && vertices[1] == a);
+  }
+  std::uint32_t drawnAt(std::uint32_t vertex) const { return drawn[vertices[0] == vertex ? 0 : 1]; }
+};
+
 /// Bounds how far the attributes of a triangle are from what the pieces have that it stands for.
 ///
 /// Every corner p of a piece gets a point q of the triangle within the triangle's error of it: the nearest
@@ -30,6 +41,7 @@ class AttributeBound {
     std::array<std::uint32_t, 3> vertices{};  ///< of the original
     std::array<std::uint32_t, 3> drawn{};     ///< wedges, or the vertices
     double error = 0;
+    std::span<const AcrossSide> across = {};  ///< of pieces that lie across a side; without wedges not needed
   };
   /// The largest distance of each attribute over the pieces, by entry of the field; infinite where none is
   /// known. O(corners of the pieces).

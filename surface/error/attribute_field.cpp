@@ -12,7 +12,6 @@
 
 #include "surface/attributes/attribute_distance.h"
 #include "surface/attributes/attribute_names.h"
-#include "surface/model/charts.h"
 #include "surface/model/labels.h"
 
 namespace arete {
@@ -155,24 +154,6 @@ AttributeField::AttributeField(const SurfaceMesh& mesh, double diagonal)
     }
     if (inPicture > 0) e.length = std::sqrt(inSpace / inPicture);
   }
-  if (!mesh.hasWedges()) return;
-  chartOf_ = chartsOf(mesh);
-  // The wedges of each vertex, each with one of its faces: a wedge is of one chart.
-  std::vector<std::uint32_t> faceOf(mesh.wedgeCount, MeshAttributes::kNone);
-  for (std::uint32_t f = 0; f < mesh.wedges.size(); ++f)
-    for (const std::uint32_t w : mesh.wedges[f]) faceOf[w] = f;
-  wedgeBegin_.assign(mesh.positions.size() + 1, 0);
-  for (std::uint32_t w = 0; w < mesh.wedgeCount; ++w)
-    if (faceOf[w] != MeshAttributes::kNone) ++wedgeBegin_[vertexOf[w] + 1];
-  for (std::size_t v = 0; v + 1 < wedgeBegin_.size(); ++v) wedgeBegin_[v + 1] += wedgeBegin_[v];
-  wedgesAt_.resize(wedgeBegin_.back());
-  faceAt_.resize(wedgeBegin_.back());
-  std::vector<std::uint32_t> next(wedgeBegin_.begin(), wedgeBegin_.end() - 1);
-  for (std::uint32_t w = 0; w < mesh.wedgeCount; ++w)
-    if (faceOf[w] != MeshAttributes::kNone) {
-      wedgesAt_[next[vertexOf[w]]] = w;
-      faceAt_[next[vertexOf[w]]++] = faceOf[w];
-    }
 }
 
 void AttributeField::mean(const Corners& drawn, const std::array<double, 3>& shares,
@@ -186,14 +167,6 @@ void AttributeField::mean(const Corners& drawn, const std::array<double, 3>& sha
     }
   for (std::size_t i = 0; i < components_; ++i)
     to[i] = shares[0] * a[i] + shares[1] * b[i] + shares[2] * c[i];
-}
-
-std::vector<std::uint32_t> AttributeField::drawnOf(std::uint32_t vertex, std::uint32_t face) const {
-  if (!hasWedges()) return {vertex};
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t i = wedgeBegin_[vertex]; i < wedgeBegin_[vertex + 1]; ++i)
-    if (chartOf_.empty() || chartOf_[faceAt_[i]] == chartOf_[face]) found.push_back(wedgesAt_[i]);
-  return found;
 }
 
 double AttributeField::weighedSquares(std::span<const double> a, std::span<const double> b) const {

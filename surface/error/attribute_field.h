@@ -54,9 +54,6 @@ class AttributeField {
   /// The values at a point of a face, of the shares of its corners.
   void mean(const std::array<std::uint32_t, 3>& drawn, const std::array<double, 3>& shares,
             std::span<double> to) const;
-  /// The drawn corners that a vertex may have in the chart of a face; one without wedges.
-  std::vector<std::uint32_t> drawnOf(std::uint32_t vertex, std::uint32_t face) const;
-
   /// The sum over all attributes of the squared distances, weighed by Entry::length.
   double weighedSquares(std::span<const double> a, std::span<const double> b) const;
 
@@ -65,9 +62,6 @@ class AttributeField {
   std::size_t components_ = 0;
   std::vector<double> values_;  // by drawn corner, components() each
   std::span<const std::array<std::uint32_t, 3>> faces_, wedges_;
-  std::vector<std::uint32_t> chartOf_;                // by face; empty: one chart
-  std::vector<std::uint32_t> wedgeBegin_, wedgesAt_;  // by vertex: its wedges and, for each, a face of it
-  std::vector<std::uint32_t> faceAt_;
 };
 
 }  // namespace arete

@@ -38,6 +38,7 @@ bool SurfaceRemover::remove(VertexId v, RemovalId removal, std::span<Seam> seams
                                 firstLabel + static_cast<std::size_t>(i));
   }
   for (int f = 0; f < floor.size; ++f) labels_[f] = hole_.labelsOf(s_, floor.triangles[f]);
+  if (s_.acrossSides.size() > 0) gatherAcross();
 
   record(removal, floor.size);
   refill(s_.mesh, star, floor, FloorJoins(floor), s_.recorder.firstFloorTriangle(removal), removal, seams);
@@ -71,6 +72,27 @@ void SurfaceRemover::dividePieces(const HoleTriangulation& floor) {
   });
 }
 
+/// Before the star is rewritten: what is across each edge of its rim. Where a side of the line is a single
+/// triangle, which goes, the pieces across its edge are its own.
+void SurfaceRemover::gatherAcross() {
+  const Star& star = hole_.star();
+  rimSides_.assign(static_cast<std::size_t>(star.triangleCount), {});
+  for (int i = 0; i < star.triangleCount; ++i) {
+    const int after = i + 1 < star.linkSize ? i + 1 : 0;
+    const std::uint32_t a = star.link[i].index(), b = star.link[after].index();
+    AcrossSide& side = rimSides_[static_cast<std::size_t>(i)];
+    if (i == hole_.ear()) {
+      TriangleLabels labels = s_.labelsOf(star.slot(i));
+      std::rotate(labels.wedges.begin(), labels.wedges.begin() + LiveMesh::sideOf(star.outgoing[i]),
+                  labels.wedges.end());
+      side = {{a, b}, {labels.wedges[1], labels.wedges[2]}};
+      continue;
+    }
+    for (const AcrossSide& known : s_.acrossSides[star.slot(i)])
+      if (known.isOf(a, b)) side = known;
+  }
+}
+
 /// After the pieces are divided and stored. The slots of the floor are the first ones of the star.
 void SurfaceRemover::boundAttributes(const HoleTriangulation& floor) {
   const Star& star = hole_.star();
@@ -84,6 +106,15 @@ void SurfaceRemover::boundAttributes(const HoleTriangulation& floor) {
     }
     triangle.drawn = s_.parts.hasWedges ? labels_[f].wedges : triangle.vertices;
     triangle.error = division_.bound(f);
+    if (s_.acrossSides.size() > 0) {
+      auto& sides = s_.acrossSides[star.slot(f)];
+      sides = {};
+      std::size_t count = 0;
+      for (std::size_t c = 0; c < 3; ++c)
+        for (const AcrossSide& side : rimSides_)
+          if (side.isOf(triangle.vertices[c], triangle.vertices[(c + 1) % 3])) sides[count++] = side;
+      triangle.across = sides;
+    }
     attributeBound_.bound(triangle, s_.pieces[star.slot(f)], attributeErrors_);
     // Rounded upwards, so that a float bounds what a double did.
     for (std::size_t a = 0; a < attributeErrors_.size(); ++a)

@@ -28,6 +28,7 @@ class SurfaceRemover {
  private:
   void dividePieces(const HoleTriangulation& floor);
   void record(RemovalId removal, int floorSize);
+  void gatherAcross();
   void boundAttributes(const HoleTriangulation& floor);
   void updateLink();
 
@@ -36,6 +37,7 @@ class SurfaceRemover {
   PieceDivision division_;
   AttributeBound attributeBound_;
   std::vector<double> attributeErrors_;
+  std::vector<AcrossSide> rimSides_;  // of the star's rim: what is across, by link corner
   std::array<FloorCodes, kMaxHoleCorners> codes_;
   std::array<RecorderId, kMaxHoleCorners> ceiling_;
   std::array<RemovalId, kMaxHoleCorners> creator_;

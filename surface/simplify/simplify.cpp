@@ -38,11 +38,13 @@ void compact(SurfaceState& s) {
     s.pieces[to] = std::move(s.pieces[from]);
     s.labels.set(to.index(), s.labelsOf(from));
     s.attributeErrors.copy(from.index(), s.attributeErrors, to.index());
+    if (s.acrossSides.size() > 0) s.acrossSides[to] = s.acrossSides[from];
   });
   s.pieces.resize(map.liveCount());
   s.pieces.shrink_to_fit();
   s.labels.resize(map.liveCount());
   s.attributeErrors.resize(map.liveCount());
+  if (s.acrossSides.size() > 0) s.acrossSides.resize(map.liveCount());
   giveFreeHeapBack();
 }
 
@@ -115,6 +117,7 @@ Result<SurfaceRoot> simplifySurface(SurfaceState& s, const std::vector<std::uint
   s.lineNext = lineNextOf(s);
   s.starLabels.reserve(kMaxHoleCorners * s.mesh.vertexCount());
   s.starAttributeErrors.reserve(kMaxHoleCorners * s.mesh.vertexCount());
+  if (s.parts.hasWedges && !s.field.isEmpty()) s.acrossSides.resize(s.mesh.triangles.size());
   s.attributeErrors.resize(s.mesh.triangles.size());
   for (std::size_t i = 0; i < s.mesh.triangles.size(); ++i)
     for (std::size_t a = 0; a < s.field.entries().size(); ++a) s.attributeErrors.set(i, a, 0);

@@ -12,6 +12,7 @@
 #include "engine/simplify/independent_set.h"
 #include "engine/simplify/live_mesh.h"
 #include "engine/simplify/threshold_list.h"
+#include "surface/error/attribute_bound.h"
 #include "surface/error/attribute_field.h"
 #include "surface/error/original.h"
 #include "surface/error/pieces.h"
@@ -44,6 +45,8 @@ struct SurfaceState {
   LabelArray starLabels{parts.hasWedges};
   /// By slot of the mesh, and of the recorder as starLabels; by entry of the field.
   AttributeErrorArray attributeErrors{field.entries().size()}, starAttributeErrors{field.entries().size()};
+  /// By slot of the mesh: its sides that have pieces across them. Empty without wedges or without a field.
+  IdArray<SlotId, std::vector<std::array<AcrossSide, 3>>> acrossSides = {};
   /// The first of those of a removed vertex.
   IdArray<VertexId, std::vector<std::uint32_t>> firstStarLabel = {};
   /// Of a vertex on a border of the original: the next one along it, the surface on the left. Empty without
