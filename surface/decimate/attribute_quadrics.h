@@ -47,7 +47,7 @@ class AttributeChannels {
   std::size_t componentOf(std::size_t channel) const { return places_[channel].component; }
 
   /// Of a triangle. Numbers that are not finite do not count; nor does a triangle without area.
-  /// @param number(channel, corner)
+  /// @param number called with a channel and a corner
   AttributeQuadric ofTriangle(const std::array<Vec3, 3>& places, double weight,
                               const std::function<double(std::size_t, std::size_t)>& number) const;
   /// What a place costs with the best attributes there. At least 0 everywhere, but for rounding.
