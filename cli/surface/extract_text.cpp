@@ -109,8 +109,15 @@ std::string surfaceCheckCommand(const ExtractRequest& request, const std::string
     command = fmt::format("arete extract {} -o {} --max-error 0 --drop-parts {} && ", shellQuoted(modelPath),
                           shellQuoted(source), request.criterion.dropParts);
   }
-  return command + fmt::format("arete measure {} {} --expect {} --samples {}", shellQuoted(request.output),
-                               shellQuoted(source), promisedError, samples);
+  command += fmt::format("arete measure {} {} --expect {} --samples {}", shellQuoted(request.output),
+                         shellQuoted(source), promisedError, samples);
+  // In sight or in a region alone nothing is certain of the whole.
+  const CutRequest& asked = request.criterion;
+  if (asked.attributeErrors.empty() || asked.spaceRegion || asked.hasCamera() || asked.focus) return command;
+  std::string list;
+  for (const AttributeNumber& of : asked.attributeErrors)
+    list += fmt::format("{}{}:{}{}", list.empty() ? "" : ",", of.name, of.number, of.unit);
+  return command + " --expect-attribute " + shellQuoted(list);
 }
 
 }  // namespace arete

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <limits>
 
 #include "engine/base/nearest_on_triangle.h"
 #include "engine/base/vec.h"
@@ -20,6 +22,28 @@ inline std::array<double, 3> sharesAt(const Vec3& p, const SpaceTriangle& t) {
   double sum = 0;
   for (double& s : shares) sum += s = std::max(0.0, s);
   for (double& s : shares) s /= sum;
+  return shares;
+}
+
+/// The shares of a triangle's corners at its point that is nearest to `p`, also of triangles that are a
+/// segment or a point: then of the ends of the nearest side. O(1).
+inline std::array<double, 3> nearestShares(const Vec3& p, const SpaceTriangle& t) {
+  const Vec3 q = nearestOnTriangle(p, t), normal = areaNormal(t);
+  if (dot(normal, normal) > 0) return sharesAt(q, t);
+  std::array<double, 3> shares{};
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const Vec3 side = t[j] - t[i];
+    const double length = dot(side, side);
+    const double at = length > 0 ? std::clamp(dot(side, q - t[i]) / length, 0.0, 1.0) : 0;
+    const double distance = squaredDistance(q, t[i] + at * side);
+    if (!(distance < least)) continue;
+    least = distance;
+    shares = {};
+    shares[i] = 1 - at;
+    shares[j] = at;
+  }
   return shares;
 }
 

@@ -17,6 +17,7 @@
 #include <optional>
 
 #include "engine/base/nearest_on_triangle.h"
+#include "engine/base/triangle_shares.h"
 
 namespace arete {
 namespace {
@@ -83,39 +84,6 @@ double distanceBound(const std::vector<SpaceTriangle>& from, const std::vector<S
 
 }  // namespace
 
-std::array<double, 3> nearestWeights(const Vec3& p, const std::array<Vec3, 3>& triangle) {
-  const Vec3 q = nearestOnTriangle(p, triangle);
-  const Vec3 normal = areaNormal(triangle);
-  std::array<double, 3> weights{};
-  if (dot(normal, normal) > 0) {
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 &b = triangle[(i + 1) % 3], &c = triangle[(i + 2) % 3];
-      weights[i] = std::max(0.0, dot(cross(b - q, c - q), normal));
-      sum += weights[i];
-    }
-    if (sum > 0) {
-      for (double& w : weights) w /= sum;
-      return weights;
-    }
-  }
-  // A segment: the side on which the point lies.
-  double least = kInfinity;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const Vec3 side = triangle[j] - triangle[i];
-    const double length = dot(side, side);
-    const double at = length > 0 ? std::clamp(dot(side, q - triangle[i]) / length, 0.0, 1.0) : 0;
-    const double distance = squaredDistance(q, triangle[i] + at * side);
-    if (!(distance < least)) continue;
-    least = distance;
-    weights = {};
-    weights[i] = 1 - at;
-    weights[j] = at;
-  }
-  return weights;
-}
-
 SpaceMorphNode SpaceMotion::nodeOf(const MultiTriangulation& mt, NodeId n) {
   const Vec3 v = mt.position(mt.apex(n));
   SpaceMorphNode node{};
@@ -130,10 +98,9 @@ SpaceMorphNode SpaceMotion::nodeOf(const MultiTriangulation& mt, NodeId n) {
     if (!(distance < least)) continue;
     least = distance;
     node.corner = ids;
-    node.triangle = t;
     places = corners;
   }
-  const auto weights = nearestWeights({}, places);
+  const auto weights = nearestShares({}, places);
   node.weight = {static_cast<float>(weights[0]), static_cast<float>(weights[1])};
   node.detail = -node.interpolate(places[0], places[1], places[2]);
   return node;

@@ -25,18 +25,13 @@ struct SpaceOffset {
 struct SpaceMorphNode {
   std::array<std::uint32_t, 3> corner;
   std::array<float, 2> weight;
-  std::uint32_t triangle = 0;  ///< of the floor
-  Vec3 detail;                 ///< v minus that point
+  Vec3 detail;  ///< v minus that point
 
   template <class T>
   T interpolate(const T& at0, const T& at1, const T& at2) const {
     return at2 + (at0 - at2) * double(weight[0]) + (at1 - at2) * double(weight[1]);
   }
 };
-
-/// The weights of the point of a triangle that is nearest to `p`, each in 0..1, their sum 1; also of
-/// triangles that are a segment or a point.
-std::array<double, 3> nearestWeights(const Vec3& p, const std::array<Vec3, 3>& triangle);
 
 /// How the vertices of surfaces move: in any direction. The law is MorphCamera's, with vectors
 /// for heights; the clamp shortens a vector. A pixel bound of a height is one of a displacement in

@@ -31,8 +31,8 @@ std::string optionNameOf(std::string_view inFile);
 /// Where wedges and vertices have one of the same name, each counts.
 std::vector<NamedAttribute> namedAttributes(const MeshAttributes& mesh);
 
-/// All of a name, or of a file's own name. Errors: usage, with the name as culprit: there is none; lists the
-/// names that there are.
+/// All of a name, or of a file's own name. Errors: usage, with the name as culprit: the mesh lacks it; lists
+/// the names that there are.
 Result<std::vector<NamedAttribute>> findAttributes(const MeshAttributes& mesh, std::string_view name);
 
 /// An attribute and a number for it, as a list of options states them.

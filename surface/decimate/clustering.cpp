@@ -33,7 +33,7 @@ struct Cluster {
   std::vector<std::uint32_t> children;
   std::vector<std::uint32_t> triangles;  ///< of a leaf: those with a corner in it and the others elsewhere
   Quadric quadric;
-  /// Of vertices first, then of the wedges by chart, rising; without weights there are none.
+  /// Of vertices first, then of the wedges by chart, rising; empty without weights.
   std::vector<std::pair<std::uint32_t, AttributeQuadric>> attributes;
   Vec3 place{0, 0, 0};
   std::uint32_t vertex = kNoCell;  ///< of the source

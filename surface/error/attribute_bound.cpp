@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/base/triangle_shares.h"
+
 namespace arete {
 namespace {
 
@@ -48,8 +50,8 @@ std::array<double, 3> AttributeBound::partner(const Triangle& triangle, const Ve
   double m00 = 0, m01 = 0, m11 = 0, r0 = 0, r1 = 0;
   for (const AttributeField::Entry& e : field_.entries()) {
     if (e.length == 0) continue;
-    const double weight = e.length * e.length * (e.kind == AttributeField::Entry::Kind::direction ? 3283 : 1);
-    for (std::size_t i = e.first; i < e.first + e.count; ++i) {
+    const double weight = e.weight();
+    for (std::size_t i = e.first; i < e.first + e.measured(); ++i) {
       const double du = b[i] - a[i], dv = c[i] - a[i];
       const double off = wanted[i] - (nearest[0] * a[i] + nearest[1] * b[i] + nearest[2] * c[i]);
       m00 += weight * du * du;
@@ -146,6 +148,12 @@ void AttributeBound::compare(std::size_t corners, std::span<double> errors) {
       errors[k] = std::max(errors[k], most);
       continue;
     }
+    // Signs are not averaged.
+    for (std::size_t c = e.measured(); c < e.count; ++c)
+      for (std::size_t i = 0; i < corners; ++i)
+        if ((of(ofPiece_, i)[c] < 0) != (of(ofPiece_, 0)[c] < 0) ||
+            (of(ofTriangle_, i)[c] < 0) != (of(ofPiece_, 0)[c] < 0))
+          most = kInfinity;
     // Directions: how long a mean may become on either side, by the corners' components along their sum.
     double shortest = kInfinity;
     if (e.kind == Kind::direction)
@@ -164,7 +172,7 @@ void AttributeBound::compare(std::size_t corners, std::span<double> errors) {
       const auto a = of(ofPiece_, i), b = of(ofTriangle_, i);
       double squares = 0, channel = 0;
       bool isSame = true;
-      for (std::size_t c = 0; c < e.count; ++c) {
+      for (std::size_t c = 0; c < e.measured(); ++c) {
         isSame = isSame && (a[c] == b[c] || (std::isnan(a[c]) && std::isnan(b[c])));
         squares += (a[c] - b[c]) * (a[c] - b[c]);
         channel = std::max(channel, std::abs(a[c] - b[c]));
@@ -173,7 +181,7 @@ void AttributeBound::compare(std::size_t corners, std::span<double> errors) {
       const double apart = e.kind == Kind::color ? channel : std::sqrt(squares);
       most = std::isfinite(squares) ? std::max(most, apart) : kInfinity;
     }
-    if (e.kind == Kind::direction && most > 0)
+    if (e.kind == Kind::direction && most > 0 && std::isfinite(most))
       most = most < shortest ? std::asin(most / shortest) * 180 / std::numbers::pi : 180;
     errors[k] = std::max(errors[k], most * kRounding);
   }

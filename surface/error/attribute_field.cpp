@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "surface/attributes/attribute_distance.h"
 #include "surface/attributes/attribute_names.h"
@@ -35,33 +36,6 @@ double areaOf(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 }  // namespace
 
-std::array<double, 3> nearestShares(const Vec3& p, const SpaceTriangle& t) {
-  const Vec3 q = nearestOnTriangle(p, t), normal = areaNormal(t);
-  const double squared = dot(normal, normal);
-  std::array<double, 3> shares{};
-  if (squared > 0) {
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 &b = t[(i + 1) % 3], &c = t[(i + 2) % 3];
-      sum += shares[i] = std::max(0.0, dot(cross(b - q, c - q), normal));
-    }
-    if (sum > 0) {
-      for (double& s : shares) s /= sum;
-      return shares;
-    }
-  }
-  std::size_t longest = 0;
-  for (std::size_t i = 1; i < 3; ++i)
-    if (squaredDistance(t[i], t[(i + 1) % 3]) > squaredDistance(t[longest], t[(longest + 1) % 3]))
-      longest = i;
-  const Vec3 a = t[longest], along = t[(longest + 1) % 3] - a;
-  const double length = dot(along, along),
-               at = length > 0 ? std::clamp(dot(q - a, along) / length, 0.0, 1.0) : 0;
-  shares[longest] = 1 - at;
-  shares[(longest + 1) % 3] = at;
-  return shares;
-}
-
 AttributeField::AttributeField(const SurfaceMesh& mesh, double diagonal)
     : faces_(mesh.triangles), wedges_(mesh.wedges) {
   const std::size_t drawn = mesh.hasWedges() ? mesh.wedgeCount : mesh.positions.size();
@@ -87,8 +61,7 @@ AttributeField::AttributeField(const SurfaceMesh& mesh, double diagonal)
              : a.meaning == AttributeMeaning::color ? Entry::Kind::color
                                                     : Entry::Kind::numbers;
     e.first = components_;
-    // The sign of a tangent says on which side its chart is; it does not change within one.
-    e.count = isDirection ? 3 : a.components;
+    e.count = isDirection ? std::min<std::size_t>(4, a.components) : a.components;
     components_ += e.count;
     entries_.push_back(e);
     sources.push_back({&a, distance, ofWedges});
@@ -107,12 +80,7 @@ AttributeField::AttributeField(const SurfaceMesh& mesh, double diagonal)
     for (std::size_t k = 0; k < entries_.size(); ++k) {
       const Source& s = sources[k];
       const std::size_t element = s.ofWedges || !mesh.hasWedges() ? i : vertexOf[i];
-      std::vector<double> numbers = s.distance.values(*s.attribute, element);
-      if (entries_[k].kind == Entry::Kind::direction) {
-        const double length = std::hypot(numbers[0], numbers[1], numbers[2]);
-        if (length > 0)
-          for (double& n : numbers) n /= length;
-      }
+      const std::vector<double> numbers = s.distance.drawnValues(*s.attribute, element);
       std::copy_n(numbers.begin(), entries_[k].count,
                   values_.begin() + std::ptrdiff_t(components_ * i + entries_[k].first));
     }
@@ -156,6 +124,12 @@ AttributeField::AttributeField(const SurfaceMesh& mesh, double diagonal)
   }
 }
 
+// The chord between two unit vectors is about their angle in radians.
+double AttributeField::Entry::weight() const {
+  const double unit = kind == Kind::direction ? 180 / std::numbers::pi * length : length;
+  return unit * unit;
+}
+
 void AttributeField::mean(const Corners& drawn, const std::array<double, 3>& shares,
                           std::span<double> to) const {
   const auto a = at(drawn[0]), b = at(drawn[1]), c = at(drawn[2]);
@@ -174,11 +148,8 @@ double AttributeField::weighedSquares(std::span<const double> a, std::span<const
   for (const Entry& e : entries_) {
     if (e.length == 0) continue;
     double squares = 0;
-    for (std::size_t i = e.first; i < e.first + e.count; ++i) squares += (a[i] - b[i]) * (a[i] - b[i]);
-    // The chord between two unit vectors is about their angle in radians.
-    constexpr double kDegrees = 57.29577951308232;
-    const double unit = e.kind == Entry::Kind::direction ? kDegrees * e.length : e.length;
-    if (std::isfinite(squares)) sum += unit * unit * squares;
+    for (std::size_t i = e.first; i < e.first + e.measured(); ++i) squares += (a[i] - b[i]) * (a[i] - b[i]);
+    if (std::isfinite(squares)) sum += e.weight() * squares;
   }
   return sum;
 }

@@ -14,10 +14,6 @@
 
 namespace arete {
 
-/// The shares of the corners of a triangle at its point that is nearest to p; of one without an area, at a
-/// point of its longest side.
-std::array<double, 3> nearestShares(const Vec3& p, const SpaceTriangle& t);
-
 /// The attributes of vertices and wedges of a surface, as numbers to be averaged and compared. Drawn corners
 /// are wedges, or vertices where there are no wedges.
 class AttributeField {
@@ -30,6 +26,10 @@ class AttributeField {
     Kind kind = Kind::numbers;
     std::size_t first = 0, count = 0;  ///< of its components
     double largest = 0;                ///< more than any two values are apart; labels: 0
+    /// Of its components, those that are distances: a fourth of a direction is a sign, which is equal or not.
+    std::size_t measured() const { return kind == Kind::direction ? 3 : count; }
+    /// What the square of a component's difference is multiplied by to be one of lengths.
+    double weight() const;
     /// The length that a unit of its distance counts as: what a simplification weighs it by.
     double length = 0;
   };

@@ -10,6 +10,8 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/triangle_shares.h"
+
 namespace arete {
 namespace {
 

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "engine/base/nearest_on_triangle.h"
+#include "engine/base/triangle_shares.h"
 
 namespace arete {
 namespace {
@@ -121,7 +122,7 @@ std::vector<OwnVertices::Start> OwnVertices::startsOf(NodeId n) const {
       if (shared == mostShared && !(distance < least)) continue;
       mostShared = shared;
       least = distance;
-      const auto weights = nearestWeights(place, corners);
+      const auto weights = nearestShares(place, corners);
       start.corner = wedges;
       start.weight = {float(weights[0]), float(weights[1])};
     }

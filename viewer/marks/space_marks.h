@@ -23,7 +23,7 @@ struct SpaceMarks {
 /// Lays what is shown as layers of these names, and takes the others away. A layer of the user that has one
 /// of the names stays as it is. Whether a layer is visible, its opacity and its place stay.
 ///
-/// @param orbit nothing: there is none to mark.
+/// @param orbit nothing: no centre is marked.
 /// @param stretch vertical exaggeration of what is drawn
 void laySpaceMarks(Layers& layers, const SpaceMarks& marks, const Subject& subject, const Camera& camera,
                    const std::optional<OrbitPlace>& orbit, double stretch = 1);

@@ -95,7 +95,7 @@ class Subject {
   virtual double leastRadius() const = 0;
   /// Depth of the plane that clips what is near, in metric units, > 0.
   virtual double nearPlane() const = 0;
-  /// Returns itself if it is a terrain, and the ground of a scene; null where there is none.
+  /// Returns itself if it is a terrain, and the ground of a scene; null in a scene of surfaces alone.
   virtual const TerrainSubject* terrain() const { return nullptr; }
   /// The ground that cameras follow; null where there is none.
   virtual const GroundHeights* heights() const { return nullptr; }

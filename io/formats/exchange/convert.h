@@ -54,7 +54,7 @@ struct ConvertedMesh {
 double movedByFloats(const TriangleMesh& mesh);
 
 /// Counts all texture coordinates from the other side of their pictures, for files that were written the
-/// other way than their format says. False if there are none. O(1).
+/// other way than their format says. Returns false for a mesh without them. O(1).
 bool flipTextures(MeshAttributes& mesh);
 
 /// Writes a mesh in the format that options.format or the extension of `path` names, with its CRS, unit and
@@ -66,8 +66,8 @@ bool flipTextures(MeshAttributes& mesh);
 ///
 /// Errors: as writeMesh(), placeMesh() and placeInTarget(). usage: attributes that splits cannot keep.
 /// usage, culprit `normals`: normals are to be made of a mesh in degrees; culprit `flipV`: no texture
-/// coordinates; with the text as culprit: options.crs is not a CRS; culprit `unit`: options.crs states the unit.
-/// O(size), O(n log n) to a format that rounds.
+/// coordinates; with the text as culprit: options.crs is not a CRS; culprit `unit`: options.crs states the
+/// unit. O(size), O(n log n) to a format that rounds.
 Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& path,
                                   const ConvertOptions& options = {}, const RunContext& context = {});
 

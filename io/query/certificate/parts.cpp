@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/query/certificate/parts.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -74,6 +76,9 @@ Json toJson(const CutRequest& request) {
     json["outsideError"] = limitJson(request.outsideError);
   if (request.deadlineMilliseconds) json["deadlineMilliseconds"] = *request.deadlineMilliseconds;
   if (request.dropParts > 0) json["dropParts"] = request.dropParts;
+  for (const AttributeNumber& of : request.attributeErrors)
+    json["attributeErrors"][of.name] =
+        of.unit.empty() ? Json(of.number) : Json(fmt::format("{}{}", of.number, of.unit));
   json["method"] = request.method == CutMethod::minimal ? "minimal" : "saturated";
   if (request.fit != CutFit::none) json["fit"] = fitName(request.fit);
   return json;

@@ -94,7 +94,7 @@ Result<DecimatedOutcome> measured(SurfaceMesh mesh, const DecimationRequest& ask
   return outcome;
 }
 
-/// All attributes of vertices and wedges that a list names, or those that count where there is none.
+/// All attributes of vertices and wedges that a list names, or without a list those that count.
 Result<std::vector<AttributeWeight>> weightsOf(const SurfaceMesh& mesh, const std::string& list) {
   std::vector<AttributeWeight> weights;
   if (list.empty()) {

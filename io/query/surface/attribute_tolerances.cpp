@@ -11,11 +11,10 @@
 #include "io/formats/common/picture_pixels.h"
 #include "io/formats/common/pictures.h"
 #include "surface/attributes/attribute_distance.h"
+#include "surface/model/labels.h"
 
 namespace arete {
 namespace {
-
-constexpr std::uint32_t kMostSide = 65536;
 
 tl::unexpected<Error> refused(const AttributeNumber& asked, std::string why) {
   return failure(ErrorCode::usage, std::move(why), "attributeErrors " + asked.name);
@@ -29,10 +28,21 @@ std::uint32_t longestSide(const SurfaceModel& model) {
     for (const TextureUse& texture : material.textures) {
       const auto bytes = source.read(texture.picture);
       if (!bytes) continue;
-      if (const auto picture = decodePicture(bytes->bytes, kMostSide))
-        longest = std::max({longest, picture->width, picture->height});
+      if (const auto size = pictureSize(bytes->bytes)) longest = std::max({longest, (*size)[0], (*size)[1]});
     }
   return longest;
+}
+
+/// Why no cut keeps what is said of faces: only what parts differ by is a line of every cut. Null: it does.
+const char* whyNotKept(const SurfaceModel& model, const NamedAttribute& a) {
+  using Of = NamedAttribute::Of;
+  if (a.of == Of::vertices || a.of == Of::wedges) return nullptr;
+  if (a.of == Of::groups) return "is not kept by cuts: they may run across groups";
+  if (a.of == Of::triangles && !isLabel(model.attributes.triangleAttributes[a.index]))
+    return "is of faces and averaged, and not bounded";
+  if (!model.boundsLines && model.mayHaveLines())
+    return "is not bounded: an earlier version built the model, whose lines may move";
+  return nullptr;
 }
 
 bool isPlaceInPicture(const SurfaceModel& model, const AttributeErrors& errors) {
@@ -50,14 +60,12 @@ Result<std::vector<AttributeTolerance>> attributeTolerances(const SurfaceModel& 
   for (const AttributeNumber& one : asked) {
     const auto found = findAttributes(model.attributes, one.name);
     if (!found) return refused(one, found.error().message);
-    const bool isPart = std::ranges::any_of(*found, [](const NamedAttribute& a) {
-      return a.of != NamedAttribute::Of::vertices && a.of != NamedAttribute::Of::wedges;
-    });
-    if (isPart) {
-      if (!model.boundsLines)
-        return refused(one, "is not bounded: an earlier version built the model, whose lines may move");
-      continue;
+    bool isBounded = false;  // by vertices or corners
+    for (const NamedAttribute& a : *found) {
+      isBounded = isBounded || a.of == NamedAttribute::Of::vertices || a.of == NamedAttribute::Of::wedges;
+      if (const char* const why = whyNotKept(model, a)) return refused(one, why);
     }
+    if (!isBounded) continue;
     if (model.attributeErrors.empty())
       return refused(one, "is not bounded in this model: build it with its attributes (`boundsAttributes`)");
     double scale = 1;

@@ -12,11 +12,12 @@
 namespace arete {
 
 /// The tolerances that a request states, in the units of the model's errors. Pixels are of the largest
-/// picture of the materials, so that in every picture they are at most as many. Materials, objects and groups
-/// never change where they are lines, which is any error for them.
+/// picture of the materials, so that in every picture they are at most as many. Materials, objects and labels
+/// of faces are parts, whose edges are lines of every cut: any tolerance of them is kept.
 ///
-/// Errors: usage, culprit "attributeErrors" and the name: the model's attributes are not bounded, it has none
-/// of that name, pixels of what is not of texture coordinates, or no picture can be read.
+/// Errors: usage, culprit "attributeErrors" and the name: the model's attributes are not bounded, a group or
+/// an averaged number of faces, which cuts do not keep, no attribute of that name, pixels of what is not of
+/// texture coordinates, or no picture can be read.
 Result<std::vector<AttributeTolerance>> attributeTolerances(const SurfaceModel& model,
                                                             std::span<const AttributeNumber> asked);
 

@@ -186,6 +186,11 @@ Result<ExtractedSurface> SurfaceExtractor::extractWithin(const ExtractRequest& r
   result.fit = taken.fit;
   // Packing rounds every attribute, and normals that are made anew are not the source's.
   if (!request.packedBits) result.attributeErrors = taken.attributeErrors;
+  std::erase_if(result.attributeErrors, [&](const AttributeNumber& of) {
+    return std::ranges::any_of(request.dropAttributes, [&](const std::string& dropped) {
+      return dropped == of.name || optionNameOf(dropped) == of.name;
+    });
+  });
   if (request.normals.kind != NormalsKind::keep)
     std::erase_if(result.attributeErrors, [](const AttributeNumber& of) { return of.name == kNormalName; });
   result.leftByRounding = taken.leftByRounding;

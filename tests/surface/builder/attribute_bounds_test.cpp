@@ -113,9 +113,7 @@ struct Stated {
 
 /// The worst ratio of a distance to what is stated.
 double ratioOf(const Looks& a, const Looks& b, double distance, const Stated& stated) {
-  const auto over = [](double found, double most) {
-    return found / most;
-  };
+  const auto over = [](double found, double most) { return found / most; };
   const Vec3 d = a.color - b.color;
   const double channel = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
   const double angle =
@@ -270,6 +268,28 @@ TEST(AttributeBounds, OfThePaintedHalvesOfAPlateKeepTheLineBetweenThem) {
   std::printf("%zu triangles\n", cut->ids.size());
   EXPECT_LE(cut->ids.size(), 8u);
   EXPECT_LE(attributeErrorsOf(*model, *cut)[0], 8);
+}
+
+TEST(AttributeBounds, OfTangentsKeepTheirSign) {
+  SurfaceMesh mesh(shapes::sheet(12, 12));
+  Attribute tangent{.name = "tangent", .meaning = AttributeMeaning::tangent, .components = 4};
+  for (const Vec3& p : mesh.positions) tangent.append(std::array{1.0, 0.0, 0.0, p.x < 6 ? 1.0 : -1.0});
+  mesh.vertexAttributes = {tangent};
+  const Result<SurfaceModel> model = buildSurface(mesh, {.boundsAttributes = true});
+  ASSERT_TRUE(model);
+  const UniformError shape(model->diagonal);
+  const Result<Cut> cut = takeCut(model->mt, AttributeCriterion(shape, *model, {{0, 1}}));
+  ASSERT_TRUE(cut);
+  EXPECT_LE(attributeErrorsOf(*model, *cut)[0], 1);
+  // A triangle that is coarser than the source's has one sign, and stands for one.
+  for (const std::uint32_t t : cut->ids) {
+    if (!model->mt.remover(TriangleId(t)).isValid()) continue;
+    std::size_t negative = 0;
+    for (const std::uint32_t v : model->mt.corners(TriangleId(t)))
+      negative += model->attributes.vertexAttributes[0].numbers(v)[3] < 0 ? 1 : 0;
+    EXPECT_TRUE(negative == 0 || negative == 3);
+  }
+  EXPECT_GT(cut->ids.size(), 12u);
 }
 
 TEST(AttributeBounds, AreNotThereWithoutTheOption) {
