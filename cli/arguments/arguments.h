@@ -99,7 +99,7 @@ std::string inputPath(const std::string& path);
 /// The output of a mesh: a file, or "-" for stdout, and the format where the name does not say it.
 struct MeshOutput {
   std::string path, format;
-  bool isPacked = false, flipsV = false;
+  bool isPacked = false, isPaged = false, flipsV = false;
   int positionBits = 0;  ///< 0: as many as usual
   CLI::Option *positionBitsOption = nullptr, *flipOption = nullptr;
 

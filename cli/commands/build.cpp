@@ -48,7 +48,7 @@ struct BuildArguments {
   std::size_t featureCount = FeatureOptions{}.count;
   std::string featurePersistence;  // empty: not stated
   bool noFeatures = false;
-  bool isPacked = false;
+  bool isPacked = false, isPaged = false;
   int positionBits = 0;
   std::string fixedPath;
   double creaseAngleDegrees = -1;  // < 0: not stated
@@ -190,7 +190,7 @@ Status buildFrom(BuildArguments& arguments, const FixedVertexOptions& fixedChoic
   model.reading = arguments.dem.reading;
 
   Stopwatch writing;
-  const AmtWriteOptions options{.isPacked = arguments.isPacked};
+  const AmtWriteOptions options{.isPacked = arguments.isPacked, .isPaged = arguments.isPaged};
   ARETE_CHECK(writeAmt(arguments.output, model, session.context(), options));
   seconds.write = writing.seconds();
   report(session, arguments, model, fixed, seconds);
@@ -204,12 +204,13 @@ Status runSurfaceBuild(const BuildArguments& arguments, MeshInput input, double 
   SurfaceBuildArguments surface{arguments.dem.path, arguments.output, {}};
   surface.options.build.keepsBorders = arguments.keepsBorders;
   surface.options.build.boundsAttributes = arguments.boundsAttributes;
-  surface.isPacked = arguments.isPacked;
+  surface.isPacked = arguments.isPacked || arguments.isPaged;
+  surface.isPaged = arguments.isPaged;
   surface.positionBits = arguments.positionBits;
   surface.options.isDisplaced = arguments.isDisplaced;
   surface.options.dropAttributes = arguments.dropAttributes;
   if (surface.positionBits != 0 && !surface.isPacked)
-    return failure(ErrorCode::usage, "requires --packed", "--position-bits");
+    return failure(ErrorCode::usage, "requires --packed or --paged", "--position-bits");
   SurfaceBuildOptions& build = surface.options.build;
   build.thresholdRatio = arguments.options.thresholdRatio.value_or(build.thresholdRatio);
   if (arguments.command->count("--max-degree") > 0) build.maxDegree = arguments.options.maxDegree;
@@ -240,7 +241,7 @@ Status runBuild(BuildArguments& arguments, Session& session) {
   ARETE_CHECK(arguments.kinds.refuseOther(ModelKind::terrain));
   const DemRead dem = std::get<DemRead>(std::move(source));
   seconds.read = reading.seconds();
-  arguments.expected = announceSize(dem, arguments.output, arguments.isPacked, session);
+  arguments.expected = announceSize(dem, arguments.output, arguments.isPacked || arguments.isPaged, session);
   ARETE_CHECK(checkBuildMemory(dem.heightfield, arguments.dem.path));
   return std::visit(
       [&](const auto& field) -> Status {
@@ -290,6 +291,10 @@ void addBuildCommand(CLI::App& app, Session& session) {
   command->add_flag("--packed", arguments->isPacked,
                     "Write the compressed form: a ninth to a fifteenth of the size (of a surface a fifth);\n"
                     "it is unpacked when read");
+  command->add_flag(
+      "--paged", arguments->isPaged,
+      "Write the compressed form in pages: a query reads those that it needs, from disk or from a\n"
+      "server");
   // Options for terrain or for surfaces alone are declared as such; one check refuses them with the other
   // kind.
   OptionKinds& kinds = arguments->kinds;

@@ -65,19 +65,21 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
     return failure(ErrorCode::usage, "is for meshes; an .amt states its axes and units",
                    arguments.placing.unit.empty() ? "--up" : "--unit");
   if (arguments.normals.options != NormalsOptions{})
-    return failure(ErrorCode::usage, "is for meshes, as --crease-angle is; arete extract makes normals of a cut", "--normals");
+    return failure(ErrorCode::usage,
+                   "is for meshes, as --crease-angle is; arete extract makes normals of a cut", "--normals");
   if (arguments.place.isStated())
     return failure(ErrorCode::usage, "is for meshes; `arete extract` leads a cut there",
                    arguments.place.isMetric ? "--metric" : fmt::format("--to-crs {}", arguments.place.crs));
   ARETE_CHECK(checkOutput("--output", output, {arguments.input}));
+  const bool isPacked = arguments.output.isPacked || arguments.output.isPaged;
   ARETE_TRY(AmtContainer file, openModelFile(arguments.input));
   ARETE_CHECK(arguments.kinds.refuseOther(kindOf(file)));
   if (file.isOfSurface())
-    return convertSurfaceFile({output, arguments.output.isPacked, arguments.output.positionBits}, file,
-                              session);
+    return convertSurfaceFile({output, isPacked, arguments.output.isPaged, arguments.output.positionBits},
+                              file, session);
   ARETE_TRY(const AmtFile terrain, openAmt(std::move(file)));
   ARETE_TRY(const TerrainModel model, terrain.read({}, session.context()));
-  const AmtWriteOptions options{.isPacked = arguments.output.isPacked};
+  const AmtWriteOptions options{.isPacked = isPacked, .isPaged = arguments.output.isPaged};
   ARETE_CHECK(writeAmt(output, model, session.context(), options));
   // The size is only reported, so a failure to read it is not one of the command.
   std::error_code error;
@@ -88,7 +90,8 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
   session.answer({{"input", arguments.input},
                   {"output", output},
                   {"format", "AMT"},
-                  {"isPacked", arguments.output.isPacked},
+                  {"isPacked", isPacked},
+                  {"isPaged", arguments.output.isPaged},
                   {"bytes", bytes},
                   {"bytesPerSample", perSample}});
   return {};
@@ -96,6 +99,8 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
 
 Status runConvert(const ConvertArguments& arguments, Session& session) {
   if (isAmt(arguments.input)) return convertAmt(arguments, session);
+  if (arguments.output.isPaged)
+    return failure(ErrorCode::usage, "is for an .amt, and this is a mesh", "--paged");
   ARETE_TRY(const MeshTarget target, meshTarget(arguments.output, arguments.input, session));
   ARETE_TRY(MeshFile mesh, readMesh(arguments.input, session.context()));
   ARETE_CHECK(dropNamed(mesh.mesh, arguments.dropAttributes));
@@ -135,7 +140,8 @@ void addConvertCommand(CLI::App& app, Session& session) {
                          "  arete convert tin.ply -o tin.stl --metric\n"
                          "  arete convert scan.gltf -o - --format ply | gzip > scan.ply.gz\n"
                          "  arete convert scan.glb -o tiny.glb --packed --position-bits 14\n"
-                         "  arete convert dem.amt -o small.amt --packed",
+                         "  arete convert dem.amt -o small.amt --packed\n"
+                         "  arete convert dem.amt -o served.amt --paged",
                          [arguments](Session& s) { return runConvert(*arguments, s); });
   command->add_option("MESH", arguments->input, "Triangle mesh: " + readableMeshExtensions() + "; or .amt")
       ->required()
@@ -148,6 +154,10 @@ void addConvertCommand(CLI::App& app, Session& session) {
                    "CRS of the coordinates, where the file has none; --to-crs leads them into another")
       ->type_name("CRS");
   addDropAttributesTo(*command, arguments->dropAttributes);
+  command->add_flag(
+      "--paged", arguments->output.isPaged,
+      "Write an .amt in its packed form, in pages: a query reads those that it needs, from disk or\n"
+      "from a server");
   arguments->normals.addTo(*command);
   addPlacingTo(*command, arguments->placing);
   addPlaceTo(*command, arguments->place);

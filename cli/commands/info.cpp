@@ -38,8 +38,10 @@ struct InfoArguments {
 
 struct Facts {
   std::uint64_t bytes = 0;
-  bool isPacked = false;
+  bool isPacked = false, isPaged = false;
   std::string writer;
+  std::uint64_t vertices = 0, isolated = 0, triangles = 0, finestTriangles = 0, rootTriangles = 0,
+                rootVertices = 0, fixedVertices = 0;
   double rootError = 0, relief = 0;
   std::vector<CurvePoint> curve;
   std::vector<double> means;  ///< with --at: of the minimal cut of each point, z_TIN - z_sample
@@ -73,8 +75,8 @@ double largestRootError(const MultiTriangulation& mt) {
   return largest;
 }
 
-std::string gridText(const TerrainModel& model) {
-  if (!model.isRaster) return grouped(model.mt.vertexCount(), "scattered point", "scattered points");
+std::string gridText(const TerrainModel& model, std::uint64_t vertices) {
+  if (!model.isRaster) return grouped(vertices, "scattered point", "scattered points");
   const auto& g = model.georeference.geoTransform;
   std::string text =
       fmt::format("{} x {}", counted(model.columns, "column", "columns"), counted(model.rows, "row", "rows"));
@@ -92,14 +94,16 @@ std::string heightText(const Georeference& georeference) {
 
 void sayFacts(const InfoArguments& arguments, const TerrainModel& model, const Facts& facts,
               const Session& session) {
-  const MultiTriangulation& mt = model.mt;
   const BuildOptions& o = model.options;
   // Isolated samples are in no triangle and so no vertices, but the file holds them.
-  const double bytesPerSample = static_cast<double>(facts.bytes) /
-                                static_cast<double>(std::uint64_t{mt.vertexCount()} + model.isolated.size());
+  const double bytesPerSample =
+      static_cast<double>(facts.bytes) / static_cast<double>(facts.vertices + facts.isolated);
   std::string text = fmt::format(
       "{}: {}{}, written by {}\n", arguments.model, byteCount(facts.bytes),
-      facts.isPacked ? fmt::format(", packed ({:.1f} bytes a sample)", bytesPerSample) : "", facts.writer);
+      facts.isPacked
+          ? fmt::format(", {} ({:.1f} bytes a sample)", facts.isPaged ? "in pages" : "packed", bytesPerSample)
+          : "",
+      facts.writer);
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<14} {}\n", what, value);
   };
@@ -108,16 +112,14 @@ void sayFacts(const InfoArguments& arguments, const TerrainModel& model, const F
   line("CRS", crsName(model.georeference.crsWkt));
   line("heights", heightText(model.georeference));
   line("relief", withUnit(facts.relief, model.georeference.verticalUnit));
-  line("grid", gridText(model));
-  line("samples", fmt::format("{}{}", grouped(mt.vertexCount() + model.isolated.size()),
-                              model.isolated.empty()
-                                  ? ""
-                                  : fmt::format(", {} of them isolated", grouped(model.isolated.size()))));
-  line("triangles", fmt::format("{} at the finest, {} in all", grouped(mt.finestTriangleCount()),
-                                grouped(mt.triangleCount())));
-  line("root",
-       fmt::format("{}, {} ({} fixed)", grouped(mt.rootTriangleCount(), "triangle", "triangles"),
-                   grouped(mt.rootVertexCount(), "vertex", "vertices"), grouped(o.fixedVertices.size())));
+  line("grid", gridText(model, facts.vertices));
+  line("samples",
+       fmt::format("{}{}", grouped(facts.vertices + facts.isolated),
+                   facts.isolated == 0 ? "" : fmt::format(", {} of them isolated", grouped(facts.isolated))));
+  line("triangles",
+       fmt::format("{} at the finest, {} in all", grouped(facts.finestTriangles), grouped(facts.triangles)));
+  line("root", fmt::format("{}, {} ({} fixed)", grouped(facts.rootTriangles, "triangle", "triangles"),
+                           grouped(facts.rootVertices, "vertex", "vertices"), grouped(facts.fixedVertices)));
   line("levels", std::to_string(model.levels));
   line(
       "built with",
@@ -137,7 +139,7 @@ void sayFacts(const InfoArguments& arguments, const TerrainModel& model, const F
                         grouped(saturated), mean);
   };
   // Stated errors are answered alone; otherwise the finest and the root triangulation frame the curve.
-  if (arguments.at.empty()) row("0 (finest)", 0, mt.finestTriangleCount(), mt.finestTriangleCount());
+  if (arguments.at.empty()) row("0 (finest)", 0, facts.finestTriangles, facts.finestTriangles);
   for (std::size_t i = 0; i < facts.curve.size(); ++i)
     row(fmt::format("{:g}", facts.curve[i].maxError), facts.curve[i].maxError,
         facts.curve[i].minimalTriangles, facts.curve[i].saturatedTriangles,
@@ -145,13 +147,12 @@ void sayFacts(const InfoArguments& arguments, const TerrainModel& model, const F
         : std::isnan(facts.means[i]) ? "             unknown"
                                      : fmt::format("  {:>18.3g}", facts.means[i]));
   if (arguments.at.empty())
-    row(fmt::format("{:.4g} (root)", facts.rootError), facts.rootError, mt.rootTriangleCount(),
-        mt.rootTriangleCount());
+    row(fmt::format("{:.4g} (root)", facts.rootError), facts.rootError, facts.rootTriangles,
+        facts.rootTriangles);
   session.say(text);
 }
 
 Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const Facts& facts) {
-  const MultiTriangulation& mt = model.mt;
   const Georeference& g = model.georeference;
   Json grid = nullptr;
   if (model.isRaster)
@@ -172,6 +173,7 @@ Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const 
   return {{"file", arguments.model},
           {"bytes", facts.bytes},
           {"isPacked", facts.isPacked},
+          {"isPaged", facts.isPaged},
           {"writer", facts.writer},
           {"source", {{"path", model.source}, {"checksum", model.sourceChecksum}}},
           {"crs", crsName(g.crsWkt)},
@@ -181,15 +183,15 @@ Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const 
           {"relief", facts.relief},
           {"kind", model.isRaster ? "raster" : "points"},
           {"grid", std::move(grid)},
-          {"samples", mt.vertexCount() + model.isolated.size()},
-          {"isolated", model.isolated.size()},
-          {"vertices", mt.vertexCount()},
-          {"triangles", mt.triangleCount()},
-          {"finestTriangles", mt.finestTriangleCount()},
-          {"rootTriangles", mt.rootTriangleCount()},
-          {"rootVertices", mt.rootVertexCount()},
+          {"samples", facts.vertices + facts.isolated},
+          {"isolated", facts.isolated},
+          {"vertices", facts.vertices},
+          {"triangles", facts.triangles},
+          {"finestTriangles", facts.finestTriangles},
+          {"rootTriangles", facts.rootTriangles},
+          {"rootVertices", facts.rootVertices},
           {"rootError", facts.rootError},
-          {"fixedVertices", model.options.fixedVertices.size()},
+          {"fixedVertices", facts.fixedVertices},
           {"levels", model.levels},
           {"options",
            {{"shape", toString(model.options.shape)},
@@ -200,20 +202,24 @@ Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const 
           {"curve", std::move(curve)}};
 }
 
-Status runInfo(const InfoArguments& arguments, Session& session) {
-  if (isSceneFile(arguments.model)) {
-    if (!arguments.at.empty()) return failure(ErrorCode::usage, "is for one model, not for a scene", "--at");
-    return sayAboutScene(arguments.model, session);
+/// What a file in pages says of itself; of the curve as many of the largest tolerances as are wanted.
+void takeSummary(const AmtSummary& summary, std::size_t curvePoints, Facts& facts) {
+  facts.triangles = summary.triangles;
+  facts.finestTriangles = summary.finestTriangles;
+  facts.rootError = summary.rootError;
+  facts.relief = summary.relief;
+  const std::size_t count = std::min(curvePoints, summary.curve.size());
+  for (std::size_t i = summary.curve.size() - count; i < summary.curve.size(); ++i) {
+    const auto& [maxError, minimal, saturated] = summary.curve[i];
+    facts.curve.push_back(
+        {maxError, static_cast<std::uint32_t>(minimal), static_cast<std::uint32_t>(saturated)});
   }
-  ARETE_TRY(AmtContainer container, openModelFile(arguments.model));
-  if (container.isOfSurface())
-    return sayAboutSurface(container, arguments.at, arguments.curvePoints, session);
-  ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
-  ARETE_TRY(const TerrainModel model, file.read({}, session.context()));
-  Facts facts;
-  facts.bytes = file.bytes().size();
-  facts.writer = file.writer();
-  facts.isPacked = file.isPacked();
+}
+
+Status computeFacts(const InfoArguments& arguments, const TerrainModel& model, Facts& facts,
+                    Session& session) {
+  facts.triangles = model.mt.triangleCount();
+  facts.finestTriangles = model.mt.finestTriangleCount();
   facts.rootError = largestRootError(model.mt);
   facts.relief = reliefOf(model);
   // Stated shares are of the relief, which only the model knows.
@@ -226,9 +232,42 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
   }
   ARETE_TRY(auto curve, errorCurve(model.mt, tolerances, session.context()));
   facts.curve = std::move(curve);
-  if (!arguments.at.empty()) {
-    ARETE_TRY(auto means, meanErrors(model, tolerances, session.context()));
-    facts.means = std::move(means);
+  if (arguments.at.empty()) return {};
+  ARETE_TRY(auto means, meanErrors(model, tolerances, session.context()));
+  facts.means = std::move(means);
+  return {};
+}
+
+Status runInfo(const InfoArguments& arguments, Session& session) {
+  if (isSceneFile(arguments.model)) {
+    if (!arguments.at.empty()) return failure(ErrorCode::usage, "is for one model, not for a scene", "--at");
+    return sayAboutScene(arguments.model, session);
+  }
+  ARETE_TRY(AmtContainer container, openModelFile(arguments.model));
+  if (container.isOfSurface())
+    return sayAboutSurface(container, arguments.at, arguments.curvePoints, session);
+  ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
+  Facts facts;
+  facts.bytes = file.bytes().size();
+  facts.writer = file.writer();
+  facts.isPacked = file.isPacked();
+  facts.isPaged = file.isPaged();
+  const AmtCounts& counts = file.counts();
+  facts.vertices = counts.rootVertices + counts.nodes;
+  facts.isolated = counts.isolated;
+  facts.rootTriangles = counts.rootTriangles;
+  facts.rootVertices = counts.rootVertices;
+  facts.fixedVertices = counts.fixedVertices;
+  // A file in pages says of itself what is asked here; of any other all nodes are read.
+  const bool isSummed =
+      file.summary().isThere() && arguments.at.empty() &&
+      (arguments.curvePoints <= file.summary().curve.size() || file.summary().curve.size() < kSummarySteps);
+  TerrainModel model = file.model();
+  if (isSummed) {
+    takeSummary(file.summary(), arguments.curvePoints, facts);
+  } else {
+    ARETE_TRY(model, file.read({}, session.context()));
+    ARETE_CHECK(computeFacts(arguments, model, facts, session));
   }
   sayFacts(arguments, model, facts, session);
   Json answer = factsJson(arguments, model, facts);

@@ -131,7 +131,8 @@ Status buildSurfaceFile(const SurfaceBuildArguments& arguments, MeshInput input,
   seconds.displace = built->secondsToDisplace;
 
   Stopwatch writing;
-  const SurfaceWriteOptions options{.isPacked = arguments.isPacked, .positionBits = arguments.positionBits};
+  const SurfaceWriteOptions options{
+      .isPacked = arguments.isPacked, .isPaged = arguments.isPaged, .positionBits = arguments.positionBits};
   ARETE_CHECK(writeSurfaceModel(arguments.output, built->model, session.context(), options));
   seconds.write = writing.seconds();
   report(arguments, faces, vertices, built->model, expected, seconds, session);

@@ -13,7 +13,7 @@ namespace arete {
 struct SurfaceBuildArguments {
   std::string input, output;
   SurfaceFileOptions options;
-  bool isPacked = false;
+  bool isPacked = false, isPaged = false;
   int positionBits = 0;
 };
 

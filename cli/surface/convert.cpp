@@ -17,7 +17,8 @@ Status convertSurfaceFile(const SurfaceConvertArguments& arguments, const AmtCon
   if (arguments.positionBits != 0 && !arguments.isPacked)
     return failure(ErrorCode::usage, "requires --packed", "--position-bits");
   ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(file, AmtVerify::all, session.context()));
-  const SurfaceWriteOptions options{.isPacked = arguments.isPacked, .positionBits = arguments.positionBits};
+  const SurfaceWriteOptions options{
+      .isPacked = arguments.isPacked, .isPaged = arguments.isPaged, .positionBits = arguments.positionBits};
   ARETE_CHECK(writeSurfaceModel(arguments.output, model, session.context(), options));
   std::error_code error;
   const auto size = std::filesystem::file_size(arguments.output, error);
@@ -28,6 +29,7 @@ Status convertSurfaceFile(const SurfaceConvertArguments& arguments, const AmtCon
                   {"output", arguments.output},
                   {"format", "AMT"},
                   {"isPacked", arguments.isPacked},
+                  {"isPaged", arguments.isPaged},
                   {"bytes", bytes},
                   {"bytesPerVertex", perVertex}});
   return {};

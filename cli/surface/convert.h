@@ -11,7 +11,7 @@ namespace arete {
 
 struct SurfaceConvertArguments {
   std::string output;
-  bool isPacked = false;
+  bool isPacked = false, isPaged = false;
   int positionBits = 0;
 };
 

@@ -13,6 +13,7 @@
 #include "engine/base/counted.h"
 #include "engine/cut/front.h"
 #include "engine/cut/least_cut.h"
+#include "engine/cut/missing.h"
 #include "engine/cut/refine.h"
 #include "engine/cut/saturated_cut.h"
 #include "engine/parallel/parallel_loops.h"
@@ -132,25 +133,36 @@ Result<NodeCut> takeNodes(const MultiTriangulation& mt, const Criterion& criteri
   return caughtFailure();
 }
 
+namespace {
+
+Result<Cut> takenCut(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options,
+                     const RunContext& context) {
+  if (options.method == CutMethod::saturated) {
+    const SaturatedMembers taken = saturatedMembers(mt, *criterion.bounded(), options.maxTriangles);
+    Cut cut = frontOfClosure(mt, taken.members);
+    cut.isComplete = taken.isComplete;
+    return cut;
+  }
+  if (!options.maxTriangles && !options.deadline) {
+    const auto least = leastMembers(mt, criterion, [&] { return context.cancelled(); });
+    if (!least) return interrupted();
+    return frontOfClosure(mt, *least);
+  }
+  ARETE_TRY(const NodeCut nodes, refineWithin(mt, criterion, options, context));
+  Cut cut = front(mt, nodes.nodes);
+  cut.isComplete = nodes.isComplete;
+  return cut;
+}
+
+}  // namespace
+
 Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options,
                     const RunContext& context) try {
   ARETE_CHECK(checkOptions(mt, criterion, options));
   if (context.cancelled()) return interrupted();
   return withThreads(context, [&]() -> Result<Cut> {
-    if (options.method == CutMethod::saturated) {
-      const SaturatedMembers taken = saturatedMembers(mt, *criterion.bounded(), options.maxTriangles);
-      Cut cut = frontOfClosure(mt, taken.members);
-      cut.isComplete = taken.isComplete;
-      return cut;
-    }
-    if (!options.maxTriangles && !options.deadline) {
-      const auto least = leastMembers(mt, criterion, [&] { return context.cancelled(); });
-      if (!least) return interrupted();
-      return frontOfClosure(mt, *least);
-    }
-    ARETE_TRY(const NodeCut nodes, refineWithin(mt, criterion, options, context));
-    Cut cut = front(mt, nodes.nodes);
-    cut.isComplete = nodes.isComplete;
+    ARETE_TRY(Cut cut, takenCut(mt, criterion, options, context));
+    cut.missing = missingIn(mt, criterion, options.maxTriangles || options.deadline, cut);
     return cut;
   });
 } catch (...) {

@@ -29,6 +29,11 @@ struct Cut {
   std::uint32_t nodes = 0;         ///< nodes in the cut
   /// False when a budget or a deadline ended the refinement before the criterion was met wherever it can be.
   bool isComplete = true;
+  /// Of a part of a multitriangulation: triangles of this front that the cut of the whole refines, because
+  /// they fail the criterion and the nodes that remove them are not in the part. A caller that finds some
+  /// reads what is there and takes the cut anew, or takes this one, which is a front without holes, as it is.
+  /// (Under a budget, those that the refinement would have come to before it ended.)
+  std::vector<std::uint32_t> missing;  ///< MT triangles, rising
 };
 
 /// Two ways to take a cut, both exact (docs/topics/cuts.md).

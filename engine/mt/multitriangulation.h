@@ -70,6 +70,9 @@ struct MtArrays {
   std::span<const std::uint16_t> blockError;
   std::span<const Sphere> blockSphere;
   std::span<const std::uint32_t> creatorHint;  ///< ceil(S / 64): the node that owns slot 64 i
+  /// Of a part of an MT: a bit for each triangle id, 64 in a word, of the triangles that a node of the whole
+  /// removes and no node of the part. Empty: nothing is missing.
+  std::span<const std::uint64_t> missing;
 
   OutwardScale scale;  ///< of error and saturatedError, and of columns of such codes
   MetricFrame metric;  ///< of the spheres
@@ -154,6 +157,10 @@ class MultiTriangulation {
 
   /// The node that removes t, or invalid. Precondition: t is a triangle.
   NodeId remover(TriangleId t) const { return NodeId(a_.remover[t.index()]); }
+  /// Whether this is a part of an MT, and the node that removes t is not in it.
+  bool isRemoverMissing(TriangleId t) const {
+    return !a_.missing.empty() && (a_.missing[t.index() / 64] >> t.index() % 64 & 1) != 0;
+  }
   /// The node that creates t, or invalid for a root triangle. O(1): a hint and a short scan.
   NodeId creator(TriangleId t) const {
     if (t.index() < rootTriangleCount()) return {};

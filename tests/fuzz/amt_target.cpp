@@ -124,13 +124,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   use(*model, context);
-  const auto isCorner = [](const Box2& box) { return box.xMin <= 2 && box.yMin <= 2; };
+  const auto isCorner = [](const Box3& box) { return box.low.x <= 2 && box.low.y <= 2; };
   constexpr double kNothing = std::numeric_limits<double>::infinity();
   AmtLoadOptions corner, coarse, coarseCorner;
   corner.verify = coarse.verify = coarseCorner.verify = AmtVerify::indices;
-  corner.wanted = [&](const Box2& box) { return isCorner(box) ? 0 : kNothing; };
-  coarse.wanted = [](const Box2&) { return 0.5; };
-  coarseCorner.wanted = [&](const Box2& box) { return isCorner(box) ? 0.5 : 3; };
+  corner.wanted = [&](const Box3& box) { return isCorner(box) ? 0 : kNothing; };
+  coarse.wanted = [](const Box3&) { return 0.5; };
+  coarseCorner.wanted = [&](const Box3& box) { return isCorner(box) ? 0.5 : 3; };
   for (const AmtLoadOptions& options : {corner, coarse, coarseCorner}) {
     const auto part = loadAmt(memory.path(), options, context);
     if (part) {

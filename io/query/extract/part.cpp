@@ -98,7 +98,7 @@ Result<PartAndCut> readForBudget(const AmtFile& file, const CutRequest& requeste
   for (std::uint64_t guess = *requested.maxTriangles; guess < nodes; guess *= kGuessGrowth) {
     const double error = file.errorBeyond(guess);
     if (!(error > 0)) break;
-    ARETE_TRY(TerrainModel part, file.read({.wanted = [error](const Box2&) { return error; }}, context));
+    ARETE_TRY(TerrainModel part, file.read({.wanted = [error](const Box3&) { return error; }}, context));
     ARETE_TRY(CriterionAndCut taken, takeCutOf(part, requested, context));
     if (taken.cut.achievedError > error) return PartAndCut{std::move(part), std::move(taken.cut)};
   }

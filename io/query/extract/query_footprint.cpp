@@ -158,17 +158,18 @@ RequiredError QueryFootprint::within(double error) const {
       (*sums)[at] = (*sums)[at - 1] + (*sums)[at - kStride] - (*sums)[at - kStride - 1] +
                     isMarked_[static_cast<std::size_t>(row) * kCells + static_cast<std::size_t>(column)];
     }
-  return [places = std::make_shared<const QueryFootprint>(*this), sums, error](const Box2& box) {
-    constexpr double kNothing = std::numeric_limits<double>::infinity();
-    if (!(box.xMin <= box.xMax && box.yMin <= box.yMax)) return kNothing;
-    const auto sum = [&](int row, int column) {
-      return (*sums)[static_cast<std::size_t>(row) * kStride + static_cast<std::size_t>(column)];
-    };
-    const int left = places->columnOf(box.xMin), right = places->columnOf(box.xMax) + 1;
-    const int bottom = places->rowOf(box.yMin), top = places->rowOf(box.yMax) + 1;
-    const bool isMarked = sum(top, right) + sum(bottom, left) != sum(bottom, right) + sum(top, left);
-    return isMarked ? error : kNothing;
-  };
+  return requiredInPlan(
+      [places = std::make_shared<const QueryFootprint>(*this), sums, error](const Box2& box) {
+        constexpr double kNothing = std::numeric_limits<double>::infinity();
+        if (!(box.xMin <= box.xMax && box.yMin <= box.yMax)) return kNothing;
+        const auto sum = [&](int row, int column) {
+          return (*sums)[static_cast<std::size_t>(row) * kStride + static_cast<std::size_t>(column)];
+        };
+        const int left = places->columnOf(box.xMin), right = places->columnOf(box.xMax) + 1;
+        const int bottom = places->rowOf(box.yMin), top = places->rowOf(box.yMax) + 1;
+        const bool isMarked = sum(top, right) + sum(bottom, left) != sum(bottom, right) + sum(top, left);
+        return isMarked ? error : kNothing;
+      });
 }
 
 }  // namespace arete

@@ -15,7 +15,7 @@ namespace arete {
 
 /// Requires nothing anywhere. Only the root is read, which covers the whole terrain.
 inline RequiredError requiredNowhere() {
-  return [](const Box2&) { return std::numeric_limits<double>::infinity(); };
+  return [](const Box3&) { return std::numeric_limits<double>::infinity(); };
 }
 
 /// The places, lines and discs that queries will read, so that only this part of a file is read. They are

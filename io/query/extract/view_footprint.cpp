@@ -36,7 +36,7 @@ HeightRange metricHeights(const MultiTriangulation& mt) {
 RequiredError requiredInView(const ViewError& view, const TerrainModel& outline) {
   const HeightRange heights = metricHeights(outline.mt);
   const MetricFrame metric = outline.mt.metric();
-  return [view, heights, metric](const Box2& box) {
+  return requiredInPlan([view, heights, metric](const Box2& box) {
     const Vec3 low = metric.toMetric({box.xMin, box.yMin, 0}),
                high = metric.toMetric({box.xMax, box.yMax, 0});
     const double across = std::hypot(high.x - low.x, high.y - low.y), up = heights.high - heights.low;
@@ -51,7 +51,7 @@ RequiredError requiredInView(const ViewError& view, const TerrainModel& outline)
                                                  static_cast<float>(middle), static_cast<float>(radius)}));
     }
     return least;
-  };
+  });
 }
 
 }  // namespace arete

@@ -131,7 +131,7 @@ Result<RequiredError> requiredBy(std::span<const CutRequest> criteria, const std
     ARETE_TRY(const auto part, engineCriterion(c, region, 0, outline));
     parts.push_back(part);
   }
-  return RequiredError([parts, metric = outline.mt.metric()](const Box2& box) {
+  return requiredInPlan([parts, metric = outline.mt.metric()](const Box2& box) {
     // None of these criteria depends on heights.
     const Vec3 low = metric.toMetric({box.xMin, box.yMin, 0}),
                high = metric.toMetric({box.xMax, box.yMax, 0});

@@ -48,7 +48,8 @@ tl::unexpected<Error> AmtChunkWriter::interrupted() const {
   return failure(ErrorCode::interrupted, "writing was interrupted; the file is as it was before", path_);
 }
 
-Status AmtChunkWriter::write() {
+Status AmtChunkWriter::write(std::uint32_t version) {
+  header_.version = version;
   ARETE_CHECK(layOut());
   if (!seal()) return interrupted();
   return stream();

@@ -19,10 +19,7 @@ namespace arete {
 /// and chunks in one forward stream. The file appears under its name whole or not at all.
 class AmtChunkWriter {
  public:
-  AmtChunkWriter(std::string path, std::uint32_t version, const RunContext& context)
-      : path_(std::move(path)), context_(context) {
-    header_.version = version;
-  }
+  AmtChunkWriter(std::string path, const RunContext& context) : path_(std::move(path)), context_(context) {}
 
   /// Adds a chunk whose size is that of the shape, else write() refuses it. The bytes outlive the writer.
   void add(const AmtShape& shape, std::span<const std::byte> bytes, std::uint32_t flags = 0);
@@ -33,10 +30,12 @@ class AmtChunkWriter {
   /// Adds the checksums of the segments of all chunks before it.
   void addSegmentChecksums();
 
+  /// Writes a file of this version of the format.
+  ///
   /// Errors, naming the path: invalidData: a chunk has another size than its shape; notFound, unreadable:
   /// folder, permissions, disk full; interrupted. Every byte is read twice: for the checksums, in parallel by
   /// chunks, and for writing.
-  Status write();
+  Status write(std::uint32_t version);
 
   tl::unexpected<Error> refuse(const std::string& problem) const;
   tl::unexpected<Error> interrupted() const;

@@ -50,6 +50,11 @@ Status AmtContainer::loaded() const {
   return problem ? Status(tl::unexpected(*problem)) : Status();
 }
 
+Status AmtContainer::load(std::span<const std::span<const std::byte>> parts) const {
+  for (const std::span<const std::byte> part : parts) ARETE_CHECK(load(part));
+  return {};
+}
+
 Status AmtContainer::load(std::span<const std::byte> part) const {
   return file_->load(part) ? Status() : loaded();
 }
@@ -186,17 +191,17 @@ tl::unexpected<Error> AmtContainer::altered(const AmtChunk& chunk) const {
   return corrupt(fmt::format("has been altered: the checksum of chunk {} does not match", chunk.name()));
 }
 
-/// Checks all chunks but one, whose packets have checksums of their own and are checked when they are read.
-Status AmtContainer::checkSums(const AmtTag& leftOut, const RunContext& context) const {
-  for (const AmtChunk& chunk : chunks_)
-    if (chunk.tag != leftOut) ARETE_CHECK(load(bytes(chunk)));
+/// Packets, and the blocks that describe them, have checksums of their own and are checked when they are
+/// read: these are left out where only a part is wanted.
+Status AmtContainer::checkSums(std::span<const AmtTag> leftOut, const RunContext& context) const {
   std::vector<const AmtChunk*> chunks;
   std::vector<std::span<const std::byte>> blocks;
   for (const AmtChunk& chunk : chunks_) {
-    if (chunk.tag == leftOut) continue;
+    if (std::ranges::find(leftOut, chunk.tag) != leftOut.end()) continue;
     chunks.push_back(&chunk);
     blocks.push_back(bytes(chunk));
   }
+  ARETE_CHECK(load(blocks));
   const auto sums = amtChecksums(blocks, "check checksums", context);
   if (!sums) return failure(ErrorCode::interrupted, "the check was interrupted", path_);
   for (std::size_t i = 0; i < blocks.size(); ++i)

@@ -46,6 +46,7 @@ class AmtContainer {
   /// Reads a part of bytes() from a file that is read piece by piece. Every part has to be loaded before it
   /// is used: it is zeros until then. Thread-safe. Errors: unreadable: the file was changed.
   Status load(std::span<const std::byte> part) const;
+  Status load(std::span<const std::span<const std::byte>> parts) const;
   Status loadAll() const { return load(bytes()); }
   /// The first error of load(), on any thread.
   Status loaded() const;
@@ -54,7 +55,8 @@ class AmtContainer {
   bool isOfSurface() const {
     return find(amt_tag::kPlaces) != nullptr || find(amt_tag::kPackedNumbers) != nullptr;
   }
-  bool isPacked() const { return find(amt_tag::kPackedDirectory) != nullptr; }
+  bool isPaged() const { return find(amt_tag::kPageRoot) != nullptr; }
+  bool isPacked() const { return isPaged() || find(amt_tag::kPackedDirectory) != nullptr; }
   /// Null if there is no such chunk.
   const AmtChunk* find(AmtTag tag) const;
   std::span<const std::byte> bytes(const AmtChunk& chunk) const {
@@ -70,9 +72,10 @@ class AmtContainer {
     const AmtChunk& chunk = *find(tag);
     return {reinterpret_cast<const T*>(file_->bytes().data() + chunk.offset), chunk.bytes / sizeof(T)};
   }
-  /// Compares the checksums of chunks, but for those of one tag, and checks that the bytes between chunks are
-  /// zero. Errors: corrupt: names the chunk; interrupted. Reads the whole file, in parallel.
-  Status checkSums(const AmtTag& leftOut, const RunContext& context) const;
+  /// Compares the checksums of chunks, but for those of some tags. Errors: corrupt: names the chunk;
+  /// interrupted. Reads the chunks, in parallel.
+  Status checkSums(std::span<const AmtTag> leftOut, const RunContext& context) const;
+  /// Checks that the bytes between chunks are zero. Errors: corrupt.
   Status checkZeros() const;
   /// That a chunk does not have its checksum.
   tl::unexpected<Error> altered(const AmtChunk& chunk) const;

@@ -10,8 +10,10 @@
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
 #include "io/store/amt/container.h"
+#include "io/store/format/columns.h"
 #include "io/store/format/layout.h"
 #include "io/store/format/required_error.h"
+#include "io/store/format/summary.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {
@@ -28,6 +30,7 @@ struct AmtMetadata;
 struct AmtWriteOptions {
   std::string writer = {};  ///< names the program in the file; empty = "Arete" and its version
   bool isPacked = false;    ///< compressed: see io/store/packed/packed.h for what changes
+  bool isPaged = false;     ///< compressed, in pages that are read one by one
 };
 
 /// Writes the model. The same model and writer give the same bytes. The file appears under its name whole or
@@ -55,7 +58,8 @@ class AmtFile {
   const std::string& path() const { return container_.path(); }
   /// Of a file that is read piece by piece (AmtOpenOptions::isCopied) only what was read.
   std::span<const std::byte> bytes() const { return container_.bytes(); }
-  /// Loads everything but packed nodes. Errors: unreadable: the file was changed while it was open.
+  /// Loads everything but packed nodes and the directory of pages below its root. Errors: unreadable: the
+  /// file was changed while it was open.
   Status loadAllButPacked() const;
   const AmtContainer& container() const { return container_; }
   /// The program that wrote the file.
@@ -66,11 +70,16 @@ class AmtFile {
 
   /// Whether the MT is packed. Then model() has no MT, and read() unpacks it.
   bool isPacked() const { return packedNodes_.data() != nullptr; }
+  /// Whether it is packed in pages.
+  bool isPaged() const { return pageBlocks_.data() != nullptr; }
   /// Whether the segments of the arrays have checksums, so that a part can be read alone. True for files that
   /// are not packed, except those of earlier builds of Arete.
   bool hasSegments() const { return segmentChecksums_.data() != nullptr; }
   std::span<const std::uint64_t> segmentChecksums() const { return segmentChecksums_; }
 
+  /// What its metadata says of a file in pages; of another file nothing (AmtSummary::isThere()).
+  const AmtSummary& summary() const { return summary_; }
+  const AmtCounts& counts() const { return counts_; }
   /// The number of nodes, of the metadata.
   std::uint64_t nodeCount() const { return nodeCount_; }
   /// Approximately the largest saturated error outside the `nodes` nodes with the largest ones. Reading with
@@ -107,7 +116,9 @@ class AmtFile {
   std::span<const double> isolatedHeights_;
   std::span<const std::uint64_t> segmentChecksums_;
   std::uint64_t nodeCount_ = 0;
-  std::span<const std::byte> packedDirectory_, packedTables_, packedNodes_;
+  AmtCounts counts_;
+  AmtSummary summary_;
+  std::span<const std::byte> packedDirectory_, packedTables_, packedNodes_, pageBlocks_;
 };
 
 /// Maps or opens the file and reads its header, directory and metadata, which lie together at its beginning;

@@ -16,6 +16,7 @@ template <class Model>
 Status checkColumns(const AmtContainer& file, AmtFacts& facts) {
   const auto has = [&](const AmtTag& tag) { return file.find(tag) != nullptr; };
   facts.isPacked = file.isPacked();
+  facts.isPaged = file.isPaged();
   facts.hasDisplacement = has(amt_tag::kDirections) || has(amt_tag::kReaches);
   if (has(amt_tag::kSegmentChecksums)) {
     facts.segments = 0;

@@ -25,8 +25,7 @@ std::span<const std::byte> bytesOf(const auto& elements) {
 template <class Model>
 class AmtModelWriter {
  public:
-  AmtModelWriter(std::string path, const RunContext& context)
-      : chunks_(std::move(path), kAmtVersionOf<Model>, context) {}
+  AmtModelWriter(std::string path, const RunContext& context) : chunks_(std::move(path), context) {}
 
   AmtChunkWriter& chunks() { return chunks_; }
 
@@ -55,7 +54,7 @@ class AmtModelWriter {
       chunks_.add(amtShapeOf(row, facts, bytes.size()), bytes, row.flags);
     }
     if (!facts.isPacked) chunks_.addSegmentChecksums();
-    return chunks_.write();
+    return chunks_.write(amtVersionOf<Model>(facts));
   }
 
  private:
@@ -70,10 +69,12 @@ class AmtModelWriter {
   std::string json_;
 };
 
-/// The three chunks that nodes of either kind are packed in.
+/// The chunks that nodes of either kind are packed in.
 template <class Model>
 void makePacked(const PackedMt& packed, AmtModelWriter<Model>& file) {
-  file.make(amt_tag::kPackedDirectory, bytesOf(packed.directory));
+  file.make(packed.blocks.empty() ? amt_tag::kPackedDirectory : amt_tag::kPageRoot,
+            bytesOf(packed.directory));
+  file.make(amt_tag::kPageBlocks, bytesOf(packed.blocks));
   file.make(amt_tag::kPackedTables, bytesOf(packed.tables));
   file.make(amt_tag::kPackedNodes, bytesOf(packed.nodes));
 }

@@ -51,9 +51,19 @@ std::uint32_t ownerOf(const MtArrays& a, std::uint32_t slot) {
   return MultiTriangulation::kNone;
 }
 
+/// MtArrays::missing of so many triangles.
+std::vector<std::uint64_t> noneMissing(std::size_t triangles) {
+  return std::vector<std::uint64_t>((triangles + 63) / 64, 0);
+}
+void markMissing(std::vector<std::uint64_t>& missing, std::size_t triangle) {
+  std::atomic_ref(missing[triangle / 64])
+      .fetch_or(std::uint64_t{1} << triangle % 64, std::memory_order_relaxed);
+}
+
 struct PrefixArrays {
   MultiTriangulation whole;
   UninitializedVector<std::uint32_t> remover;
+  std::vector<std::uint64_t> missing;
   NodeBlocks blocks;
 };
 
@@ -96,6 +106,7 @@ struct SubsetArrays {
   MultiTriangulation whole;  // whose root it shares
   UninitializedVector<std::uint32_t> slotBegin, link, remover, floor, creatorHint;
   CopiedColumns ofTriangles, ofNodes, ofVertices;
+  std::vector<std::uint64_t> missing;
   NodeBlocks blocks;
 
   MultiTriangulation model(std::shared_ptr<const void> owner) {
@@ -109,6 +120,7 @@ struct SubsetArrays {
     blocks = makeNodeBlocks(a.saturatedError, a.sphere);
     a.blockError = blocks.error;
     a.blockSphere = blocks.sphere;
+    a.missing = missing;
     return {a, std::move(owner)};
   }
 };
@@ -174,6 +186,7 @@ class SubsetCopy {
     to.slotBegin.resize(nodes + 1);
     to.link.resize(slots_);
     to.remover.resize(ids);
+    to.missing = noneMissing(ids);
     to.floor.resize(slots_ - 2 * nodes);
     to.creatorHint.resize((std::size_t{slots_} + MultiTriangulation::kSlotsPerHint - 1) /
                           MultiTriangulation::kSlotsPerHint);
@@ -229,6 +242,8 @@ class SubsetCopy {
       remover = rank;
     else if (r < a_.saturatedError.size() && nodes_.contains(r))
       remover = nodes_.rankOf(r);
+    else if (r != MultiTriangulation::kNone)
+      markMissing(to_->missing, t);
     to_->remover[t] = remover;
   }
 
@@ -273,9 +288,13 @@ std::optional<MultiTriangulation> prefixOfMt(const MultiTriangulation& whole, st
   const auto arrays = std::make_shared<PrefixArrays>();
   arrays->whole = whole;
   arrays->remover.resize(ids);
+  arrays->missing = noneMissing(ids);
   parallelFor(IndexRange<std::size_t>(0, ids, kGrain), [&](const auto& range) {
-    for (std::size_t t = range.begin(); t < range.end(); ++t)
-      arrays->remover[t] = a.remover[t] < nodes ? a.remover[t] : MultiTriangulation::kNone;
+    for (std::size_t t = range.begin(); t < range.end(); ++t) {
+      const bool isHere = a.remover[t] < nodes;
+      arrays->remover[t] = isHere ? a.remover[t] : MultiTriangulation::kNone;
+      if (!isHere && a.remover[t] != MultiTriangulation::kNone) markMissing(arrays->missing, t);
+    }
   });
   const auto copyBlocks = [&](std::uint64_t first, std::uint64_t count) {
     const auto from = static_cast<std::ptrdiff_t>(first), size = static_cast<std::ptrdiff_t>(count);
@@ -292,6 +311,7 @@ std::optional<MultiTriangulation> prefixOfMt(const MultiTriangulation& whole, st
     if (column.per != AmtPer::block)
       column.mt.put(a, column.mt.bytes(a).first(amtCountOf(column.per, facts) * column.elementBytes()));
   a.remover = arrays->remover;
+  a.missing = arrays->missing;
   a.blockError = arrays->blocks.error;
   a.blockSphere = arrays->blocks.sphere;
   return MultiTriangulation(a, arrays);

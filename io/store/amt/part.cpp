@@ -80,8 +80,10 @@ class PartReader {
     const double y[2] = {(ball.y - reach) / metric.scale.y + metric.origin.y,
                          (ball.y + reach) / metric.scale.y + metric.origin.y};
     if (!std::isfinite(x[0] + x[1] + y[0] + y[1])) return 0;
-    return required_(
-        {std::min(x[0], x[1]), std::min(y[0], y[1]), std::max(x[0], x[1]), std::max(y[0], y[1])});
+    Box3 box;
+    box.low = {std::min(x[0], x[1]), std::min(y[0], y[1]), box.low.z};
+    box.high = {std::max(x[0], x[1]), std::max(y[0], y[1]), box.high.z};
+    return required_(box);
   }
 
   Status checkSegmentChecksums() const {

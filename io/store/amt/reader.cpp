@@ -63,6 +63,8 @@ Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
   file_.writer_ = metadata.writer;
   file_.model_ = metadata.model;
   file_.nodeCount_ = metadata.counts.nodes;
+  file_.counts_ = metadata.counts;
+  file_.summary_ = metadata.summary;
   place(amt_tag::kIsolatedSamples, file_.isolatedSamples_);
   place(amt_tag::kIsolatedHeights, file_.isolatedHeights_);
   place(amt_tag::kFixedVertices, file_.fixedVertices_);
@@ -70,7 +72,8 @@ Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
   MtArrays a;
   a.rootVertices = static_cast<std::uint32_t>(metadata.counts.rootVertices);
   if (facts.isPacked) {
-    place(amt_tag::kPackedDirectory, file_.packedDirectory_);
+    place(facts.isPaged ? amt_tag::kPageRoot : amt_tag::kPackedDirectory, file_.packedDirectory_);
+    if (facts.isPaged) place(amt_tag::kPageBlocks, file_.pageBlocks_);
     place(amt_tag::kPackedTables, file_.packedTables_);
     place(amt_tag::kPackedNodes, file_.packedNodes_);
     file_.metadata_ = std::make_shared<const AmtMetadata>(metadata);
@@ -96,15 +99,19 @@ Result<AmtFile> AmtOpener::open(AmtContainer container) {
 
 // Packed nodes are left out here: each packet is loaded when it is decoded.
 Status AmtFile::loadAllButPacked() const {
+  std::vector<std::span<const std::byte>> parts;
   for (const AmtChunk& chunk : chunks())
-    if (chunk.tag != amt_tag::kPackedNodes) ARETE_CHECK(container_.load(bytes(chunk)));
-  return {};
+    if (chunk.tag != amt_tag::kPackedNodes && chunk.tag != amt_tag::kPageBlocks)
+      parts.push_back(bytes(chunk));
+  return container_.load(parts);
 }
 
 double AmtFile::errorBeyond(std::uint64_t nodes) const {
-  if (isPacked())
-    return container_.load(packedDirectory_) ? packedErrorBeyond(packedDirectory_, metadata_->scale, nodes)
-                                             : 0;
+  if (isPacked()) {
+    if (!container_.load(packedDirectory_)) return 0;
+    return isPaged() ? pagedErrorBeyond(packedDirectory_, metadata_->scale, nodes)
+                     : packedErrorBeyond(packedDirectory_, metadata_->scale, nodes);
+  }
   if (!hasSegments()) return 0;
   const MtArrays& a = model_.mt.arrays();
   if (!container_.load(std::as_bytes(a.blockError))) return 0;
@@ -123,8 +130,11 @@ Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const 
   if (!isPacked()) return model_.mt;
   const AmtContainer& all = container_;
   Result<MultiTriangulation> mt =
-      unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options.wanted, context,
-               [&all](std::span<const std::byte> packet) { return all.load(packet).has_value(); });
+      isPaged()
+          ? unpackMt(*metadata_, {packedDirectory_, packedTables_, pageBlocks_, packedNodes_}, options.wanted,
+                     context, [&all](const auto& parts) { return all.load(parts); })
+          : unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options.wanted, context,
+                     [&all](std::span<const std::byte> packet) { return all.load(packet).has_value(); });
   ARETE_CHECK(container_.loaded());
   if (!mt) return failure(mt.error().code, mt.error().message, path());
   return mt;
@@ -209,10 +219,14 @@ class SurfaceReading {
 
  private:
   Status unpackNodes() {
+    const auto bytes = [&](const AmtTag& tag) { return all_.elements<std::byte>(tag); };
+    const auto tables = bytes(amt_tag::kPackedTables), nodes = bytes(amt_tag::kPackedNodes);
     Result<MultiTriangulation> mt =
-        unpackSurfaceMt(metadata_, all_.elements<std::byte>(amt_tag::kPackedDirectory),
-                        all_.elements<std::byte>(amt_tag::kPackedTables),
-                        all_.elements<std::byte>(amt_tag::kPackedNodes), context_);
+        facts_.isPaged
+            ? unpackSurfaceMt(metadata_,
+                              {bytes(amt_tag::kPageRoot), tables, bytes(amt_tag::kPageBlocks), nodes}, {},
+                              context_, {})
+            : unpackSurfaceMt(metadata_, bytes(amt_tag::kPackedDirectory), tables, nodes, context_);
     if (!mt) return failure(mt.error().code, mt.error().message, all_.path());
     model_.mt = std::move(*mt);
     model_.attributes.wedgeCount = static_cast<std::uint32_t>(metadata_.wedges);

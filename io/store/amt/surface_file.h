@@ -18,6 +18,7 @@ namespace arete {
 struct SurfaceWriteOptions {
   std::string writer = {};  ///< names the program in the file; empty = "Arete" and its version
   bool isPacked = false;    ///< compressed: see io/store/packed/packed.h for what changes
+  bool isPaged = false;     ///< compressed, in pages that are read one by one
   int positionBits = 0;     ///< of a packed file: see SurfacePackOptions
 };
 

@@ -3,6 +3,7 @@
 // Files of both kinds: each makes what no array of its model is, and the schema is written (model_writer.h).
 // The arrays must have the sizes that the reader requires (amtShapeOf()), so that what is written can be
 // opened.
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,6 +20,8 @@
 #include "io/store/packed/surface/displacement_bytes.h"
 #include "io/store/packed/surface/source_numbers.h"
 #include "surface/model/renumbered.h"
+#include "terrain/model/error_curve.h"
+#include "terrain/model/relief.h"
 
 namespace arete {
 namespace {
@@ -30,13 +33,15 @@ class TerrainWriting {
       : path_(path), model_(model), context_(context), file_(path, context) {}
 
   Status run(const AmtWriteOptions& options) {
-    const AmtMetadata metadata =
+    AmtMetadata metadata =
         amtMetadataOf(model_, options.writer.empty() ? "Arete " ARETE_VERSION : options.writer);
+    if (options.isPaged) ARETE_CHECK(summarize(metadata.summary));
     ARETE_CHECK(file_.describe(metadata));
     const VertexArrays& vertices = model_.mt.vertices();
     if (model_.isRaster != vertices.isLattice() || model_.columns != vertices.columns)
       return file_.chunks().refuse("its vertices are not of its grid");
-    if (options.isPacked) ARETE_CHECK(pack());
+    const bool isPacked = options.isPacked || options.isPaged;
+    if (isPacked) ARETE_CHECK(pack(options.isPaged));
     // IsolatedSample has padding of undefined bytes, so its members are written as two arrays.
     for (const IsolatedSample& sample : model_.isolated) {
       isolatedSamples_.push_back(sample.sample);
@@ -45,13 +50,27 @@ class TerrainWriting {
     file_.make(amt_tag::kIsolatedSamples, bytesOf(isolatedSamples_));
     file_.make(amt_tag::kIsolatedHeights, bytesOf(isolatedHeights_));
     AmtFacts facts = amtFactsOf(metadata);
-    facts.isPacked = options.isPacked;
+    facts.isPacked = isPacked;
+    facts.isPaged = options.isPaged;
     return file_.write(model_, facts);
   }
 
  private:
-  Status pack() {
-    Result<PackedMt> packed = packMt(model_, context_);
+  Status summarize(AmtSummary& summary) const {
+    const MultiTriangulation& mt = model_.mt;
+    summary.triangles = mt.triangleCount();
+    summary.finestTriangles = mt.finestTriangleCount();
+    summary.relief = reliefOf(model_);
+    for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t)
+      summary.rootError = std::max(summary.rootError, mt.error(TriangleId(t)));
+    ARETE_TRY(const auto curve, errorCurve(mt, toleranceLadder(mt, kSummarySteps), context_));
+    for (const CurvePoint& p : curve)
+      summary.curve.push_back({p.maxError, double(p.minimalTriangles), double(p.saturatedTriangles)});
+    return {};
+  }
+
+  Status pack(bool isPaged) {
+    Result<PackedMt> packed = packMt(model_, {isPaged}, context_);
     if (!packed) {
       if (packed.error().code == ErrorCode::interrupted) return file_.chunks().interrupted();
       return failure(packed.error().code, "the model cannot be packed: " + packed.error().message, path_);
@@ -76,12 +95,13 @@ struct PackedModel {
 };
 
 /// Packs the MT, and takes the model in the order of the packed MT. Displacements stay as they are.
-Result<PackedModel> packModel(const SurfaceModel& source, int positionBits, const RunContext& context) {
+Result<PackedModel> packModel(const SurfaceModel& source, const SurfacePackOptions& options,
+                              const RunContext& context) {
   const auto refuse = [](Error error) {
     if (error.code != ErrorCode::interrupted) error.message = "the model cannot be packed: " + error.message;
     return tl::unexpected(std::move(error));
   };
-  Result<PackedSurfaceMt> packed = packSurfaceMt(source.mt, {positionBits}, context);
+  Result<PackedSurfaceMt> packed = packSurfaceMt(source.mt, options, context);
   if (!packed) return refuse(packed.error());
   SurfaceMetadata metadata = amtMetadataOf(source, {});
   metadata.hasDoubles = packed->hasDoubles;
@@ -90,7 +110,9 @@ Result<PackedModel> packModel(const SurfaceModel& source, int positionBits, cons
   metadata.model.positionError += packed->moved;
   const PackedMt& bytes = packed->bytes;
   const Result<MultiTriangulation> mt =
-      unpackSurfaceMt(metadata, bytes.directory, bytes.tables, bytes.nodes, context);
+      options.isPaged ? unpackSurfaceMt(metadata, {bytes.directory, bytes.tables, bytes.blocks, bytes.nodes},
+                                        {}, context, {})
+                      : unpackSurfaceMt(metadata, bytes.directory, bytes.tables, bytes.nodes, context);
   if (!mt) return refuse(mt.error());
   SurfaceModel model = renumbered(source, *mt, packed->order.vertexOf, packed->order.triangleOf);
   model.positionError += packed->moved;
@@ -106,15 +128,17 @@ class SurfaceWriting {
 
   Status run(const SurfaceWriteOptions& options) {
     if (const Status valid = model().validate(); !valid) return file_.chunks().refuse(valid.error().message);
-    if (options.isPacked) ARETE_CHECK(pack(options.positionBits));
+    const bool isPacked = options.isPacked || options.isPaged;
+    if (isPacked) ARETE_CHECK(pack({options.positionBits, options.isPaged}));
     SurfaceMetadata metadata =
         amtMetadataOf(model(), options.writer.empty() ? "Arete " ARETE_VERSION : options.writer);
     metadata.positionStep = packed_.step;
     ARETE_CHECK(file_.describe(metadata));
     AmtFacts facts = amtFactsOf(metadata);
-    facts.isPacked = options.isPacked;
+    facts.isPacked = isPacked;
+    facts.isPaged = options.isPaged;
     facts.hasDisplacement = !model().displacement.isEmpty();
-    if (options.isPacked)
+    if (isPacked)
       makePackedNumbers();
     else if (!facts.hasAllFaces)
       makeFinestFaces();
@@ -125,8 +149,8 @@ class SurfaceWriting {
  private:
   const SurfaceModel& model() const { return packedModel_ ? *packedModel_ : source_; }
 
-  Status pack(int positionBits) {
-    Result<PackedModel> both = packModel(source_, positionBits, context_);
+  Status pack(const SurfacePackOptions& options) {
+    Result<PackedModel> both = packModel(source_, options, context_);
     if (!both) {
       if (both.error().code == ErrorCode::interrupted) return file_.chunks().interrupted();
       return failure(both.error().code, both.error().message, path_);
@@ -197,7 +221,7 @@ Status writeSurfaceAmt(const std::string& path, const SurfaceModel& model, const
 
 Result<SurfaceModel> roundSurface(const SurfaceModel& model, int positionBits,
                                   const RunContext& context) try {
-  ARETE_TRY(PackedModel both, packModel(model, positionBits, context));
+  ARETE_TRY(PackedModel both, packModel(model, {positionBits}, context));
   if (both.packed.moved > 0) both.model.displacement = {};
   return std::move(both.model);
 } catch (...) {

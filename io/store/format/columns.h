@@ -41,6 +41,7 @@ struct AmtFacts {
   std::uint64_t finestTriangles = 0;
 
   bool isPacked = false, hasDisplacement = false;
+  bool isPaged = false;                   ///< packed in pages
   std::optional<std::uint64_t> segments;  ///< of a file that has checksums of them
 };
 

@@ -111,6 +111,10 @@ class Writer {
     nlohmann::ordered_json& row = object_[key] = nlohmann::ordered_json::array();
     for (const std::string& text : texts) row.push_back(exactText(text));
   }
+  template <std::size_t N>
+  void optional(const char* key, const std::vector<std::array<double, N>>& rows) {
+    if (!rows.empty()) object_[key] = rows;
+  }
   void flag(const char* key, bool isSet) {
     if (isSet) field(key, isSet);
   }
@@ -222,6 +226,15 @@ class Reader {
       // Each is read as a field of its own, so that the forms of a text are known in one place.
       const JsonTree<Json> single(Json{{key, element}});
       Reader(*single, prefix_, problem_).field(key, texts.emplace_back());
+    }
+  }
+  template <std::size_t N>
+  void optional(const char* key, std::vector<std::array<double, N>>& rows) {
+    if (!object_.contains(key)) return;
+    if (!object_[key].is_array()) return fail(key, "is not an array of rows");
+    for (const Json& element : object_[key]) {
+      const JsonTree<Json> single(Json{{key, element}});
+      Reader(*single, prefix_, problem_).field(key, rows.emplace_back());
     }
   }
   void flag(const char* key, bool& isSet) {

@@ -99,6 +99,9 @@ inline constexpr AmtTag kHeights = {'H', 'G', 'H', 'T'};
 inline constexpr AmtTag kPackedDirectory = {'P', 'D', 'I', 'R'};
 inline constexpr AmtTag kPackedTables = {'P', 'T', 'A', 'B'};
 inline constexpr AmtTag kPackedNodes = {'P', 'N', 'O', 'D'};
+// In a paged file, in place of the directory of a packed one:
+inline constexpr AmtTag kPageRoot = {'P', 'A', 'G', 'E'};
+inline constexpr AmtTag kPageBlocks = {'P', 'B', 'L', 'K'};
 // In every file:
 inline constexpr AmtTag kIsolatedSamples = {'I', 'S', 'A', 'M'};
 inline constexpr AmtTag kIsolatedHeights = {'I', 'H', 'G', 'T'};

@@ -8,6 +8,7 @@
 
 #include "engine/base/result.h"
 #include "io/store/format/metadata_head.h"
+#include "io/store/format/summary.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {
@@ -16,6 +17,7 @@ namespace arete {
 struct AmtMetadata : AmtHead {
   TerrainModel model;  ///< without mt, isolated samples and fixed vertices
   HeightEncoding encoding;
+  AmtSummary summary;  ///< of a file in pages
 };
 
 /// The metadata of a model.

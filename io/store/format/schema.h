@@ -39,10 +39,21 @@ inline constexpr std::array kNodeRows = {
     ofMt<Model, &MtArrays::blockSphere>(amt_tag::kBlockSphere, AmtPer::block, AmtCoding::derived),
     ofMt<Model, &MtArrays::creatorHint>(amt_tag::kCreatorHint, AmtPer::hint, AmtCoding::derived),
 };
+inline constexpr bool isPaged(const AmtFacts& f) {
+  return f.isPaged;
+}
+inline constexpr bool isUnpaged(const AmtFacts& f) {
+  return !f.isPaged;
+}
+/// The root of the directory of pages follows the metadata, so that it lies at the beginning of the file.
 template <class Model>
 inline constexpr std::array kPackedRows = {
-    made<Model, std::byte>(amt_tag::kPackedDirectory, AmtPer::any, AmtCoding::packed),
+    made<Model, std::byte>(amt_tag::kPageRoot, AmtPer::any, AmtCoding::packed,
+                           {.since = 3, .flags = kAmtRequired, .when = isPaged}),
+    made<Model, std::byte>(amt_tag::kPackedDirectory, AmtPer::any, AmtCoding::packed, {.when = isUnpaged}),
     made<Model, std::byte>(amt_tag::kPackedTables, AmtPer::any, AmtCoding::packed),
+    made<Model, std::byte>(amt_tag::kPageBlocks, AmtPer::any, AmtCoding::packed,
+                           {.since = 3, .flags = kAmtRequired, .when = isPaged}),
     made<Model, std::byte>(amt_tag::kPackedNodes, AmtPer::any, AmtCoding::packed),
 };
 /// Files written by early builds of Arete lack it.
@@ -179,10 +190,14 @@ inline constexpr bool kIsPackable = std::ranges::none_of(kAmtSchema<Model>, [](c
 });
 static_assert(kIsPackable<TerrainModel> && kIsPackable<SurfaceModel>);
 
-/// The version of the files of a kind of model: the first one that has all of its columns.
+/// The version of a file of such facts: the first one that has all of its columns.
 template <class Model>
-inline constexpr std::uint32_t kAmtVersionOf =
-    std::ranges::max_element(kAmtSchema<Model>, {}, &AmtColumn::since)->since;
+std::uint32_t amtVersionOf(const AmtFacts& facts) {
+  std::uint32_t version = kAmtVersion;
+  for (const AmtRow<Model>& row : kAmtSchema<Model>)
+    if (row.isIn(facts)) version = std::max(version, row.since);
+  return version;
+}
 
 /// The arrays of a multitriangulation, of either kind, as columns that copies and checks walk over.
 struct AmtMtColumn : AmtColumn {

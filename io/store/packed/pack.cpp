@@ -18,6 +18,8 @@
 #include "io/store/packed/nodes/order.h"
 #include "io/store/packed/nodes/plan.h"
 #include "io/store/packed/packed.h"
+#include "io/store/packed/pages/directory_blocks.h"
+#include "io/store/packed/pages/page_header.h"
 #include "io/store/packed/surface/rounded_surface.h"
 #include "io/store/packed/writer_io.h"
 #include "terrain/model/terrain_model.h"
@@ -29,10 +31,13 @@ namespace {
 class Packer {
  public:
   /// @param wantsOrder whether takeOrder() is needed: not where nothing beside the MT is in its order
-  Packer(const MultiTriangulation& mt, const MtKind& kind, bool wantsOrder, const RunContext& context)
-      : context_(context), wantsOrder_(wantsOrder), plan_(planPackets(mt, kind)), walk_{mt, plan_, arrays_,
-                                                                                        {}, {},    {},
-                                                                                        {}, {}} {
+  Packer(const MultiTriangulation& mt, const MtKind& kind, bool isPaged, bool wantsOrder,
+         const RunContext& context)
+      : context_(context),
+        isPaged_(isPaged),
+        wantsOrder_(wantsOrder),
+        plan_(planPackets(mt, kind, isPaged ? kPageRule : PlanRule())),
+        walk_{mt, plan_, arrays_, {}, {}, {}, {}, {}} {
     static_cast<MtKind&>(arrays_) = kind;
   }
 
@@ -41,7 +46,7 @@ class Packer {
       return failure(ErrorCode::invalidData, "has more triangles in its root than can be packed");
     if (!prepare()) return failure(ErrorCode::outOfMemory, "needs more memory to be packed than there is");
     const auto& packets = plan_.directory.packets;
-    std::vector<Streams> streams(packets.size());
+    std::vector<std::vector<Streams>> streams(packets.size());
     std::uint64_t done = 0;
     const auto problem = forPackets(
         packets, Direction::forwards, context_, [&](std::size_t i) { return walkPacket(i, streams[i]); },
@@ -64,9 +69,14 @@ class Packer {
     if (context_.cancelled()) return failure(ErrorCode::interrupted, "packing was interrupted");
     plan_.directory.number();
     PackedMt packed;
-    packed.directory = toBytes(plan_.directory);
+    if (isPaged_) {
+      PageDirectoryBytes pages = pageDirectoryBytes(plan_.directory);
+      packed.directory = std::move(pages.root);
+      packed.blocks = std::move(pages.blocks);
+    } else {
+      packed.directory = toBytes(plan_.directory);
+    }
     packed.tables = toBytes(tables);
-    packed.nodes.reserve(packets.back().offset + packets.back().bytes());
     for (auto& b : bytes) {
       packed.nodes.insert(packed.nodes.end(), b.begin(), b.end());
       b = {};
@@ -118,14 +128,11 @@ class Packer {
     spaces_.clear();
   }
 
-  std::optional<std::string> walkPacket(std::size_t i, Streams& streams) {
-    Streams& recorded = spaces_.local().streams;
-    recorded.clear();
-    WriterIo io(walk_, static_cast<std::uint32_t>(i), recorded);
+  std::optional<std::string> walkPacket(std::size_t i, std::vector<Streams>& segments) {
+    WriterIo io(walk_, static_cast<std::uint32_t>(i), spaces_.local().streams, segments);
     std::optional<std::string> bad =
         withForm(arrays_, [&](auto form) { return walkNodes<decltype(form)>(i, io); });
-    recorded.rawBits = io.rawBits.take();
-    streams = recorded;  // a copy without spare capacity; `recorded` keeps its memory for the next packet
+    io.finish();
     return bad;
   }
 
@@ -138,35 +145,56 @@ class Packer {
     return std::nullopt;
   }
 
-  static std::vector<RansTable> tablesFor(const std::vector<Streams>& streams) {
+  static std::vector<RansTable> tablesFor(const std::vector<std::vector<Streams>>& streams) {
     std::vector<std::array<std::uint64_t, RansTable::kAlphabet>> counts(kTables);
-    for (const Streams& s : streams)
-      for (const auto& symbols : s.symbols)
-        for (const RansSymbol symbol : symbols) ++counts[symbol.table][symbol.symbol];
+    for (const auto& segments : streams)
+      for (const Streams& s : segments)
+        for (const auto& symbols : s.symbols)
+          for (const RansSymbol symbol : symbols) ++counts[symbol.table][symbol.symbol];
     std::vector<RansTable> tables;
     for (const auto& c : counts) tables.push_back(RansTable::ofCounts(c));
     return tables;
   }
 
-  std::vector<std::byte> encode(Packet& packet, Streams& streams, std::span<const RansTable> tables,
-                                bool isFirst) const {
+  /// The bytes of a packet: its segments, one after the other.
+  std::vector<std::byte> encode(Packet& packet, std::vector<Streams>& streams,
+                                std::span<const RansTable> tables, bool isFirst) const {
+    std::vector<std::byte> bytes;
+    std::size_t firstRun = 0;
+    for (std::size_t i = 0; i < packet.segments.size(); ++i) {
+      Segment& segment = packet.segments[i];
+      std::vector<std::byte> coded = encode(segment, streams[i], tables, isFirst && i == 0);
+      streams[i] = {};
+      if (isPaged_) {
+        const auto header = segmentHeader(segment, std::span(packet.runs).subspan(firstRun, segment.runs));
+        segment.headerBytes = static_cast<std::uint32_t>(header.size());
+        coded.insert(coded.begin(), header.begin(), header.end());
+      }
+      segment.checksum = amtChecksum(coded);
+      bytes.insert(bytes.end(), coded.begin(), coded.end());
+      firstRun += segment.runs;
+    }
+    return bytes;
+  }
+
+  /// The streams of a segment.
+  std::vector<std::byte> encode(Segment& segment, Streams& streams, std::span<const RansTable> tables,
+                                bool hasRoot) const {
     std::vector<std::byte> bytes;
     for (unsigned s = 0; s < kStreams; ++s) {
       const auto coded = ransEncode(streams.symbols[s], tables);
-      packet.streamBytes[s] = static_cast<std::uint32_t>(coded.size());
+      segment.streamBytes[s] = static_cast<std::uint32_t>(coded.size());
       bytes.insert(bytes.end(), coded.begin(), coded.end());
       streams.symbols[s] = {};
     }
-    packet.streamBytes[kBoundBytes] = static_cast<std::uint32_t>(streams.boundBytes.size());
+    segment.streamBytes[kBoundBytes] = static_cast<std::uint32_t>(streams.boundBytes.size());
     bytes.insert(bytes.end(), streams.boundBytes.begin(), streams.boundBytes.end());
     const MultiTriangulation& mt = walk_.mt;
     const std::uint64_t roots = std::uint64_t{mt.rootVertexCount()} + mt.rootTriangleCount();
-    const std::uint64_t things = packet.nodes + (isFirst ? roots : 0);
-    const std::uint64_t least = leastBytes(things);
+    const std::uint64_t least = leastBytes(segment.nodes + (hasRoot ? roots : 0));
     if (bytes.size() + streams.rawBits.size() < least) streams.rawBits.resize(least - bytes.size());
-    packet.streamBytes[kRawBits] = static_cast<std::uint32_t>(streams.rawBits.size());
+    segment.streamBytes[kRawBits] = static_cast<std::uint32_t>(streams.rawBits.size());
     bytes.insert(bytes.end(), streams.rawBits.begin(), streams.rawBits.end());
-    packet.checksum = amtChecksum(bytes);
     return bytes;
   }
 
@@ -177,7 +205,7 @@ class Packer {
   };
 
   const RunContext& context_;
-  bool wantsOrder_;
+  bool isPaged_, wantsOrder_;
   Plan plan_;
   Arrays arrays_;
   Walk walk_;
@@ -209,7 +237,7 @@ Result<PackedSurfaceMt> packSurface(const MultiTriangulation& mt, const SurfaceP
   kind.step = rounded.step;
   kind.scale = rounded.mt.scale();
   kind.metric = rounded.mt.metric();
-  Packer packer(rounded.mt, kind, true, context);
+  Packer packer(rounded.mt, kind, options.isPaged, true, context);
   ARETE_TRY(PackedMt packed, packer.run());
   return PackedSurfaceMt{std::move(packed), packer.takeOrder(), kind.hasDoubles,
                          kind.step,         rounded.moved,      kind.scale};
@@ -218,9 +246,11 @@ Result<PackedSurfaceMt> packSurface(const MultiTriangulation& mt, const SurfaceP
 }  // namespace
 }  // namespace packed
 
-Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context) try {
-  return withThreads(context,
-                     [&] { return packed::Packer(model.mt, packed::kindOf(model), false, context).run(); });
+Result<PackedMt> packMt(const TerrainModel& model, const PackOptions& options,
+                        const RunContext& context) try {
+  return withThreads(context, [&] {
+    return packed::Packer(model.mt, packed::kindOf(model), options.isPaged, false, context).run();
+  });
 } catch (...) {
   return caughtFailure();
 }

@@ -10,6 +10,7 @@
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/mt/multitriangulation.h"
 #include "engine/parallel/run_context.h"
+#include "io/store/format/load_parts.h"
 #include "io/store/format/required_error.h"
 #include "terrain/model/terrain_model.h"
 
@@ -17,6 +18,13 @@ namespace arete {
 
 struct AmtMetadata;
 struct SurfaceMetadata;
+
+namespace packed {
+/// Where the chunks of a paged MT lie; of blocks and nodes only parts need to be in memory.
+struct PagedMt {
+  std::span<const std::byte> root, tables, blocks, nodes;
+};
+}  // namespace packed
 
 /// Sees to it that some of the packed bytes are in memory before they are decoded; false if they cannot be.
 /// Called on any thread. Null: all are.
@@ -26,6 +34,11 @@ using LoadPacked = std::function<bool(std::span<const std::byte>)>;
 /// chunks, together a ninth to a fifteenth of the arrays.
 struct PackedMt {
   std::vector<std::byte> directory, tables, nodes;
+  std::vector<std::byte> blocks;  ///< of pages: the directory below its root
+};
+
+struct PackOptions {
+  bool isPaged = false;  ///< in pages (io/store/packed/pages)
 };
 
 /// Packs the MT of a model. unpackMt() restores the same nodes: the same triangles with the same errors,
@@ -35,7 +48,8 @@ struct PackedMt {
 /// threads. Errors, without a culprit: invalidData: an MT that breaks laws 1 to 4, or an error beyond its
 /// scale; outOfMemory; interrupted. O(triangles) time, about 150 bytes per node beside
 /// the model.
-Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context = {});
+Result<PackedMt> packMt(const TerrainModel& model, const PackOptions& options = {},
+                        const RunContext& context = {});
 
 /// Unpacks an MT, or the part of it that a query requires. Whatever the bytes are, the result is an error or
 /// an MT whose indices are in range and whose floors, removers, links and spheres are related as engine/mt
@@ -56,6 +70,17 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const
                                     const RequiredError& wanted = {}, const RunContext& context = {},
                                     const LoadPacked& load = {});
 
+/// The same of pages: only the blocks of the directory that may describe a required page are used, and of the
+/// nodes the required pages, each down to its last required segment. Counts of pages are 64-bit; those of the
+/// part have to fit 32-bit ids.
+///
+/// @param load for blocks and nodes; the others are in memory
+/// The balls of nodes whose descendants were not read are as large as their page says that they may be, so
+/// that minimal cuts of a part are those of the whole for every bounded criterion. Errors: as above.
+Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, const packed::PagedMt& paged,
+                                    const RequiredError& wanted, const RunContext& context,
+                                    const LoadParts& load);
+
 /// How a surface is packed.
 struct SurfacePackOptions {
   /// 0: vertices keep their places to the bit. Otherwise (8 to 24) they move to the nearest multiples of a
@@ -63,6 +88,7 @@ struct SurfacePackOptions {
   /// twice the largest move, so that they hold for the source as for the rounded surface; they are
   /// rounded upwards to 1/128 of an octave (0.8 %).
   int positionBits = 0;
+  bool isPaged = false;
 };
 
 /// The order of a packed MT: by its vertices and triangles, those of the MT that was packed.
@@ -91,9 +117,16 @@ Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata,
                                            std::span<const std::byte> tables,
                                            std::span<const std::byte> nodes, const RunContext& context = {});
 
+/// The same of pages, of which a part can be required as of terrain's.
+Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata, const packed::PagedMt& paged,
+                                           const RequiredError& wanted, const RunContext& context,
+                                           const LoadParts& load);
+
 /// The least error of the highest band that holds, together with the bands above it, at least `nodes` nodes.
 /// @return 0 if that is the last band, or the directory is invalid. O(directory)
 double packedErrorBeyond(std::span<const std::byte> directory, const OutwardScale& scale,
                          std::uint64_t nodes);
+/// The same, of the root of a directory of pages.
+double pagedErrorBeyond(std::span<const std::byte> root, const OutwardScale& scale, std::uint64_t nodes);
 
 }  // namespace arete

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "engine/base/caught_failure.h"
+#include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/per_thread.h"
 #include "engine/parallel/with_threads.h"
 #include "io/store/format/checksum.h"
@@ -22,6 +23,8 @@
 #include "io/store/packed/nodes/node_coder.h"
 #include "io/store/packed/nodes/order.h"
 #include "io/store/packed/packed.h"
+#include "io/store/packed/pages/page_choice.h"
+#include "io/store/packed/pages/page_header.h"
 #include "io/store/packed/reader_io.h"
 
 namespace arete {
@@ -37,7 +40,10 @@ bool keepRequired(Directory& directory, const RequiredError& wanted, const Outwa
   std::vector<std::uint32_t> lowest(packets.size());
   for (std::size_t i = 0; i < packets.size(); ++i) {
     const Packet& c = packets[i];
-    const double error = wanted({c.xMin, c.yMin, c.xMax, c.yMax});
+    Box3 box;
+    box.low = {c.xMin, c.yMin, directory.isOfSurface ? c.zMin : box.low.z};
+    box.high = {c.xMax, c.yMax, directory.isOfSurface ? c.zMax : box.high.z};
+    const double error = wanted(box);
     lowest[i] = error == std::numeric_limits<double>::infinity() ? kNone
                 : error > 0 ? MultiTriangulation::bandOf(scale.floorCode(error))
                             : 0;
@@ -57,9 +63,15 @@ bool keepRequired(Directory& directory, const RequiredError& wanted, const Outwa
 
 class Unpacker {
  public:
+  /// @param isPaged the segments were checked, and each page has its number
   Unpacker(Directory directory, std::span<const RansTable> tables, std::span<const std::byte> bytes,
-           const RunContext& context, bool isPart, const LoadPacked& load)
-      : directory_(std::move(directory)), bytes_(bytes), context_(context), isPart_(isPart), load_(load) {
+           const RunContext& context, bool isPart, bool isPaged, const LoadPacked& load)
+      : directory_(std::move(directory)),
+        bytes_(bytes),
+        context_(context),
+        isPart_(isPart),
+        isPaged_(isPaged),
+        load_(load) {
     tables_.resize(kTables * RansTable::kEntries);
     for (std::size_t t = 0; t < kTables; ++t) tables[t].writeEntries(&tables_[t * RansTable::kEntries]);
   }
@@ -67,6 +79,7 @@ class Unpacker {
   Result<MultiTriangulation> run(const MtKind& kind, AmtCounts counts) {
     const auto arrays = std::make_shared<Arrays>();
     static_cast<MtKind&>(*arrays) = kind;
+    const std::uint64_t allNodes = counts.nodes;
     counts.nodes = directory_.nodes();
     counts.slots = directory_.slots();
     if (!arrays->allocate(counts, directory_.borders()))
@@ -80,9 +93,8 @@ class Unpacker {
       });
     if (context_.cancelled()) return failure(ErrorCode::interrupted, "unpacking was interrupted");
     if (problem)
-      return failure(ErrorCode::corrupt,
-                     fmt::format("packet {} of the packed nodes: {}", problem->packet, problem->what));
-    arrays->finish();
+      return failure(ErrorCode::corrupt, fmt::format("{}: {}", nameOf(problem->packet), problem->what));
+    arrays->finish(counts.nodes < allNodes);
     context_.report("unpack", 1);
     return Arrays::model(arrays);
   }
@@ -104,12 +116,19 @@ class Unpacker {
         });
   }
 
+  std::string nameOf(std::size_t packet) const {
+    return isPaged_ ? fmt::format("page {}", directory_.packets[packet].number)
+                    : fmt::format("packet {} of the packed nodes", packet);
+  }
+
   std::optional<std::string> decode(std::size_t index) {
-    const Packet& packet = directory_.packets[index];
-    const auto bytes = bytes_.subspan(packet.offset, packet.bytes());
-    if (load_ && !load_(bytes)) return "cannot be read";
-    if (amtChecksum(bytes) != packet.checksum) return "has been altered: its checksum does not match";
-    ReaderIo io(*arrays_, directory_, index, tables_.data(), bytes);
+    const Segment& first = directory_.packets[index].segments[0];
+    if (!isPaged_) {
+      const auto bytes = bytes_.subspan(first.begin(), first.bytes());
+      if (load_ && !load_(bytes)) return "cannot be read";
+      if (amtChecksum(bytes) != first.checksum) return "has been altered: its checksum does not match";
+    }
+    ReaderIo io(*arrays_, directory_, index, tables_.data(), bytes_);
     return withForm(*arrays_, [&](auto form) { return decode<decltype(form)>(index, io); });
   }
   template <class Form>
@@ -125,7 +144,7 @@ class Unpacker {
   Directory directory_;
   std::span<const std::byte> bytes_;
   const RunContext& context_;
-  bool isPart_;
+  bool isPart_, isPaged_;
   const LoadPacked& load_;
   std::vector<std::uint32_t> tables_;  ///< entries of all tables
   Arrays* arrays_ = nullptr;
@@ -167,16 +186,79 @@ Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& c
   if (!tables) return failure(ErrorCode::corrupt, "the tables of the packed nodes are damaged");
   const bool isPart = wanted && !packed::keepRequired(*directory, wanted, kind.scale);
   return withThreads(context, [&] {
-    return packed::Unpacker(std::move(*directory), *tables, nodes, context, isPart, load).run(kind, counts);
+    return packed::Unpacker(std::move(*directory), *tables, nodes, context, isPart, false, load)
+        .run(kind, counts);
   });
 }
 
-}  // namespace
+/// Checks what was loaded of a page, and reads its headers.
+/// @return what is wrong with it
+std::optional<std::string> openPage(const packed::PagedMt& paged, std::uint32_t lowest, std::uint64_t roots,
+                                    packed::Packet& page) {
+  for (const packed::Segment& segment : page.segments)
+    if (amtChecksum(paged.nodes.subspan(segment.begin(), segment.bytes())) != segment.checksum)
+      return "has been altered: its checksum does not match";
+  if (!page.segments.empty() && page.number == 0 &&
+      page.segments[0].bytes() < packed::leastBytes(page.segments[0].nodes + roots))
+    return "has a root that its bytes cannot hold";
+  if (!packed::readHeaders(paged.nodes, page)) return "has runs that its directory does not state";
+  page.isCut |= std::erase_if(page.runs, [&](const packed::Run& run) { return run.band < lowest; }) > 0;
+  return std::nullopt;
+}
 
-Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,
-                                    std::span<const std::byte> tables, std::span<const std::byte> nodes,
-                                    const RequiredError& wanted, const RunContext& context,
-                                    const LoadPacked& load) try {
+Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& counts,
+                                  const packed::PagedMt& paged, const RequiredError& wanted,
+                                  const RunContext& context, const LoadParts& load) {
+  std::string problem;
+  const auto root = packed::pageRootOf(paged.root, problem);
+  if (!root) return failure(ErrorCode::corrupt, "the directory of its pages " + problem);
+  if (root->nodes() != counts.nodes || root->slots != counts.slots)
+    return failure(ErrorCode::corrupt, "its pages have not as many nodes as the metadata says");
+  ARETE_TRY(auto choice, packed::choosePages(*root, paged.blocks, wanted, kind.scale, load));
+  packed::Directory& directory = choice.directory;
+  directory.isOfSurface = !kind.hasPlan();
+  std::vector<std::span<const std::byte>> parts;
+  for (const packed::Packet& page : directory.packets) {
+    if (page.segments.empty()) continue;
+    const packed::Segment& last = page.segments.back();
+    const std::uint64_t begin = page.segments[0].begin(), end = last.begin() + last.bytes();
+    if (end > paged.nodes.size())
+      return failure(ErrorCode::corrupt, fmt::format("page {}: lies behind the end", page.number));
+    parts.push_back(paged.nodes.subspan(begin, end - begin));
+  }
+  if (load) ARETE_CHECK(load(parts));
+  const std::uint64_t roots = counts.rootVertices + counts.rootTriangles;
+  return withThreads(context, [&]() -> Result<MultiTriangulation> {
+    std::vector<std::optional<std::string>> problems(directory.packets.size());
+    parallelFor(std::size_t{0}, directory.packets.size(), [&](std::size_t i) {
+      problems[i] = openPage(paged, choice.lowest[i], roots, directory.packets[i]);
+    });
+    std::uint64_t nodes = 0, slots = 0, borders = counts.rootTriangles;
+    for (std::size_t i = 0; i < problems.size(); ++i) {
+      packed::Packet& page = directory.packets[i];
+      if (problems[i])
+        return failure(ErrorCode::corrupt, fmt::format("page {}: {}", page.number, *problems[i]));
+      if (i > 0 && page.runs.empty()) page.borders = 0;
+      for (const packed::Run& run : page.runs) {
+        nodes += run.nodes;
+        slots += run.slots;
+      }
+      borders += page.borders;
+    }
+    if (slots + roots >= MultiTriangulation::kNone - 1 || borders > packed::kMostBorders)
+      return failure(
+          ErrorCode::invalidData,
+          fmt::format("a part of {} nodes is more than can be numbered: ask for less of it", nodes));
+    directory.numberNodes();
+    const auto tables = tablesOf(paged.tables, packed::kTables);
+    if (!tables) return failure(ErrorCode::corrupt, "the tables of the packed nodes are damaged");
+    return packed::Unpacker(std::move(directory), *tables, paged.nodes, context, wanted && !choice.isEvenly,
+                            true, {})
+        .run(kind, counts);
+  });
+}
+
+packed::MtKind kindOf(const AmtMetadata& metadata) {
   packed::MtKind kind;
   kind.isLattice = metadata.model.isRaster;
   kind.hasFills = metadata.model.options.rimTolerance > 0;
@@ -185,7 +267,35 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const
   kind.encoding = metadata.encoding;
   kind.scale = metadata.scale;
   kind.metric = metadata.metric;
-  return unpack(kind, metadata.counts, directory, tables, nodes, wanted, context, load);
+  return kind;
+}
+
+packed::MtKind kindOf(const SurfaceMetadata& metadata) {
+  packed::MtKind kind;
+  kind.model = ModelKind::surface;
+  kind.hasDoubles = metadata.hasDoubles;
+  kind.step = metadata.positionStep;
+  kind.moved = metadata.model.positionError;
+  kind.scale = metadata.scale;
+  kind.metric = metadata.metric;
+  return kind;
+}
+
+}  // namespace
+
+Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,
+                                    std::span<const std::byte> tables, std::span<const std::byte> nodes,
+                                    const RequiredError& wanted, const RunContext& context,
+                                    const LoadPacked& load) try {
+  return unpack(kindOf(metadata), metadata.counts, directory, tables, nodes, wanted, context, load);
+} catch (...) {
+  return caughtFailure();
+}
+
+Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, const packed::PagedMt& paged,
+                                    const RequiredError& wanted, const RunContext& context,
+                                    const LoadParts& load) try {
+  return unpack(kindOf(metadata), metadata.counts, paged, wanted, context, load);
 } catch (...) {
   return caughtFailure();
 }
@@ -194,17 +304,32 @@ Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata,
                                            std::span<const std::byte> directory,
                                            std::span<const std::byte> tables,
                                            std::span<const std::byte> nodes, const RunContext& context) try {
-  packed::MtKind kind;
-  kind.model = ModelKind::surface;
-  kind.hasDoubles = metadata.hasDoubles;
-  kind.step = metadata.positionStep;
-  kind.moved = metadata.model.positionError;
-  kind.scale = metadata.scale;
-  kind.metric = metadata.metric;
-  return unpack(kind, metadata.counts, directory, tables, nodes, {}, context);
+  return unpack(kindOf(metadata), metadata.counts, directory, tables, nodes, {}, context);
 } catch (...) {
   return caughtFailure();
 }
+
+Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata, const packed::PagedMt& paged,
+                                           const RequiredError& wanted, const RunContext& context,
+                                           const LoadParts& load) try {
+  return unpack(kindOf(metadata), metadata.counts, paged, wanted, context, load);
+} catch (...) {
+  return caughtFailure();
+}
+
+namespace {
+
+using NodesOfBand = std::array<std::uint64_t, MultiTriangulation::kBands>;
+
+double errorBeyond(const NodesOfBand& nodesOfBand, const OutwardScale& scale, std::uint64_t nodes) {
+  std::uint64_t sum = 0;
+  for (std::uint32_t band = MultiTriangulation::kBands; band-- > 1;)
+    if ((sum += nodesOfBand[band]) >= nodes)
+      return scale.decode(static_cast<OutwardScale::Code>(band << MultiTriangulation::kBandShift));
+  return 0;
+}
+
+}  // namespace
 
 double packedErrorBeyond(std::span<const std::byte> directoryBytes, const OutwardScale& scale,
                          std::uint64_t nodes) {
@@ -216,14 +341,16 @@ double packedErrorBeyond(std::span<const std::byte> directoryBytes, const Outwar
     return 0;
   }
   if (!directory) return 0;
-  std::array<std::uint64_t, MultiTriangulation::kBands> nodesOfBand{};
+  NodesOfBand nodesOfBand{};
   for (const packed::Packet& packet : directory->packets)
     for (const packed::Run& run : packet.runs) nodesOfBand[run.band] += run.nodes;
-  std::uint64_t sum = 0;
-  for (std::uint32_t band = MultiTriangulation::kBands; band-- > 1;)
-    if ((sum += nodesOfBand[band]) >= nodes)
-      return scale.decode(static_cast<OutwardScale::Code>(band << MultiTriangulation::kBandShift));
-  return 0;
+  return errorBeyond(nodesOfBand, scale, nodes);
+}
+
+double pagedErrorBeyond(std::span<const std::byte> root, const OutwardScale& scale, std::uint64_t nodes) {
+  std::string problem;
+  const auto directory = packed::pageRootOf(root, problem);
+  return directory ? errorBeyond(directory->nodesOfBand, scale, nodes) : 0;
 }
 
 }  // namespace arete

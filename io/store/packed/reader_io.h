@@ -43,25 +43,23 @@ class BoundReader {
 
 class ReaderIo {
  public:
+  /// @param nodes of all packets; the packet's segments lie there (Segment::offset)
   ReaderIo(const Arrays& arrays, const Directory& directory, std::size_t packet, const std::uint32_t* tables,
-           std::span<const std::byte> bytes)
+           std::span<const std::byte> nodes)
       : a_(arrays),
         directory_(directory),
-        packet_(packet),
+        packet_(directory.packets[packet]),
         tables_(tables),
-        bytes_(bytes.begin(), bytes.end()) {
-    bytes_.resize(bytes.size() + std::max(RansDecoder::kReadable, BoundReader::kReadable));
-    std::size_t at = 0;
-    for (unsigned s = 0; s < kParts; ++s) {
-      const std::size_t size = directory.packets[packet].streamBytes[s];
-      if (s < kStreams)
-        streams_[s] = RansDecoder(bytes_.data() + at, size);
-      else if (s == kBoundBytes)
-        bounds_ = BoundReader(bytes_.data() + at, size);
-      else
-        raw_ = BitReader({bytes_.data() + at, size});
-      at += size;
-    }
+        nodes_(nodes) {
+    open(packet_.segments[0]);
+  }
+
+  /// Goes on with the streams of the next segment. Precondition: there is one.
+  /// @return false if a stream of the last one does not end here
+  bool nextSegment() {
+    if (!isAtEnd()) return false;
+    open(packet_.segments[++segment_]);
+    return true;
   }
 
   static constexpr bool kKeepsValues = true;
@@ -97,7 +95,7 @@ class ReaderIo {
   }
 
   bool listed(const Run& run, std::vector<std::uint32_t>& seeds) {
-    const auto& dependsOn = directory_.packets[packet_].dependsOn;
+    const auto& dependsOn = packet_.dependsOn;
     seeds.clear();
     std::uint64_t from = 0, place = 0;
     for (std::uint32_t i = 0; i < run.listed; ++i) {
@@ -135,10 +133,29 @@ class ReaderIo {
   bool isLeft(std::uint32_t) const { return false; }
 
  private:
+  void open(const Segment& segment) {
+    const auto streams = nodes_.subspan(segment.offset, segment.bytes() - segment.headerBytes);
+    bytes_.assign(streams.begin(), streams.end());
+    bytes_.resize(bytes_.size() + std::max(RansDecoder::kReadable, BoundReader::kReadable));
+    std::size_t at = 0;
+    for (unsigned s = 0; s < kParts; ++s) {
+      const std::size_t size = segment.streamBytes[s];
+      if (s < kStreams)
+        streams_[s] = RansDecoder(bytes_.data() + at, size);
+      else if (s == kBoundBytes)
+        bounds_ = BoundReader(bytes_.data() + at, size);
+      else
+        raw_ = BitReader({bytes_.data() + at, size});
+      at += size;
+    }
+  }
+
   const Arrays& a_;
   const Directory& directory_;
-  std::size_t packet_;
+  const Packet& packet_;
   const std::uint32_t* tables_;
+  std::span<const std::byte> nodes_;
+  std::size_t segment_ = 0;
   std::vector<std::byte> bytes_;
   std::array<RansDecoder, kStreams> streams_;
   BoundReader bounds_;

@@ -34,7 +34,7 @@ struct Walk {
   UninitializedVector<std::uint8_t> ownParentsLeft;
 };
 
-/// The streams of a packet, before they are encoded.
+/// The streams of a segment, before they are encoded.
 struct Streams {
   std::array<std::vector<RansSymbol>, kStreams> symbols;
   std::vector<std::byte> boundBytes, rawBits;
@@ -49,8 +49,9 @@ struct Streams {
 
 class WriterIo {
  public:
-  /// @param streams  receives all but the raw bits
-  WriterIo(Walk& walk, std::uint32_t packet, Streams& streams)
+  /// @param streams  memory for those of a segment
+  /// @param segments  receives those of all, after finish()
+  WriterIo(Walk& walk, std::uint32_t packet, Streams& streams, std::vector<Streams>& segments)
       : w_(walk),
         mt_(walk.mt),
         a_(mt_.arrays()),
@@ -59,11 +60,22 @@ class WriterIo {
         rms_(mt_.column(kRms)),
         roots_(mt_.rootTriangleCount()),
         packet_(packet),
-        streams_(streams) {
+        streams_(streams),
+        segments_(segments) {
+    streams_.clear();
     for (const std::uint32_t n : w_.plan.listed[packet]) listed_[w_.plan.band[n]].push_back(n);
   }
 
-  BitWriter rawBits;
+  bool nextSegment() {
+    finish();
+    return true;
+  }
+  /// Keeps the streams of the last segment.
+  void finish() {
+    streams_.rawBits = rawBits_.take();
+    segments_.push_back(streams_);  // a copy without spare capacity; `streams_` keeps its memory
+    streams_.clear();
+  }
 
   static constexpr bool kKeepsValues = false;
 
@@ -74,7 +86,7 @@ class WriterIo {
     return symbol;
   }
   std::uint64_t raw(int bits, std::uint64_t actual) {
-    rawBits.write(actual, bits);
+    rawBits_.write(actual, bits);
     return actual;
   }
 
@@ -289,6 +301,8 @@ class WriterIo {
   std::span<const std::uint16_t> below_, above_, rms_;
   std::uint32_t roots_, packet_;
   Streams& streams_;
+  std::vector<Streams>& segments_;
+  BitWriter rawBits_;
   std::array<std::vector<std::uint32_t>, MultiTriangulation::kBands> listed_;
 
   // Of the selected node.

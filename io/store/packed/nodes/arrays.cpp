@@ -15,10 +15,12 @@
 
 #include "engine/mt/enclosing_ball.h"
 #include "engine/parallel/parallel_loops.h"
+#include "io/store/packed/nodes/spread.h"
 
 namespace arete::packed {
 
 constexpr std::uint32_t kNone = MultiTriangulation::kNone;
+constexpr std::uint32_t kMissing = kNone - 1;
 constexpr std::uint32_t kAhead = 8;
 constexpr std::size_t kReadable = 8;  // elements behind a column's end
 
@@ -115,10 +117,11 @@ void Arrays::joinRoot() {
     std::atomic_ref(remover[t]).store(kMarks | t, std::memory_order_release);
 }
 
-void Arrays::finish() {
+void Arrays::finish(bool isPart) {
   // A mark that is left means that no node removes the triangle; marks on other triangles end in saturate().
+  // In a part the remover of a triangle with an error may not have been read.
   for (std::uint32_t t = 0; t < roots; ++t)
-    if ((remover[t] & kMark) != 0) remover[t] = kNone;
+    if ((remover[t] & kMark) != 0) remover[t] = isPart && error[t] != 0 ? kMissing : kNone;
   slotBegin[nodes] = slots;
   constexpr std::uint32_t k = MultiTriangulation::kSlotsPerHint;
   parallelFor(IndexRange<std::uint32_t>(0, nodes, 1u << 14), [&](const auto& range) {
@@ -126,12 +129,24 @@ void Arrays::finish() {
       for (std::uint32_t h = (slotBegin[n] + k - 1) / k; h * k < slotBegin[n + 1]; ++h) creatorHint[h] = n;
   });
   // Triangles that stay are not coded one by one: they all have the same error and RMS.
-  if (finestError == 0 && finestRms == 0) return;
-  for (std::uint32_t t = 0; t < roots + slots; ++t)
-    if (remover[t] == kNone) {
-      error[t] = finestError;
-      rms[t] = finestRms;
-    }
+  if (finestError != 0 || finestRms != 0)
+    for (std::uint32_t t = 0; t < roots + slots; ++t)
+      if (remover[t] == kNone) {
+        error[t] = finestError;
+        rms[t] = finestRms;
+      }
+  if (isPart) {
+    missing.assign((std::size_t{roots} + slots + 63) / 64, 0);
+    parallelFor(std::size_t{0}, missing.size(), [&](std::size_t word) {
+      const std::uint32_t end =
+          static_cast<std::uint32_t>(std::min(64 * word + 64, std::size_t{roots} + slots));
+      for (std::uint32_t t = static_cast<std::uint32_t>(64 * word); t < end; ++t) {
+        if (remover[t] != kMissing) continue;
+        missing[word] |= std::uint64_t{1} << t % 64;
+        remover[t] = kNone;
+      }
+    });
+  }
 }
 
 MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
@@ -149,6 +164,7 @@ MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
     column.mt.put(a, column.memory.view().first(column.elements * column.elementBytes()));
   a.blockError = from.blocks.error;
   a.blockSphere = from.blocks.sphere;
+  a.missing = from.missing;
   a.scale = from.scale;
   a.metric = from.metric;
   a.vertices.columns = from.hasPlan() && from.isLattice ? from.columns : 0;
@@ -187,32 +203,38 @@ struct GrowingBall {
 struct Children {
   std::array<std::uint32_t, 40> nodes;
   std::uint32_t count;
+  bool areMissed;  ///< some were not read
 };
 
-/// Finds the children of a node and prefetches their spheres. Replaces marks by kNone.
+/// Finds the children of a node and prefetches their spheres. Replaces marks: that of the dummy record, of a
+/// triangle that no node removes, by kNone, any other by kMissing, as the remover was not read.
 void find(const Arrays& a, std::uint32_t n, Children& children) {
   std::uint32_t* const remover = a.remover.get() + a.roots + a.slotBegin[n];
   const std::uint32_t size = a.starSize(n);
-  std::uint32_t count = 0, previous = n;
+  std::uint32_t count = 0, previous = n, missed = 0;
   for (std::uint32_t i = 0; i < size; ++i) {
     // A mark becomes kNone, and stands for n; so does n itself, behind an open star.
     static_assert(Arrays::kMark == 1u << 31);
     const std::uint32_t isNone = 0u - (remover[i] >> 31), child = (remover[i] & ~isNone) | (n & isNone);
-    remover[i] |= isNone;
+    const std::uint32_t isMissed = static_cast<std::uint32_t>(((remover[i] & isNone) << 1) != 0);
+    missed |= isMissed;
+    remover[i] = (remover[i] | isNone) - isMissed;
     children.nodes[count] = child;
     count += static_cast<std::uint32_t>(child != n) & static_cast<std::uint32_t>(child != previous);
     previous = child;
     __builtin_prefetch(&a.sphere[child]);
   }
   children.count = count;
+  children.areMissed = missed != 0;
 }
 
 /// Computes the saturated error and sphere of a node. Precondition: the children are complete; in a damaged
 /// file they may not be, which is returned as a problem.
 const char* complete(const Arrays& a, std::uint32_t n, const Children& children, std::uint16_t least,
-                     std::uint32_t band) {
+                     const Run& run) {
   Sphere& sphere = a.sphere[n];
   GrowingBall ball{sphere.x, sphere.y, sphere.z, -sphere.radius};
+  if (children.areMissed && run.spread > 0) ball.radius *= spreadFactor(run.spread);
   std::uint16_t saturated = std::max(least, a.saturatedError[n]);
   float unready = 0;
   for (std::uint32_t i = 0; i < children.count; ++i) {
@@ -230,7 +252,7 @@ const char* complete(const Arrays& a, std::uint32_t n, const Children& children,
   std::atomic_ref(sphere.radius).store(grown.radius, std::memory_order_release);
   if (!std::isfinite(grown.x + grown.y + grown.z + grown.radius)) return "an invalid sphere";
   if (unready < 0) return "a child that is not a descendant";
-  if (MultiTriangulation::bandOf(saturated) != band) return "a saturated error outside of its band";
+  if (MultiTriangulation::bandOf(saturated) != run.band) return "a saturated error outside of its band";
   return nullptr;
 }
 
@@ -245,7 +267,7 @@ std::optional<std::string> saturate(Arrays& a, const Packet& packet, bool isPart
     for (std::uint32_t i = 0; i < std::min(run->nodes, kAhead); ++i) find(a, last - i, ahead[i]);
     for (std::uint32_t i = 0; i < run->nodes; ++i) {
       Children& children = ahead[i % kAhead];
-      if (const char* const bad = complete(a, last - i, children, least, run->band))
+      if (const char* const bad = complete(a, last - i, children, least, *run))
         return fmt::format("node {} has {}", last - i, bad);
       if (run->nodes - i > kAhead) find(a, last - i - kAhead, children);
     }

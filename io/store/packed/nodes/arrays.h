@@ -91,9 +91,10 @@ struct Arrays : MtKind {
   std::vector<std::uint16_t> wholeErrors;
   /// Of a surface: codes of the error and RMS of all triangles that stay.
   std::uint16_t finestError = 0, finestRms = 0;
-  unsigned errorShift = 0;         ///< all of these codes are multiples of 2^errorShift
-  ZeroedArray<std::uint8_t> star;  ///< slots of a node, + kOpen; 0 = not there yet
-  ZeroedArray<Border> border;      ///< of the root's triangles, then of the packets' (Packet::firstBorder)
+  unsigned errorShift = 0;             ///< all of these codes are multiples of 2^errorShift
+  std::vector<std::uint64_t> missing;  ///< MtArrays::missing
+  ZeroedArray<std::uint8_t> star;      ///< slots of a node, + kOpen; 0 = not there yet
+  ZeroedArray<Border> border;  ///< of the root's triangles, then of the packets' (Packet::firstBorder)
   static constexpr std::uint8_t kOpen = 128;
 
   /// While packets are coded, the remover of a triangle that is not removed yet is kMark and the index of the
@@ -109,9 +110,8 @@ struct Arrays : MtKind {
   /// Fills the root's borders from rootTriangles.
   void joinRoot();
   /// Fills the root's removers, creatorHint, the end of slotBegin and the errors of triangles that stay.
-  /// Precondition: all packets are
-  /// saturated.
-  void finish();
+  /// Precondition: all packets are saturated. @param isPart some nodes were not read: also fills `missing`
+  void finish(bool isPart);
   /// The MT of the arrays. Frees the others.
   static MultiTriangulation model(std::shared_ptr<Arrays> arrays);
 

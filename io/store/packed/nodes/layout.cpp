@@ -25,11 +25,19 @@ constexpr std::uint64_t kLeastPacketBytes = 4 * 8 + 8 + kParts + 3;
 }  // namespace
 
 void Directory::number() {
-  std::uint64_t offset = 0, borders = 0;
+  std::uint64_t offset = 0;
+  for (Packet& packet : packets)
+    for (Segment& segment : packet.segments) {
+      segment.offset = offset + segment.headerBytes;
+      offset += segment.bytes();
+    }
+  numberNodes();
+}
+
+void Directory::numberNodes() {
+  std::uint64_t borders = 0;
   std::vector<Run*> runs;
   for (Packet& packet : packets) {
-    packet.offset = offset;
-    offset += packet.bytes();
     packet.firstBorder = borders;
     borders += packet.borders;
     packet.nodes = 0;
@@ -87,9 +95,9 @@ std::vector<std::byte> toBytes(const Directory& directory) {
     for (const double d : {packet.xMin, packet.yMin, packet.xMax, packet.yMax}) out.plain(d);
     if (directory.isOfSurface)
       for (const double d : {packet.zMin, packet.zMax}) out.plain(d);
-    for (const std::uint32_t n : packet.streamBytes) out.number(n);
+    for (const std::uint32_t n : packet.segments[0].streamBytes) out.number(n);
     out.number(packet.borders);
-    out.plain(packet.checksum);
+    out.plain(packet.segments[0].checksum);
     out.number(packet.runs.size());
     for (const Run& run : packet.runs) {
       out.number(run.band);
@@ -140,11 +148,13 @@ std::optional<Directory> directoryOf(std::span<const std::byte> bytes, std::stri
     for (double* d : {&packet.xMin, &packet.yMin, &packet.xMax, &packet.yMax}) *d = in.plain<double>();
     if (isOfSurface)
       for (double* d : {&packet.zMin, &packet.zMax}) *d = in.plain<double>();
-    for (std::uint32_t& n : packet.streamBytes) n = in.number(kMaxIds);
+    Segment& all = packet.segments.emplace_back();
+    for (std::uint32_t& n : all.streamBytes) n = in.number(kMaxIds);
     packet.borders = in.number(kMaxIds);
-    packet.checksum = in.plain<std::uint64_t>();
+    all.checksum = in.plain<std::uint64_t>();
     const std::uint32_t runs = in.number(MultiTriangulation::kBands);
     if (in.isBad()) return std::nullopt;
+    all.runs = runs;
     packet.runs.resize(runs);
     const std::uint64_t slotsBefore = slots;
     for (std::uint32_t r = 0; r < runs; ++r) {

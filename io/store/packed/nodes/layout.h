@@ -19,8 +19,30 @@ struct Run {
   std::uint32_t band = 0;
   std::uint32_t nodes = 0, slots = 0;
   std::uint32_t listed = 0;  ///< nodes without a parent in the packet, which come first
+  /// Of a page: the balls of its nodes lie in those of their stars, grown so many times, as a code
+  /// (spread.h).
+  std::uint8_t spread = 0;
   // Set by Directory::number(): ids of the first node and the first slot.
   std::uint32_t firstNode = 0, firstSlot = 0;
+};
+
+/// Runs of a packet whose streams are coded and checked by themselves, so that the packet can be read down to
+/// the end of one. A packet of the packed form is one segment, a page several.
+struct Segment {
+  std::uint32_t runs = 0;
+  std::array<std::uint32_t, kParts> streamBytes{};
+  std::uint64_t checksum = 0;  ///< of the bytes
+  /// Of a page: those before the streams, which say what runs there are; the band of the first run; the
+  /// nodes.
+  std::uint32_t headerBytes = 0, firstBand = 0, nodes = 0;
+  std::uint64_t offset = 0;  ///< of the streams; set by Directory::number(), of a page by its directory
+
+  std::uint64_t begin() const { return offset - headerBytes; }
+  std::uint64_t bytes() const {
+    std::uint64_t sum = headerBytes;
+    for (const std::uint32_t b : streamBytes) sum += b;
+    return sum;
+  }
 };
 
 /// Nodes that are decoded together, one after the other. Their parents are in the packet itself and in those
@@ -28,22 +50,22 @@ struct Run {
 struct Packet {
   std::vector<std::uint32_t>
       dependsOn;  ///< the packets that it depends on, rising, all before it; packets but 0 depend on 0
-  /// A box around the floors and stars of its nodes, of a heightfield in plan coordinates.
+  /// A box around the floors and stars of its nodes, of a heightfield in plan coordinates; of a page with all
+  /// that the floors stand for, and with heights.
   double xMin = 0, yMin = 0, xMax = 0, yMax = 0;
-  double zMin = 0, zMax = 0;  ///< of a surface only
+  double zMin = 0, zMax = 0;  ///< of a surface, and of a page
   std::vector<Run> runs;      ///< bands falling, no empty runs
   std::uint32_t borders = 0;  ///< triangles that it leaves to packets that depend on it
-  std::array<std::uint32_t, kParts> streamBytes{};
-  std::uint64_t checksum = 0;  ///< of the streams' bytes
+  std::vector<Segment> segments;
+  std::uint32_t number = 0;  ///< of a page, among all of the file
 
   // Set by Directory::number().
-  std::uint64_t offset = 0;
   std::uint32_t nodes = 0;
   std::uint64_t firstBorder = 0;  ///< borders of the packets before it
   bool isCut = false;             ///< the runs of its last bands are not required, and were dropped
   std::uint64_t bytes() const {
     std::uint64_t sum = 0;
-    for (const std::uint32_t b : streamBytes) sum += b;
+    for (const Segment& segment : segments) sum += segment.bytes();
     return sum;
   }
 };
@@ -54,9 +76,11 @@ struct Directory {
   std::array<std::uint8_t, MultiTriangulation::kBands> bandClass{};
   std::vector<Packet> packets;  ///< at least packet 0
 
-  /// Computes offsets, sums, and the ids of the runs, which rise through the falling bands and, within a
-  /// band, through the packets.
+  /// Computes offsets, and numberNodes().
   void number();
+  /// Computes sums, and the ids of the runs, which rise through the falling bands and, within a band, through
+  /// the packets.
+  void numberNodes();
   std::uint64_t nodes() const;
   std::uint64_t slots() const;
   std::uint64_t borders() const;

@@ -75,7 +75,13 @@ class NodeCoder {
       return fail("has more nodes than a packet can have");
     if (&packet_ == directory_.packets.data())
       values_.ofRoot(MultiTriangulation::kBands - 1, directory_.bandClass[MultiTriangulation::kBands - 1]);
+    std::size_t segment = 0;
+    std::uint32_t runsLeft = packet_.segments[0].runs;
     for (const Run& run : packet_.runs) {
+      for (; runsLeft == 0; runsLeft = packet_.segments[segment].runs)
+        if (++segment == packet_.segments.size() || !io_.nextSegment())
+          return fail("has a segment that does not end where it should");
+      --runsLeft;
       band_ = run.band;
       class_ = directory_.bandClass[band_];
       node_ = run.firstNode;

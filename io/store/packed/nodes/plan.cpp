@@ -25,16 +25,14 @@
 #include "engine/base/box3.h"
 #include "engine/base/morton.h"
 #include "engine/memory/uninitialized_vector.h"
+#include "engine/mt/enclosing_ball.h"
+#include "engine/mt/hole_limit.h"
 #include "engine/parallel/parallel_loops.h"
+#include "io/store/packed/nodes/spread.h"
 
 namespace arete::packed {
 namespace {
 
-/// Samples along the side of a tile of class 0: small enough for the nodes of a tile to stay near a
-/// processor's second cache, large enough that most nodes lie inside a tile.
-constexpr double kTileSamples = 128;
-/// The width of a tile in reaches: the largest reach of its class.
-constexpr double kReachesPerTile = 8;
 /// The width of a tile in tiles of the class below, and its binary logarithm.
 constexpr int kClassStep = 4, kLevelsPerClass = 2;
 constexpr int kMostClasses = 12;
@@ -94,6 +92,7 @@ struct Tiling {
   double size = 1;       ///< the side of a tile
   int classes = 0;       ///< number of classes below that of packet 0
   bool hasLayers = false;
+  double reachesPerTile = 8;
 };
 
 /// Classes of about as many nodes each; nodes without error are one of their own.
@@ -121,12 +120,13 @@ double finestArea(const MultiTriangulation& mt) {
   return doubled / 2;
 }
 
-Tiling tilingOf(const MultiTriangulation& mt, const MtKind& kind) {
+Tiling tilingOf(const MultiTriangulation& mt, const MtKind& kind, const PlanRule& rule) {
   Tiling tiling;
   tiling.hasLayers = !kind.hasPlan();
+  tiling.reachesPerTile = rule.reachesPerTile;
   double width = std::max(kind.columns, kind.rows);
   if (kind.hasPlan() && kind.isLattice) {
-    tiling.size = kTileSamples;
+    tiling.size = rule.tileSamples;
   } else {
     const std::uint32_t count = mt.vertices().size();
     if (count == 0) return tiling;
@@ -136,7 +136,7 @@ Tiling tilingOf(const MultiTriangulation& mt, const MtKind& kind) {
     width = box.longestSide();
     const double area =
         !kind.hasPlan() ? finestArea(mt) : (box.high.x - box.low.x) * (box.high.y - box.low.y);
-    const double fit = std::sqrt(area / static_cast<double>(count)) * kTileSamples;
+    const double fit = std::sqrt(area / static_cast<double>(count)) * rule.tileSamples;
     // Long thin clouds: never more than a million tiles along a side.
     const double size = std::fmax(fit, width / 1e6);
     if (!std::isfinite(size) || !(size > 0)) return tiling;
@@ -162,7 +162,7 @@ Descent ownOf(const MultiTriangulation& mt, NodeId n, const Tiling& tiling) {
   box.include(placeOf(a.vertices, mt.apex(n)));
   for (const std::uint32_t v : mt.link(n)) box.include(placeOf(a.vertices, VertexId(v)));
   const double width = box.longestSide();
-  double most = tiling.size / kReachesPerTile;
+  double most = tiling.size / tiling.reachesPerTile;
   for (; own.reach < tiling.classes && width > most; most *= kClassStep) ++own.reach;
   return own;
 }
@@ -304,9 +304,57 @@ void addDependency(Packet& packet, std::uint32_t other) {
   if (at == packet.dependsOn.end() || *at != other) packet.dependsOn.insert(at, other);
 }
 
+/// By how much the ball of a node's star has to grow to hold the node's ball.
+double growthOfBall(const MultiTriangulation& mt, NodeId n, double moved) {
+  std::array<Vec3, kMaxHoleCorners + 1> points;
+  std::size_t count = 0;
+  const auto add = [&](VertexId v) { points[count++] = mt.metric().toMetric(mt.position(v)); };
+  add(mt.apex(n));
+  for (const std::uint32_t v : mt.link(n)) add(VertexId(v));
+  const EnclosingBall star = EnclosingBall::around({points.data(), count});
+  const Sphere& all = mt.sphere(n);
+  const double apart = std::hypot(all.x - star.x, all.y - star.y, all.z - star.z);
+  return (apart + static_cast<double>(all.radius) + moved) / (star.radius + moved);
+}
+
+/// What the triangles that a node removes stand for: of a heightfield what lies above and below them, of a
+/// surface what lies beside them, within their errors.
+void includeFloor(const MultiTriangulation& mt, NodeId n, Box3& box) {
+  // Bounds are packed as at most 1.25 times the greater one.
+  constexpr double kRoundedUp = 1.26;
+  const std::span<const std::uint16_t> below = mt.column(kBelow), above = mt.column(kAbove);
+  for (const std::uint32_t t : mt.floor(n)) {
+    const bool hasBounds = !below.empty();
+    const double reach =
+        kRoundedUp * (hasBounds ? mt.scale().decode(std::max(below[t], above[t])) : mt.error(TriangleId(t)));
+    const Vec3 beside = hasBounds ? Vec3{0, 0, reach} : Vec3{reach, reach, reach};
+    for (const std::uint32_t v : mt.corners(TriangleId(t))) {
+      const Vec3 p = mt.position(VertexId(v));
+      box.include(p - beside);
+      box.include(p + beside);
+    }
+  }
+}
+
+/// Cuts the runs of a packet into segments. What is left for the last one stays with the one before it where
+/// it is less than a quarter of a segment.
+void cutIntoSegments(Packet& packet, std::uint32_t segmentNodes) {
+  packet.segments.assign(1, {});
+  std::uint32_t left = 0;
+  for (const Run& run : packet.runs) left += run.nodes;
+  for (const Run& run : packet.runs) {
+    if (packet.segments.back().nodes >= segmentNodes && segmentNodes > 0 && 4 * left >= segmentNodes)
+      packet.segments.emplace_back();
+    Segment& segment = packet.segments.back();
+    if (segment.runs++ == 0) segment.firstBand = run.band;
+    segment.nodes += run.nodes;
+    left -= run.nodes;
+  }
+}
+
 /// Fills in a packet and its nodes. Adds to the borders of the packets that it depends on.
 void describe(const MultiTriangulation& mt, std::uint32_t c, std::span<const std::uint32_t> nodes,
-              Plan& plan) {
+              const MtKind& kind, const PlanRule& rule, Plan& plan) {
   const MtArrays& a = mt.arrays();
   const std::uint32_t roots = mt.rootTriangleCount();
   Packet& packet = plan.directory.packets[c];
@@ -332,14 +380,18 @@ void describe(const MultiTriangulation& mt, std::uint32_t c, std::span<const std
       ++run.listed;
       plan.listed[c].push_back(n);
     }
-    box.include(placeOf(a.vertices, mt.apex(NodeId(n))));
-    for (const std::uint32_t v : mt.link(NodeId(n))) box.include(placeOf(a.vertices, VertexId(v)));
+    if (rule.isPaged())
+      run.spread = std::max(run.spread, spreadCode(growthOfBall(mt, NodeId(n), kind.moved)));
+    if (rule.isPaged()) includeFloor(mt, NodeId(n), box);
+    const auto place = [&](VertexId v) { return rule.isPaged() ? mt.position(v) : placeOf(a.vertices, v); };
+    box.include(place(mt.apex(NodeId(n))));
+    for (const std::uint32_t v : mt.link(NodeId(n))) box.include(place(VertexId(v)));
   }
   packet.xMin = box.low.x;
   packet.yMin = box.low.y;
   packet.xMax = box.high.x;
   packet.yMax = box.high.y;
-  if (plan.directory.isOfSurface) {
+  if (plan.directory.isOfSurface || rule.isPaged()) {
     packet.zMin = box.low.z;
     packet.zMax = box.high.z;
   }
@@ -348,17 +400,18 @@ void describe(const MultiTriangulation& mt, std::uint32_t c, std::span<const std
     runs[band].band = band;
     packet.runs.push_back(runs[band]);
   }
+  cutIntoSegments(packet, rule.segmentNodes);
 }
 
 }  // namespace
 
-Plan planPackets(const MultiTriangulation& mt, const MtKind& kind) {
+Plan planPackets(const MultiTriangulation& mt, const MtKind& kind, const PlanRule& rule) {
   const std::uint32_t nodes = mt.nodeCount();
   Plan plan(mt.arrays());
   plan.directory.isOfSurface = !kind.hasPlan();
   std::vector<std::uint32_t> order;
   {
-    const Tiling tiling = tilingOf(mt, kind);
+    const Tiling tiling = tilingOf(mt, kind, rule);
     const Parents parents(mt, plan.owners);
     const auto descents = descentsOf(mt, parents, tiling);
     plan.band.resize(nodes);
@@ -380,8 +433,9 @@ Plan planPackets(const MultiTriangulation& mt, const MtKind& kind) {
   plan.ownParents.resize(nodes);
   plan.listed.resize(order.size());
   const NodesByPacket nodesBy(plan.packetOf, order.size());
-  parallelFor(std::size_t{0}, order.size(),
-              [&](std::size_t c) { describe(mt, static_cast<std::uint32_t>(c), nodesBy.of(c), plan); });
+  parallelFor(std::size_t{0}, order.size(), [&](std::size_t c) {
+    describe(mt, static_cast<std::uint32_t>(c), nodesBy.of(c), kind, rule, plan);
+  });
   plan.directory.number();
   return plan;
 }

@@ -11,6 +11,22 @@
 
 namespace arete::packed {
 
+/// How nodes are distributed. The rule is fixed, so that the bytes depend on the model alone.
+struct PlanRule {
+  /// Samples along the side of a tile of class 0: small enough for the nodes of a tile to stay near a
+  /// processor's second cache, large enough that most nodes lie inside a tile.
+  double tileSamples = 128;
+  /// The width of a tile in reaches: the largest reach of its class.
+  double reachesPerTile = 8;
+  /// A segment ends with the run that brings it to so many nodes; 0: a packet is one segment.
+  std::uint32_t segmentNodes = 0;
+
+  bool isPaged() const { return segmentNodes > 0; }
+};
+/// Pages: what lies at a point, with all ancestors, is in half as many bytes as with the other rule. Tiles of
+/// 48 samples make that an eighth less, and the directory twice as long.
+inline constexpr PlanRule kPageRule{64, 4, 400};
+
 /// The packet and band of each node of a model.
 struct Plan {
   Directory directory;  ///< runs with their sizes; no bytes yet
@@ -27,6 +43,6 @@ struct Plan {
 
 /// Distributes the nodes of an MT to packets. Precondition: its indices are in range, parents come first
 /// (checkAmtIndices). O(triangles), 16 bytes per node, of which 12 stay.
-Plan planPackets(const MultiTriangulation& mt, const MtKind& kind);
+Plan planPackets(const MultiTriangulation& mt, const MtKind& kind, const PlanRule& rule = {});
 
 }  // namespace arete::packed

@@ -48,10 +48,10 @@ TEST(CopiedAmt, GivesThePartsOfAMappedFile) {
       const double left = upTo(200), top = upTo(160), inside = seed % 3 == 0 ? 0 : upTo(5),
                    outside = seed % 4 == 0 ? inside : std::numeric_limits<double>::infinity();
       const Box2 box{left, top, left + upTo(60), top + upTo(60)};
-      const RequiredError wanted = [&](const Box2& b) {
+      const RequiredError wanted = requiredInPlan([&](const Box2& b) {
         return b.xMin <= box.xMax && b.xMax >= box.xMin && b.yMin <= box.yMax && b.yMax >= box.yMin ? inside
                                                                                                     : outside;
-      };
+      });
       // Opened anew: nothing of it is loaded yet.
       const auto mapped = loadAmt(path, {.verify = AmtVerify::all, .open = {}, .wanted = wanted}),
                  copied = loadAmt(path, {.verify = AmtVerify::all, .open = kCopied, .wanted = wanted});
@@ -98,9 +98,9 @@ TEST(CopiedAmt, IsAnErrorWhereTheFileIsChangedAfterItWasOpened) {
         ASSERT_TRUE(file);
         std::this_thread::sleep_for(std::chrono::milliseconds(15));
         change(path, isPacked ? rewrittenPacked : rewritten);
-        const RequiredError near = [](const Box2& b) {
+        const RequiredError near = requiredInPlan([](const Box2& b) {
           return b.xMax >= 200 && b.yMax >= 160 ? 0 : std::numeric_limits<double>::infinity();
-        };
+        });
         const auto model = file->read({.wanted = isAll ? RequiredError() : near});
         ASSERT_FALSE(model);
         EXPECT_EQ(model.error().code, ErrorCode::unreadable) << model.error().describe();

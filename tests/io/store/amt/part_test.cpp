@@ -34,13 +34,13 @@ using test::tinyModel;
 constexpr double kNothing = std::numeric_limits<double>::infinity();
 
 RequiredError everywhere(double error) {
-  return [error](const Box2&) { return error; };
+  return [error](const Box3&) { return error; };
 }
 RequiredError in(const Box2& box, double error) {
-  return [box, error](const Box2& b) {
+  return requiredInPlan([box, error](const Box2& b) {
     const bool meets = b.xMin <= box.xMax && b.xMax >= box.xMin && b.yMin <= box.yMax && b.yMax >= box.yMin;
     return meets ? error : kNothing;
-  };
+  });
 }
 
 TerrainModel part(const std::string& path, const RequiredError& wanted, AmtVerify verify = AmtVerify::all) {

@@ -90,7 +90,7 @@ TEST(Reader, GuessesTheErrorBeyondANumberOfNodes) {
       EXPECT_LE(error, last);
       last = error;
       if (!(error > 0)) continue;
-      const auto part = file->read({.wanted = [error](const Box2&) { return error; }});
+      const auto part = file->read({.wanted = [error](const Box3&) { return error; }});
       ASSERT_TRUE(part);
       EXPECT_GE(part->mt.nodeCount(), nodes * 9 / 10) << "a guess, by spans of nodes";
     }

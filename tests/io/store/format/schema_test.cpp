@@ -83,6 +83,8 @@ TEST(Schema, ListsTheChunksInTheOrderOfTheFile) {
   facts.segments.reset();
   EXPECT_EQ(tagsOf<TerrainModel>(facts), "META PDIR PTAB PNOD ISAM IHGT FIXV ");
   EXPECT_EQ(tagsOf<SurfaceModel>(facts), "META PDIR PTAB PNOD PNUM PDSP LOOK ATTR PICT AERR LEFT ");
+  facts.isPaged = true;
+  EXPECT_EQ(tagsOf<TerrainModel>(facts), "META PAGE PTAB PBLK PNOD ISAM IHGT FIXV ");
 }
 
 TEST(Schema, KnowsTheTypeAndTheNumberOfTheElements) {
@@ -139,9 +141,14 @@ TEST(Schema, NamesWhatAColumnIsPerAndHowItIsPacked) {
   EXPECT_EQ(toString(AmtCoding::packed), "packed");
 }
 
-TEST(Schema, NeedsTheVersionOfItsNewestColumn) {
-  EXPECT_EQ(kAmtVersionOf<TerrainModel>, 2u);
-  EXPECT_EQ(kAmtVersionOf<SurfaceModel>, 3u);
+TEST(Schema, NeedsTheVersionOfTheNewestColumnThatAFileHas) {
+  AmtFacts facts;
+  EXPECT_EQ(amtVersionOf<TerrainModel>(facts), 2u);
+  EXPECT_EQ(amtVersionOf<SurfaceModel>(facts), 3u);
+  facts.isPacked = true;
+  EXPECT_EQ(amtVersionOf<TerrainModel>(facts), 2u);
+  facts.isPaged = true;
+  EXPECT_EQ(amtVersionOf<TerrainModel>(facts), 3u);
 }
 
 }  // namespace

@@ -30,11 +30,12 @@ TEST(Pack, StatesEveryPacketsSizeAndChecksum) {
   EXPECT_EQ(directory->slots(), model.mt.arrays().link.size());
   std::uint64_t end = 0;
   for (const packed::Packet& packet : directory->packets) {
-    EXPECT_EQ(packet.offset, end);
+    const packed::Segment& all = packet.segments[0];
+    EXPECT_EQ(all.begin(), end);
     end += packet.bytes();
     ASSERT_LE(end, packed->nodes.size());
     EXPECT_GE(packet.bytes(), packed::leastBytes(packet.nodes));
-    EXPECT_EQ(amtChecksum(std::span(packed->nodes).subspan(packet.offset, packet.bytes())), packet.checksum);
+    EXPECT_EQ(amtChecksum(std::span(packed->nodes).subspan(all.begin(), all.bytes())), all.checksum);
   }
   EXPECT_EQ(end, packed->nodes.size());
 }
@@ -45,7 +46,7 @@ TEST(Pack, GivesTheSameBytesForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 4}) {
     RunContext context;
     context.threads = threads;
-    const auto again = packMt(model, context);
+    const auto again = packMt(model, {}, context);
     ASSERT_TRUE(again);
     EXPECT_TRUE(again->directory == packed->directory && again->tables == packed->tables &&
                 again->nodes == packed->nodes)
@@ -74,7 +75,7 @@ TEST(Pack, StopsWhenCancelled) {
   const std::atomic<bool> cancel = true;
   RunContext context;
   context.cancel = &cancel;
-  const auto packed = packMt(built(build(hills(40, 30, kWhole))), context);
+  const auto packed = packMt(built(build(hills(40, 30, kWhole))), {}, context);
   ASSERT_FALSE(packed);
   EXPECT_EQ(packed.error().code, ErrorCode::interrupted);
 }

@@ -35,14 +35,14 @@ using test::TemporaryFolder;
 using test::tinyModel;
 
 RequiredError everywhere(double error) {
-  return [error](const Box2&) { return error; };
+  return [error](const Box3&) { return error; };
 }
 RequiredError in(const Box2& box, double error) {
-  return [box, error](const Box2& packet) {
+  return requiredInPlan([box, error](const Box2& packet) {
     const bool meets = packet.xMin <= box.xMax && packet.xMax >= box.xMin && packet.yMin <= box.yMax &&
                        packet.yMax >= box.yMin;
     return meets ? error : std::numeric_limits<double>::infinity();
-  };
+  });
 }
 
 TerrainModel throughPacked(const TerrainModel& model, const std::string& path, int threads = 0) {
@@ -391,9 +391,11 @@ void expectRefusesOrSurvives(const TerrainModel& model, std::size_t step) {
       const auto bytes = std::as_bytes(changed.array<std::uint8_t>(amt_tag::kPackedDirectory));
       if (auto directory = packed::directoryOf(bytes, ignored)) {
         const auto nodes = changed.array<std::uint8_t>(amt_tag::kPackedNodes);
-        for (packed::Packet& packet : directory->packets)
-          if (packet.offset + packet.bytes() <= nodes.size())
-            packet.checksum = XXH3_64bits(nodes.data() + packet.offset, packet.bytes());
+        for (packed::Packet& packet : directory->packets) {
+          packed::Segment& all = packet.segments[0];
+          if (all.begin() + all.bytes() <= nodes.size())
+            all.checksum = XXH3_64bits(nodes.data() + all.begin(), all.bytes());
+        }
         const auto sealed = packed::toBytes(*directory);
         if (sealed.size() == bytes.size())
           std::memcpy(changed.array<std::uint8_t>(amt_tag::kPackedDirectory).data(), sealed.data(),
@@ -402,7 +404,7 @@ void expectRefusesOrSurvives(const TerrainModel& model, std::size_t step) {
       changed.seal();
       changed.save(folder.file("changed.amt"));
       AmtLoadOptions part;
-      part.wanted = [](const Box2& box) { return box.xMin < 8 ? 2.0 : 6.0; };
+      part.wanted = [](const Box3& box) { return box.low.x < 8 ? 2.0 : 6.0; };
       if (const Result<TerrainModel> some = loadAmt(folder.file("changed.amt"), part)) {
         ++partsSurvived;
         ASSERT_TRUE(writeAmt(folder.file("part.amt"), *some));

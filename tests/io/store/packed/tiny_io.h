@@ -41,6 +41,7 @@ inline bool listTiny(const Run& run, std::vector<std::uint32_t>& seeds) {
 /// Knows the model.
 class KnowingIo {
  public:
+  bool nextSegment() { return true; }
   static constexpr bool kKeepsValues = true;
 
   explicit KnowingIo(const TerrainModel& model) : a_(model.mt.arrays()) {}
@@ -102,6 +103,7 @@ class KnowingIo {
 /// Knows nothing but the record.
 class ReplayingIo {
  public:
+  bool nextSegment() { return true; }
   static constexpr bool kKeepsValues = true;
 
   explicit ReplayingIo(Recording recording) : recording_(std::move(recording)) {}

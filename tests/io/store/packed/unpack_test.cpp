@@ -51,7 +51,7 @@ TEST(Unpack, ReadsTheFirstBandsAloneWithTheNumbersOfTheWhole) {
   const Packed packed = packedHills();
   const auto whole = packed.unpacked();
   const double error = packed.model.mt.largestError() / 16;
-  const auto part = packed.unpacked([error](const Box2&) { return error; });
+  const auto part = packed.unpacked([error](const Box3&) { return error; });
   ASSERT_TRUE(whole && part);
   ASSERT_LT(part->nodeCount(), whole->nodeCount());
   ASSERT_GT(part->nodeCount(), 0u);
@@ -65,7 +65,7 @@ TEST(Unpack, ReadsTheFirstBandsAloneWithTheNumbersOfTheWhole) {
 
 TEST(Unpack, ReadsTheRootAloneWhereNothingIsWanted) {
   const Packed packed = packedHills();
-  const auto root = packed.unpacked([](const Box2&) { return std::numeric_limits<double>::infinity(); });
+  const auto root = packed.unpacked([](const Box3&) { return std::numeric_limits<double>::infinity(); });
   ASSERT_TRUE(root) << root.error().describe();
   EXPECT_EQ(root->nodeCount(), 0u);
   EXPECT_EQ(root->rootTriangleCount(), packed.model.mt.rootTriangleCount());
@@ -109,7 +109,7 @@ TEST(Unpack, StatesTheErrorBeyondANumberOfNodes) {
     EXPECT_LE(error, last);
     last = error;
     if (!(error > 0)) break;
-    const auto part = packed.unpacked([error](const Box2&) { return error; });
+    const auto part = packed.unpacked([error](const Box3&) { return error; });
     ASSERT_TRUE(part);
     EXPECT_GE(part->nodeCount(), nodes);
   }

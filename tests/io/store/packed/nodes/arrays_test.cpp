@@ -79,7 +79,7 @@ TEST(PackedArrays, FinishWithHintsAndRootTrianglesThatStay) {
   arrays.joinRoot();
   arrays.remover[1] = 0;
   arrays.slotBegin[1] = 4;
-  arrays.finish();
+  arrays.finish(false);
   EXPECT_EQ(arrays.remover[0], kNoTriangle);
   EXPECT_EQ(arrays.remover[1], 0u);
   EXPECT_EQ(arrays.slotBegin[2], 7u);

@@ -28,9 +28,10 @@ Directory someDirectory() {
     packet.xMin = -1.5 * static_cast<double>(i);
     packet.xMax = 1e300;
     packet.yMax = 0.1;
+    packet.segments.resize(1);
     for (std::uint32_t s = 0; s < kParts; ++s)
-      packet.streamBytes[s] = 100u * static_cast<std::uint32_t>(i) + s;
-    packet.checksum = 0x0123456789ABCDEF + i;
+      packet.segments[0].streamBytes[s] = 100u * static_cast<std::uint32_t>(i) + s;
+    packet.segments[0].checksum = 0x0123456789ABCDEF + i;
     if (i > 0) packet.dependsOn.push_back(0);
   }
   directory.packets[2].dependsOn.push_back(1);
@@ -66,7 +67,7 @@ TEST(PackedLayout, NumbersGoThroughTheBandsAndThroughThePacketsWithinABand) {
   EXPECT_EQ(packets[2].runs[0].firstNode, 8u);
   EXPECT_EQ(packets[1].runs[1].firstNode, 15u);
   EXPECT_EQ(packets[1].runs[1].firstSlot, 17u + 66 + 3 + 21);
-  EXPECT_EQ(packets[1].offset, packets[0].bytes());
+  EXPECT_EQ(packets[1].segments[0].offset, packets[0].bytes());
   EXPECT_EQ(packets[2].firstBorder, 4u);
   EXPECT_EQ(packets[1].nodes, 12u);
 }
