@@ -337,10 +337,13 @@ class Model(Stored):
             array = array.rio.write_crs(self.crs)
         return array
 
-    def save(self, path: PathLike, packed: bool = False, progress: Progress = None) -> None:
-        """Writes the .amt file, whole or not at all. Another ending, or the file of the source, is refused."""
+    def save(self, path: PathLike, packed: bool = False, progress: Progress = None, *, paged: bool = False) -> None:
+        """Writes the .amt file, whole or not at all. Another ending, or the file of the source, is refused.
+
+        packed: compressed. paged: compressed, in pages, of which a query reads what it needs.
+        """
         name = self._name_to_save(path)
-        self._terrain.save(name, packed, progress)
+        self._terrain.save(name, packed, paged, progress)
         self._path = os.path.abspath(name)
 
     @property

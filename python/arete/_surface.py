@@ -128,13 +128,14 @@ class Surface(Stored):
         """
         return self._surface.measure(*some_mesh_of(mesh, triangles), int(samples), int(seed), progress)
 
-    def save(self, path: PathLike, packed: bool = False, position_bits: int = 0, progress: Progress = None) -> None:
+    def save(self, path: PathLike, packed: bool = False, position_bits: int = 0, progress: Progress = None,
+             *, paged: bool = False) -> None:
         """Writes the .amt file, whole or not at all. position_bits: of a packed file, the bits of each coordinate; 0: all.
-        Another ending, or the file of the source, is refused."""
-        if position_bits and not packed:
+        Another ending, or the file of the source, is refused. paged: packed, in pages."""
+        if position_bits and not (packed or paged):
             raise ValueError("position_bits is for packed files")
         name = self._name_to_save(path)
-        self._surface.save(name, packed, int(position_bits), progress)
+        self._surface.save(name, packed, paged, int(position_bits), progress)
         self._path = os.path.abspath(name)
 
     @property

@@ -199,11 +199,12 @@ void defineModel(py::module_& module) {
       .def("extract", &extractSurfaceTo)
       .def("measure", &measureSurfaceMesh)
       .def("save",
-           [](const SurfaceModel& model, const std::string& path, bool isPacked, int positionBits,
-              const py::object& progress) {
+           [](const SurfaceModel& model, const std::string& path, bool isPacked, bool isPaged,
+              int positionBits, const py::object& progress) {
              call(progress, [&](const RunContext& context) {
-               return writeSurfaceModel(path, model, context,
-                                        {.isPacked = isPacked, .positionBits = positionBits});
+               return writeSurfaceModel(
+                   path, model, context,
+                   {.isPacked = isPacked, .isPaged = isPaged, .positionBits = positionBits});
              });
            })
       .def_property_readonly("box",

@@ -244,9 +244,11 @@ void defineTerrain(py::module_& module) {
       .def_property_readonly("relief", &Terrain::relief)
       .def_property_readonly("columns", [](const Terrain& t) { return t.model().columns; })
       .def("save",
-           [](const Terrain& terrain, const std::string& path, bool isPacked, const py::object& progress) {
+           [](const Terrain& terrain, const std::string& path, bool isPacked, bool isPaged,
+              const py::object& progress) {
              call(progress, [&](const RunContext& context) {
-               return writeAmt(path, terrain.model(), context, {.writer = {}, .isPacked = isPacked});
+               return writeAmt(path, terrain.model(), context,
+                               {.writer = {}, .isPacked = isPacked, .isPaged = isPaged});
              });
            })
       .def_property_readonly("crs_wkt", [](const Terrain& t) { return t.model().georeference.crsWkt; })

@@ -7,6 +7,7 @@
 
 #include "io/store/format/checksum.h"
 #include "io/store/packed/nodes/layout.h"
+#include "io/store/packed/pages/directory_blocks.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -30,13 +31,47 @@ void sealPackedNodes(AmtParts& amt) {
   auto read = packed::directoryOf(std::as_bytes(std::span(directory->bytes)), problem,
                                   find(amt, amt_tag::kPackedNumbers) != nullptr);
   if (!read) return;
-  for (packed::Packet& packet : read->packets)
-    if (packet.offset <= nodes->bytes.size() && packet.bytes() <= nodes->bytes.size() - packet.offset)
-      packet.checksum =
-          amtChecksum(std::as_bytes(std::span(nodes->bytes)).subspan(packet.offset, packet.bytes()));
+  for (packed::Packet& packet : read->packets) {
+    packed::Segment& all = packet.segments[0];
+    if (all.begin() <= nodes->bytes.size() && all.bytes() <= nodes->bytes.size() - all.begin())
+      all.checksum = amtChecksum(std::as_bytes(std::span(nodes->bytes)).subspan(all.begin(), all.bytes()));
+  }
   const std::vector<std::byte> sealed = packed::toBytes(*read);
   directory->bytes.resize(sealed.size());
   std::memcpy(directory->bytes.data(), sealed.data(), sealed.size());
+}
+
+/// Replaces a checksum that some bytes hold.
+void replaceSum(std::span<std::uint8_t> in, std::uint64_t old, std::uint64_t sum) {
+  const auto *const from = reinterpret_cast<const std::uint8_t*>(&old),
+             *const to = reinterpret_cast<const std::uint8_t*>(&sum);
+  const auto found = std::ranges::search(in, std::span(from, sizeof old)).begin();
+  if (found != in.end()) std::copy_n(to, sizeof sum, found);
+}
+
+/// Those that the directory of pages keeps of segments and of its own blocks: of one level of blocks.
+void sealPages(AmtParts& amt) {
+  AmtPart *const directory = find(amt, amt_tag::kPageRoot), *const blocks = find(amt, amt_tag::kPageBlocks),
+                 *const nodes = find(amt, amt_tag::kPackedNodes);
+  if (!directory || !blocks || !nodes) return;
+  std::string problem;
+  const auto root = packed::pageRootOf(std::as_bytes(std::span(directory->bytes)), problem);
+  if (!root || root->levels != 1) return;
+  std::uint32_t first = 0;
+  for (const packed::BlockEntry& entry : root->entries) {
+    if (entry.offset > blocks->bytes.size() || entry.bytes > blocks->bytes.size() - entry.offset) continue;
+    const std::span block = std::span(blocks->bytes).subspan(entry.offset, entry.bytes);
+    const auto pages = packed::pagesOf(std::as_bytes(block), entry, first);
+    first += packed::kPagesPerBlock;
+    for (const packed::Packet& page : pages.value_or(std::vector<packed::Packet>())) {
+      for (const packed::Segment& s : page.segments) {
+        if (s.begin() > nodes->bytes.size() || s.bytes() > nodes->bytes.size() - s.begin()) continue;
+        const auto bytes = std::as_bytes(std::span(nodes->bytes)).subspan(s.begin(), s.bytes());
+        replaceSum(block, s.checksum, amtChecksum(bytes));
+      }
+    }
+    replaceSum(directory->bytes, entry.checksum, amtChecksum(std::as_bytes(block)));
+  }
 }
 
 /// The checksums of segments, in the order of the directory.
@@ -77,6 +112,7 @@ std::optional<AmtParts> takeApart(std::span<const std::uint8_t> file) {
 
 Bytes putTogether(AmtParts& amt) {
   sealPackedNodes(amt);
+  sealPages(amt);
   sealSegments(amt);
   amt.header.chunkCount = static_cast<std::uint32_t>(amt.parts.size());
   amt.header.directoryBytes = amt.parts.size() * sizeof(AmtChunk);

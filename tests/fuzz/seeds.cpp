@@ -43,6 +43,7 @@ void writeModel(const fs::path& folder, const std::string& name, const Result<Te
   if (!model) return;  // a family that is degenerate at this size
   check(writeAmt(folder / "amt" / (name + ".amt"), *model, {}, {.writer = "Arete"}));
   check(writeAmt(folder / "amt" / (name + "-packed.amt"), *model, {}, {.writer = "Arete", .isPacked = true}));
+  check(writeAmt(folder / "amt" / (name + "-paged.amt"), *model, {}, {.writer = "Arete", .isPaged = true}));
   const MultiTriangulation& mt = model->mt;
   const TinExport tin = exportTin(*model, frontOfPrefix(mt, mt.nodeCount() / 2)).value();
   MeshWriteOptions options;
@@ -85,6 +86,7 @@ void writeSurfaces(const fs::path& folder) {
   if (!plain) check(tl::unexpected(plain.error()));
   check(writeSurfaceAmt(folder / "plain.amt", *plain, {}, {.writer = "Arete"}));
   check(writeSurfaceAmt(folder / "packed.amt", *plain, {}, {.writer = "Arete", .isPacked = true}));
+  check(writeSurfaceAmt(folder / "paged.amt", *plain, {}, {.writer = "Arete", .isPaged = true}));
   check(writeSurfaceAmt(folder / "rounded.amt", *plain, {},
                         {.writer = "Arete", .isPacked = true, .positionBits = 8}));
   mesh.materials = {{.name = "one"}, {.name = "other", .textures = {{"baseColor", "#0", 0}}}};

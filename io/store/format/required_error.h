@@ -19,6 +19,16 @@ namespace arete {
 /// meets.
 using RequiredError = std::function<double(const Box3&)>;
 
+/// A box of the plan, with all heights.
+inline Box3 overPlan(const Box2& box) {
+  Box3 all;
+  all.low.x = box.xMin;
+  all.low.y = box.yMin;
+  all.high.x = box.xMax;
+  all.high.y = box.yMax;
+  return all;
+}
+
 /// What does not depend on heights: `required` maps a box of the plan.
 template <class Required>
 RequiredError requiredInPlan(Required required) {

@@ -140,7 +140,7 @@ TEST(QueryFootprint, AreWantedByEveryBoxThatHoldsOneAndByNoneFarFromAll) {
                  p.y <= y + height + margin;
         });
       };
-      const double error = within({x, y, x + width, y + height});
+      const double error = within(overPlan({x, y, x + width, y + height}));
       if (holdsOne(0)) {
         EXPECT_EQ(error, 2.5) << "seed " << seed;
       }
@@ -149,8 +149,8 @@ TEST(QueryFootprint, AreWantedByEveryBoxThatHoldsOneAndByNoneFarFromAll) {
         EXPECT_EQ(error, kNothing) << "seed " << seed;
       }
     }
-    EXPECT_EQ(within({3, 3, 2, 2}), kNothing) << "an empty box";
-    EXPECT_EQ(within({std::nan(""), 0, 1, 1}), kNothing);
+    EXPECT_EQ(within(overPlan({3, 3, 2, 2})), kNothing) << "an empty box";
+    EXPECT_EQ(within(overPlan({std::nan(""), 0, 1, 1})), kNothing);
   }
 }
 
@@ -160,9 +160,9 @@ TEST(QueryFootprint, ReachASampleBesideThemOnARaster) {
   QueryFootprint wanted(filed.outline);
   wanted.addLine({10, 10}, {20, 10});
   const RequiredError within = wanted.within(0);
-  EXPECT_EQ(within({20.9, 9, 23, 11}), 0);
-  EXPECT_EQ(within({12, 7, 13, 9.1}), 0);
-  EXPECT_EQ(within({21.5, 9, 23, 11}), kNothing);
+  EXPECT_EQ(within(overPlan({20.9, 9, 23, 11})), 0);
+  EXPECT_EQ(within(overPlan({12, 7, 13, 9.1})), 0);
+  EXPECT_EQ(within(overPlan({21.5, 9, 23, 11})), kNothing);
 }
 
 TEST(QueryFootprint, TakeLinesFarBeyondTheTerrain) {
@@ -308,7 +308,7 @@ TEST(QueryFootprint, WantADiscAndLittleBesideIt) {
     for (int i = 0; i < 400; ++i) {
       const Vec2 p{random.between(0, 59), random.between(0, 39)};
       const double distance = *earth->distance(centre, p), sample = *earth->distance({0, 0}, {1, 1});
-      const double error = within({p.x, p.y, p.x, p.y});
+      const double error = within(overPlan({p.x, p.y, p.x, p.y}));
       if (distance <= metres) {
         EXPECT_EQ(error, 0) << "seed " << seed;
       }
@@ -347,9 +347,9 @@ TEST(QueryFootprint, WantTheRectangleOfAMapAboutTheirDiscs) {
   wanted.addRectangle(0.1);
   const RequiredError within = wanted.within(0);
   for (double x = 13.5; x < 36.5; ++x)
-    for (double y = 13.5; y < 26.5; ++y) EXPECT_EQ(within({x, y, x, y}), 0) << x << " " << y;
+    for (double y = 13.5; y < 26.5; ++y) EXPECT_EQ(within(overPlan({x, y, x, y})), 0) << x << " " << y;
   for (const Vec2 far : {Vec2{2, 15}, {50, 15}, {20, 1}, {20, 37}})
-    EXPECT_EQ(within({far.x, far.y, far.x, far.y}), kNothing) << far.x << " " << far.y;
+    EXPECT_EQ(within(overPlan({far.x, far.y, far.x, far.y})), kNothing) << far.x << " " << far.y;
 }
 
 TEST(QueryFootprint, AskForNoDistanceWhereADiscIsWantedAlready) {

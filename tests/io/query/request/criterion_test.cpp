@@ -73,13 +73,13 @@ TEST(CutRequest, RequiresAnErrorOfBoxesWhereAToleranceDecides) {
   const TerrainModel model = hillyModel();
   const auto everywhere = requiredBy(std::vector{within(5), within(2)}, std::nullopt, model);
   ASSERT_TRUE(everywhere && *everywhere);
-  EXPECT_EQ((*everywhere)({0, 0, 1, 1}), 2);
+  EXPECT_EQ((*everywhere)(overPlan({0, 0, 1, 1})), 2);
 
   CutRequest focus = within(1);
   focus.focus = {.xy = {10, 10}, .growth = 1};
   const auto around = requiredBy(std::vector{focus}, std::nullopt, model);
   ASSERT_TRUE(around && *around);
-  const double near = (*around)({9, 9, 11, 11}), far = (*around)({49, 39, 51, 41});
+  const double near = (*around)(overPlan({9, 9, 11, 11})), far = (*around)(overPlan({49, 39, 51, 41}));
   EXPECT_LE(near, 2);
   EXPECT_GT(far, 20);
 
@@ -88,8 +88,8 @@ TEST(CutRequest, RequiresAnErrorOfBoxesWhereAToleranceDecides) {
   const Region region = Region::box({5, 5, 15, 15});
   const auto inside = requiredBy(std::vector{outside}, region, model);
   ASSERT_TRUE(inside && *inside);
-  EXPECT_EQ((*inside)({6, 6, 7, 7}), 1);
-  EXPECT_EQ((*inside)({40, 40, 41, 41}), kInfinity);
+  EXPECT_EQ((*inside)(overPlan({6, 6, 7, 7})), 1);
+  EXPECT_EQ((*inside)(overPlan({40, 40, 41, 41})), kInfinity);
 }
 
 TEST(CutRequest, RequiresEverythingWhereMoreThanAToleranceDecides) {
