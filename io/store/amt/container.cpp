@@ -54,6 +54,15 @@ Status AmtContainer::load(std::span<const std::byte> part) const {
   return file_->load(part) ? Status() : loaded();
 }
 
+Status AmtContainer::loadParts(std::span<const FileImage::Part> parts, const RunContext& context) const {
+  return file_->loadParts(parts, context) ? Status() : loaded();
+}
+
+Status AmtContainer::loadAll(const RunContext& context) const {
+  const FileImage::Part all = bytes();
+  return loadParts({&all, 1}, context);
+}
+
 Result<std::shared_ptr<const FileImage>> AmtContainer::openImage(const std::string& path,
                                                                  const AmtOpenOptions& options) {
   if (options.isCopied) {
@@ -188,8 +197,6 @@ tl::unexpected<Error> AmtContainer::altered(const AmtChunk& chunk) const {
 
 /// Checks all chunks but one, whose packets have checksums of their own and are checked when they are read.
 Status AmtContainer::checkSums(const AmtTag& leftOut, const RunContext& context) const {
-  for (const AmtChunk& chunk : chunks_)
-    if (chunk.tag != leftOut) ARETE_CHECK(load(bytes(chunk)));
   std::vector<const AmtChunk*> chunks;
   std::vector<std::span<const std::byte>> blocks;
   for (const AmtChunk& chunk : chunks_) {
@@ -197,6 +204,7 @@ Status AmtContainer::checkSums(const AmtTag& leftOut, const RunContext& context)
     chunks.push_back(&chunk);
     blocks.push_back(bytes(chunk));
   }
+  ARETE_CHECK(loadParts(blocks, context));
   const auto sums = amtChecksums(blocks, "check checksums", context);
   if (!sums) return failure(ErrorCode::interrupted, "the check was interrupted", path_);
   for (std::size_t i = 0; i < blocks.size(); ++i)

@@ -46,7 +46,9 @@ class AmtContainer {
   /// Reads a part of bytes() from a file that is read piece by piece. Every part has to be loaded before it
   /// is used: it is zeros until then. Thread-safe. Errors: unreadable: the file was changed.
   Status load(std::span<const std::byte> part) const;
-  Status loadAll() const { return load(bytes()); }
+  /// The same of several parts, fetched together where they come from a server.
+  Status loadParts(std::span<const FileImage::Part> parts, const RunContext& context = {}) const;
+  Status loadAll(const RunContext& context = {}) const;
   /// The first error of load(), on any thread.
   Status loaded() const;
   /// The directory, in the order of the file.

@@ -56,7 +56,7 @@ class AmtFile {
   /// Of a file that is read piece by piece (AmtOpenOptions::isCopied) only what was read.
   std::span<const std::byte> bytes() const { return container_.bytes(); }
   /// Loads everything but packed nodes. Errors: unreadable: the file was changed while it was open.
-  Status loadAllButPacked() const;
+  Status loadAllButPacked(const RunContext& context = {}) const;
   const AmtContainer& container() const { return container_; }
   /// The program that wrote the file.
   const std::string& writer() const { return writer_; }

@@ -50,8 +50,14 @@ void AmtSegments::touch(Chunk chunk, std::uint64_t begin, std::uint64_t end) {
   const auto bytes = file_.bytes(file_.chunks()[chunk.index]);
   const std::uint64_t from = first * kAmtSegmentBytes,
                       to = std::min<std::uint64_t>(bytes.size(), (last + 1) * kAmtSegmentBytes);
-  // check() and the reader ask whether it could be read.
-  static_cast<void>(file_.container().load(bytes.subspan(from, to - from)));
+  unloaded_.push_back(bytes.subspan(from, to - from));
+}
+
+Status AmtSegments::load(const RunContext& context, std::span<const std::byte> beside) {
+  unloaded_.push_back(beside);
+  const Status loaded = file_.container().loadParts(unloaded_, context);
+  unloaded_.clear();
+  return loaded;
 }
 
 void AmtSegments::touchAll(Chunk chunk) {
@@ -70,6 +76,7 @@ std::size_t AmtSegments::chunkOf(std::size_t segment) const {
 }
 
 Status AmtSegments::check(const RunContext& context) {
+  ARETE_CHECK(load(context));
   ARETE_CHECK(file_.container().loaded());
   std::vector<std::size_t> segments;
   for (std::size_t i = 0; i < states_.size(); ++i)

@@ -18,9 +18,9 @@ namespace arete {
 struct AmtMetadata;
 struct SurfaceMetadata;
 
-/// Sees to it that some of the packed bytes are in memory before they are decoded; false if they cannot be.
-/// Called on any thread. Null: all are.
-using LoadPacked = std::function<bool(std::span<const std::byte>)>;
+/// Sees to it that parts of the packed bytes are in memory before they are decoded; false if they cannot be.
+/// Called once with all parts that a query needs. Null: all are.
+using LoadPacked = std::function<bool(std::span<const std::span<const std::byte>>)>;
 
 /// The packed form of a multitriangulation (docs/topics/amt-format.md, "Packed"): the contents of three
 /// chunks, together a ninth to a fifteenth of the arrays.

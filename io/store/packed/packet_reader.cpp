@@ -65,6 +65,7 @@ class Unpacker {
   }
 
   Result<MultiTriangulation> run(const MtKind& kind, AmtCounts counts) {
+    if (!load()) return failure(ErrorCode::unreadable, "the packed nodes cannot be read");
     const auto arrays = std::make_shared<Arrays>();
     static_cast<MtKind&>(*arrays) = kind;
     counts.nodes = directory_.nodes();
@@ -88,13 +89,25 @@ class Unpacker {
   }
 
  private:
+  bool isRequired(std::size_t packet) const {
+    return packet == 0 || !directory_.packets[packet].runs.empty();
+  }
+  bool load() const {
+    if (!load_) return true;
+    std::vector<std::span<const std::byte>> parts;
+    for (std::size_t i = 0; i < directory_.packets.size(); ++i)
+      if (const Packet& packet = directory_.packets[i]; isRequired(i))
+        parts.push_back(bytes_.subspan(packet.offset, packet.bytes()));
+    return load_(parts);
+  }
+
   /// Calls body(i) for the packets that are required.
   template <class Body>
   std::optional<PacketProblem> overPackets(Direction direction, const Body& body) {
     return forPackets(
         directory_.packets, direction, context_,
         [&](std::size_t i) -> std::optional<std::string> {
-          if (directory_.packets[i].runs.empty() && i != 0) return std::nullopt;
+          if (!isRequired(i)) return std::nullopt;
           return body(i);
         },
         [&](std::size_t i) {
@@ -107,7 +120,6 @@ class Unpacker {
   std::optional<std::string> decode(std::size_t index) {
     const Packet& packet = directory_.packets[index];
     const auto bytes = bytes_.subspan(packet.offset, packet.bytes());
-    if (load_ && !load_(bytes)) return "cannot be read";
     if (amtChecksum(bytes) != packet.checksum) return "has been altered: its checksum does not match";
     ReaderIo io(*arrays_, directory_, index, tables_.data(), bytes);
     return withForm(*arrays_, [&](auto form) { return decode<decltype(form)>(index, io); });
