@@ -17,7 +17,7 @@ struct ByteRange {
 struct RangeRules {
   std::uint64_t gap = std::uint64_t{1} << 16;     ///< bytes between two ranges that are fetched with them
   std::size_t fewRequests = 8;                    ///< more requests than these are joined over longer gaps,
-  double moreBytes = 0.5;                         ///< for at most this share of the wanted bytes
+  double moreBytes = 0.25;                        ///< for at most this share of the wanted bytes
   std::uint64_t longest = std::uint64_t{1} << 23; ///< of one request
 };
 

@@ -50,14 +50,17 @@ RangedFile::~RangedFile() {
   ::munmap(begin_, bytes_.size());
 }
 
-Result<std::shared_ptr<const RangedFile>> RangedFile::open(Source source, const WebSettings& settings) {
-  source.client->cancelBy(settings.cancel);
+Result<std::shared_ptr<const RangedFile>> RangedFile::open(Source source, const WebSettings& settings,
+                                                           const std::atomic<bool>* cancel) {
+  source.client->cancelBy(cancel != nullptr ? cancel : settings.cancel);
   RangeAnswer first = requestRange(*source.client, source.rules, 0, kBlockBytes - 1);
   if (first.problem.empty() && isUnsaidPart(*source.client, source.rules, first))
     first.problem = "the server sends a part of the file and does not say how long the file is";
+  const bool isCancelled = source.client->isCancelled();
+  source.client->cancelBy(settings.cancel);
   if (first.status == kBeyond || (first.problem.empty() && first.length == 0))
     return failure(ErrorCode::unreadable, "is empty", source.name);
-  if (!first.problem.empty() && source.client->isCancelled())
+  if (!first.problem.empty() && isCancelled)
     return failure(ErrorCode::interrupted, "reading was stopped", source.name);
   if (first.status == kAbsent || first.status == kRemoved)
     return failure(ErrorCode::notFound, fmt::format("is not on {}, which answers {}", source.host, first.status),

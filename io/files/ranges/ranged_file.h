@@ -38,7 +38,10 @@ class RangedFile final : public FileImage {
 
   /// Sends the first request. Errors, naming the file: notFound: the server answers 404 or 410. unreadable: any
   /// other answer than bytes that were asked for, or an empty file. outOfMemory: its length cannot be reserved.
-  static Result<std::shared_ptr<const RangedFile>> open(Source source, const WebSettings& settings);
+  ///
+  /// @param cancel Ends the opening, in place of the settings' one. May be null.
+  static Result<std::shared_ptr<const RangedFile>> open(Source source, const WebSettings& settings,
+                                                        const std::atomic<bool>* cancel = nullptr);
   ~RangedFile() override;
 
   bool load(Part part) const override { return loadParts({&part, 1}); }

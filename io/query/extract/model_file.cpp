@@ -65,7 +65,7 @@ Result<AmtContainer> openModelFile(const std::string& path, const AmtOpenOptions
   if (!isVirtualPath(named)) return AmtContainer::open(path, options);
   ARETE_TRY(auto source, sourceOf(path, named));
   if (source) {
-    ARETE_TRY(auto ranged, RangedFile::open(std::move(*source), webSettings()));
+    ARETE_TRY(auto ranged, RangedFile::open(std::move(*source), webSettings(), options.cancel));
     return AmtContainer::open(path, std::move(ranged));
   }
   ARETE_TRY(auto image, readVirtualFile(path, sizeof(AmtHeader), statedBytes));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,8 @@ struct AmtOpenOptions {
   bool isCopied = false;
   /// Queries will read few parts of a large file: disables the system's read-ahead.
   bool randomAccess = false;
+  /// Ends the opening of a file on a server. May be null; it is not kept.
+  const std::atomic<bool>* cancel = nullptr;
 };
 
 /// An .amt file as a directory of chunks, whatever they hold: mapped, read piece by piece, or whole in
