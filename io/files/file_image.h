@@ -27,15 +27,19 @@ class FileImage {
   /// Reads a part of bytes() if it was not read before. Thread-safe. O(part).
   /// @return false if it cannot be read; problem() says why
   virtual bool load(Part /*part*/) const { return true; }
-  /// Reads several parts, with as few and as concurrent requests as where the bytes come from allows. Thread-safe.
-  /// O(parts).
-  /// @param context  reports progress where the bytes come from afar, and ends it; the parts cannot be read then
+  /// Reads several parts, with as few and as concurrent requests as where the bytes come from allows.
+  /// Thread-safe. O(parts).
+  /// @param context  reports progress where the bytes come from afar, and ends it; the parts cannot be read
+  /// then
   /// @return false if one of them cannot be read; problem() says why
   virtual bool loadParts(std::span<const Part> parts, const RunContext& /*context*/ = {}) const {
     return std::ranges::all_of(parts, [this](Part part) { return load(part); });
   }
   /// Why the first part could not be read that could not. Thread-safe.
   virtual std::optional<Error> problem() const { return std::nullopt; }
+
+  /// Whether what is loaded comes from a server.
+  virtual bool isFar() const { return false; }
 
   /// Advises the system of random access, so that it does not read ahead.
   virtual void adviseRandomAccess() const {}

@@ -10,8 +10,8 @@
 
 namespace arete {
 
-/// How a server is asked. Empty texts and zeros state nothing; libcurl then takes what it takes by default, the
-/// proxies of `https_proxy` and `no_proxy` among it.
+/// How a server is asked. Empty texts and zeros state nothing; libcurl then takes what it takes by default,
+/// the proxies of `https_proxy` and `no_proxy` among it.
 struct CurlOptions {
   double connectSeconds = 30;  ///< to connect
   double stallSeconds = 30;    ///< with fewer bytes a second than the next number count as a lost connection
@@ -30,11 +30,11 @@ struct CurlOptions {
   int connections = 4;  ///< at once
 };
 
-/// Sends requests for one file through libcurl. The address is http or https: what it redirects to as well (at
-/// most ten times, and never from https to http), and nothing is compressed. A file that comes as a whole
+/// Sends requests for one file through libcurl. The address is http or https: what it redirects to as well
+/// (at most ten times, and never from https to http), and nothing is compressed. A file that comes as a whole
 /// although a part was asked for is read if the part begins at 0 and the file has at most `mostWhole` bytes;
-/// otherwise the request is broken off at its first bytes. Cancellation ends a request within about 0.1 seconds.
-/// After a fork() the child has connections of its own.
+/// otherwise the request is broken off at its first bytes. Cancellation ends a request within about 0.1
+/// seconds. After a fork() the child has connections of its own.
 std::shared_ptr<HttpClient> curlHttpClient(std::string address, CurlOptions options);
 
 }  // namespace arete

@@ -79,8 +79,8 @@ RangeAnswer requestRange(HttpClient& client, const RetryRules& rules, std::uint6
   return std::move(requestRanges(client, rules, {&range, 1}).front());
 }
 
-// Those that failed for what may pass are asked for again together, after the longest wait that one of them is
-// to have.
+// Those that failed for what may pass are asked for again together, after the longest wait that one of them
+// is to have.
 std::vector<RangeAnswer> requestRanges(HttpClient& client, const RetryRules& rules,
                                        std::span<const HttpRange> ranges) {
   std::vector<RangeAnswer> answers(ranges.size());

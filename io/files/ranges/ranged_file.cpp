@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// As in io/files/copied_file.h the memory is an anonymous mapping of the length of the file, in which blocks that
-// were not fetched take nothing and are zeros; the flag of a block is set once it is whole.
+// As in io/files/copied_file.h the memory is an anonymous mapping of the length of the file, in which blocks
+// that were not fetched take nothing and are zeros; the flag of a block is set once it is whole.
 #include "io/files/ranges/ranged_file.h"
 
 #include <fmt/format.h>
@@ -17,13 +17,14 @@ namespace arete {
 namespace {
 
 constexpr std::uint64_t kBlockBytes = SpanCache::kBlock, kSpanBytes = SpanCache::kSpan;
-/// What one round of requests fetches, and may take in memory beside the file: 32 MiB, of 64 requests at most.
+/// What one round of requests fetches, and may take in memory beside the file: 32 MiB, of 64 requests at
+/// most.
 constexpr std::uint64_t kRoundBytes = std::uint64_t{1} << 25;
 constexpr std::size_t kRoundRequests = 64;
 constexpr int kAbsent = 404, kRemoved = 410, kBeyond = 416;
 
-/// An answer without a range is a whole file. One of exactly as many bytes as were asked for may as well be the
-/// part, from a server that does not say so: such a server sends one byte where one is asked for.
+/// An answer without a range is a whole file. One of exactly as many bytes as were asked for may as well be
+/// the part, from a server that does not say so: such a server sends one byte where one is asked for.
 bool isUnsaidPart(HttpClient& client, const RetryRules& rules, const RangeAnswer& answer) {
   if (answer.isRange || answer.bytes.size() != kBlockBytes) return false;
   const RangeAnswer again = requestRange(client, rules, 0, 0);
@@ -63,11 +64,11 @@ Result<std::shared_ptr<const RangedFile>> RangedFile::open(Source source, const 
   if (!first.problem.empty() && isCancelled)
     return failure(ErrorCode::interrupted, "reading was stopped", source.name);
   if (first.status == kAbsent || first.status == kRemoved)
-    return failure(ErrorCode::notFound, fmt::format("is not on {}, which answers {}", source.host, first.status),
-                   source.name);
+    return failure(ErrorCode::notFound,
+                   fmt::format("is not on {}, which answers {}", source.host, first.status), source.name);
   if (!first.problem.empty())
-    return failure(ErrorCode::unreadable, fmt::format("cannot be read from {}: {}", source.host, first.problem),
-                   source.name);
+    return failure(ErrorCode::unreadable,
+                   fmt::format("cannot be read from {}: {}", source.host, first.problem), source.name);
   void* const begin = first.length > static_cast<std::uint64_t>(PTRDIFF_MAX)
                           ? MAP_FAILED
                           : ::mmap(nullptr, first.length, PROT_READ | PROT_WRITE,
@@ -75,6 +76,8 @@ Result<std::shared_ptr<const RangedFile>> RangedFile::open(Source source, const 
   if (begin == MAP_FAILED)
     return failure(ErrorCode::outOfMemory, fmt::format("its {} bytes do not fit into memory", first.length),
                    source.name);
+  // Few blocks of many places are to take no more than themselves.
+  static_cast<void>(::madvise(begin, first.length, MADV_NOHUGEPAGE));
   return std::shared_ptr<const RangedFile>(
       new RangedFile(std::move(source), settings, first, static_cast<std::byte*>(begin)));
 }

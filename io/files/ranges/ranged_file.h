@@ -21,10 +21,10 @@
 namespace arete {
 
 /// A file of a server as one range of memory. Address space of its length is reserved; its first 16 KiB are
-/// fetched when it is opened, and other parts when they are loaded, in blocks of 16 KiB: never the whole where a
-/// part is asked for, unless the server gives no parts of files. The parts of one call are fetched together: near
-/// ones by one request (planRequests()), several requests at once. Every answer is held against the first one's
-/// length, ETag and date.
+/// fetched when it is opened, and other parts when they are loaded, in blocks of 16 KiB: never the whole
+/// where a part is asked for, unless the server gives no parts of files. The parts of one call are fetched
+/// together: near ones by one request (planRequests()), several requests at once. Every answer is held
+/// against the first one's length, ETag and date.
 class RangedFile final : public FileImage {
  public:
   /// What the file is called, and how it is asked for.
@@ -36,8 +36,9 @@ class RangedFile final : public FileImage {
     RetryRules rules = {};
   };
 
-  /// Sends the first request. Errors, naming the file: notFound: the server answers 404 or 410. unreadable: any
-  /// other answer than bytes that were asked for, or an empty file. outOfMemory: its length cannot be reserved.
+  /// Sends the first request. Errors, naming the file: notFound: the server answers 404 or 410. unreadable:
+  /// any other answer than bytes that were asked for, or an empty file. outOfMemory: its length cannot be
+  /// reserved.
   ///
   /// @param cancel Ends the opening, in place of the settings' one. May be null.
   static Result<std::shared_ptr<const RangedFile>> open(Source source, const WebSettings& settings,
@@ -47,6 +48,7 @@ class RangedFile final : public FileImage {
   bool load(Part part) const override { return loadParts({&part, 1}); }
   /// Reports "fetch" as its progress where it takes more than a few requests.
   bool loadParts(std::span<const Part> parts, const RunContext& context = {}) const override;
+  bool isFar() const override { return true; }
   /// unreadable: a request failed, or the file was replaced. interrupted. Nothing is asked for after that.
   std::optional<Error> problem() const override;
 
@@ -66,7 +68,7 @@ class RangedFile final : public FileImage {
   std::string version_;
   std::optional<CacheKey> key_;  ///< none: nothing is kept on disk
   std::byte* begin_;
-  mutable std::mutex mutex_;  ///< held while something is fetched
+  mutable std::mutex mutex_;                         ///< held while something is fetched
   mutable std::vector<std::atomic<bool>> isLoaded_;  ///< by block
   mutable std::optional<Error> problem_;
 };

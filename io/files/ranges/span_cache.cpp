@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A span file: a head, and the blocks that its bits name, one after the other. The time of a file is when it was
-// used last. The folder is counted when the process writes first, and again after every 1/16 of the budget:
-// other processes write too.
+// A span file: a head, and the blocks that its bits name, one after the other. The time of a file is when it
+// was used last. The folder is counted when the process writes first, and again after every 1/16 of the
+// budget: other processes write too.
 #include "io/files/ranges/span_cache.h"
 
 #define XXH_INLINE_ALL
@@ -143,7 +143,8 @@ void SpanCache::write(const CacheKey& key, std::uint64_t span, std::span<const s
   if (const auto head = soundHead(older, key, span, bytes.size())) {
     std::size_t from = sizeof(SpanHead);
     forBlocks(head->blocks, bytes.size(), [&](std::size_t begin, std::size_t count) {
-      if ((blocks >> (begin / kBlock) & 1) == 0) std::memcpy(whole.data() + begin, older.data() + from, count);
+      if ((blocks >> (begin / kBlock) & 1) == 0)
+        std::memcpy(whole.data() + begin, older.data() + from, count);
       from += count;
     });
     if ((head->blocks | all) == head->blocks) return;
@@ -156,7 +157,8 @@ void SpanCache::write(const CacheKey& key, std::uint64_t span, std::span<const s
   head.blocks = all;
   std::vector<std::byte> kept;
   forBlocks(all, bytes.size(), [&](std::size_t begin, std::size_t count) {
-    kept.insert(kept.end(), whole.begin() + std::ptrdiff_t(begin), whole.begin() + std::ptrdiff_t(begin + count));
+    kept.insert(kept.end(), whole.begin() + std::ptrdiff_t(begin),
+                whole.begin() + std::ptrdiff_t(begin + count));
   });
   head.checksum = sumOf(head, kept);
   // Another cache of this process may write the same span.

@@ -23,8 +23,8 @@ struct CacheKey {
 
 /// Parts of files of servers, kept on disk within a budget. A file is divided into spans, and a span into
 /// blocks; each span is a file in the folder, with the blocks that were fetched and a checksum of all its
-/// bytes. What is damaged, cut short or of another key is not there. A span file appears whole or not at all, so
-/// several processes may use one folder; of two that write one span the last one's blocks stay. Beyond the
+/// bytes. What is damaged, cut short or of another key is not there. A span file appears whole or not at all,
+/// so several processes may use one folder; of two that write one span the last one's blocks stay. Beyond the
 /// budget the span files that were used longest ago are removed, by any process. Files of other names in the
 /// folder are left alone. Thread-safe.
 class SpanCache {
@@ -41,7 +41,8 @@ class SpanCache {
 
   /// Fills in the blocks that are kept.
   ///
-  /// @param span The number of the span; `bytes` are all of its bytes, fewer than kSpan at the end of the file.
+  /// @param span The number of the span; `bytes` are all of its bytes, fewer than kSpan at the end of the
+  /// file.
   /// @return the blocks that were filled in; the others' bytes are as they were
   Blocks read(const CacheKey& key, std::uint64_t span, std::span<std::byte> bytes);
 

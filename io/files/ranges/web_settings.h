@@ -10,7 +10,8 @@ class SpanCache;
 
 /// How this process reads files of servers.
 struct WebSettings {
-  /// What ends every request soon after it became true, beside the RunContext of a call. Outlives all reading.
+  /// What ends every request soon after it became true, beside the RunContext of a call. Outlives all
+  /// reading.
   const std::atomic<bool>* cancel = nullptr;
   std::shared_ptr<SpanCache> cache;  ///< null: nothing is kept
 };

@@ -13,7 +13,6 @@
 namespace arete {
 namespace {
 
-
 /// The options of one address before those of GDAL.
 class StatedOptions {
  public:
@@ -39,7 +38,8 @@ class StatedOptions {
 
 std::string firstSet(std::initializer_list<const char*> names) {
   for (const char* name : names)
-    if (const char* value = CPLGetConfigOption(name, nullptr); value != nullptr && *value != '\0') return value;
+    if (const char* value = CPLGetConfigOption(name, nullptr); value != nullptr && *value != '\0')
+      return value;
   return {};
 }
 

@@ -86,7 +86,8 @@ class StoreClient final : public HttpClient {
   std::optional<State> state() const {
     VSICurlPartialClearCache(path_.c_str());
     VSIStatBufL status;
-    if (VSIStatExL(path_.c_str(), &status, VSI_STAT_EXISTS_FLAG | VSI_STAT_NATURE_FLAG | VSI_STAT_SIZE_FLAG) != 0 ||
+    if (VSIStatExL(path_.c_str(), &status,
+                   VSI_STAT_EXISTS_FLAG | VSI_STAT_NATURE_FLAG | VSI_STAT_SIZE_FLAG) != 0 ||
         !VSI_ISREG(status.st_mode))
       return std::nullopt;
     return State{static_cast<std::uint64_t>(status.st_size),
@@ -98,10 +99,10 @@ class StoreClient final : public HttpClient {
     for (HttpReply& reply : replies) {
       reply = {};
       reply.status = said.empty() ? status : 0;
-      reply.problem = !said.empty()              ? said
-                      : status == kNoSuchFile    ? "GDAL finds no such file"
-                      : status == kBeyondTheEnd  ? "the file ends before"
-                                                 : "GDAL cannot read it";
+      reply.problem = !said.empty()             ? said
+                      : status == kNoSuchFile   ? "GDAL finds no such file"
+                      : status == kBeyondTheEnd ? "the file ends before"
+                                                : "GDAL cannot read it";
       reply.isLasting = status != 0;
     }
     return replies;
@@ -114,7 +115,7 @@ class StoreClient final : public HttpClient {
 }  // namespace
 
 bool isStorePath(const std::string& path) {
-  constexpr std::array<std::string_view, 8> kStores = {"/vsis3/",  "/vsigs/",    "/vsiaz/",    "/vsiadls/",
+  constexpr std::array<std::string_view, 8> kStores = {"/vsis3/",  "/vsigs/",    "/vsiaz/",      "/vsiadls/",
                                                        "/vsioss/", "/vsiswift/", "/vsiwebhdfs/", "/vsihdfs/"};
   return std::ranges::any_of(kStores, [&](std::string_view store) { return path.starts_with(store); });
 }

@@ -13,9 +13,9 @@ bool isStorePath(const std::string& path);
 
 /// Reads a file of a store through GDAL, which signs the requests: several ranges by one call of
 /// VSIFReadMultiRangeL(). GDAL keeps what it knows of files: before each call, and after it, it is made to
-/// forget that, and the length and the time that it then finds are those that the replies state. They say nothing
-/// of what GDAL read in between; who reads holds the bytes against checksums. A request that has begun is not
-/// cancelled.
+/// forget that, and the length and the time that it then finds are those that the replies state. They say
+/// nothing of what GDAL read in between; who reads holds the bytes against checksums. A request that has
+/// begun is not cancelled.
 std::shared_ptr<HttpClient> storeClient(std::string path);
 
 }  // namespace arete

@@ -10,8 +10,8 @@
 // part are checked before they are followed. If an index is wrong the whole file is checked, so that the
 // culprit is named by its number in the file.
 //
-// Data are touched and then loaded before they are used, as many at once as can be: where the file is read piece
-// by piece they are zeros until then, and each load may be a round of requests to a server.
+// Data are touched and then loaded before they are used, as many at once as can be: where the file is read
+// piece by piece they are zeros until then, and each load may be a round of requests to a server.
 #include "io/store/amt/part.h"
 
 #include <algorithm>

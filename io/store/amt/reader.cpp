@@ -123,11 +123,9 @@ Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const 
   ARETE_CHECK(checkAmt(*this, options.verify, context));
   if (!isPacked()) return model_.mt;
   const AmtContainer& all = container_;
-  Result<MultiTriangulation> mt =
-      unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options.wanted, context,
-               [&](std::span<const FileImage::Part> packets) {
-                 return all.loadParts(packets, context).has_value();
-               });
+  Result<MultiTriangulation> mt = unpackMt(
+      *metadata_, packedDirectory_, packedTables_, packedNodes_, options.wanted, context,
+      [&](std::span<const FileImage::Part> packets) { return all.loadParts(packets, context).has_value(); });
   ARETE_CHECK(container_.loaded());
   if (!mt) return failure(mt.error().code, mt.error().message, path());
   return mt;

@@ -30,8 +30,8 @@ class AmtSegments {
   void touchAll(Chunk chunk);
   void touchAll();
 
-  /// Loads what was touched since the last call (AmtContainer::loadParts()), and `beside`. Errors: unreadable, which
-  /// check() returns too.
+  /// Loads what was touched since the last call (AmtContainer::loadParts()), and `beside`. Errors:
+  /// unreadable, which check() returns too.
   Status load(const RunContext& context, std::span<const std::byte> beside = {});
 
   /// Compares the checksums of the segments that are marked and not checked yet. Errors: corrupt: the message

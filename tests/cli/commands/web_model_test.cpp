@@ -42,7 +42,8 @@ class WebModelCommand : public Arguments {
     answer.erase("network");
     for (const char* name : {"seconds", "milliseconds", "queryMilliseconds", "replaced"}) answer.erase(name);
     std::string text = answer.dump();
-    for (std::size_t at; (at = text.find(server.address(""))) != text.npos;) text.erase(at, server.address("").size());
+    for (std::size_t at; (at = text.find(server.address(""))) != text.npos;)
+      text.erase(at, server.address("").size());
     for (std::size_t at = 0; (at = text.find("illiseconds\":", at)) != text.npos;) {
       at += 13;
       text.erase(at, text.find_first_of(",}", at) - at);
@@ -97,10 +98,26 @@ TEST_F(WebModelCommand, AnswersAsOfThePlainFile) {
   }
 }
 
+TEST_F(WebModelCommand, InfoReadsTheBeginningAlone) {
+  HttpServer server(served(), {});
+  for (const char* name : {"dem.amt", "packed.amt", "ball.amt"}) {
+    const Json whole = run({"info", name, "--json"}).json(),
+               part = run({"info", server.address(name), "--json"}).json();
+    EXPECT_EQ(server.requests(name), 1) << name;
+    for (const auto& [key, value] : part.items())
+      if (key != "file" && key != "network" && whole.contains(key) && !value.is_null())
+        EXPECT_EQ(value, whole[key]) << name << " " << key;
+    for (const char* key : {"rootError", "curve"}) EXPECT_TRUE(part[key].is_null()) << name;
+    const Outcome text = run({"info", server.address(name)});
+    EXPECT_NE(text.out.find("at the finest"), std::string::npos) << text.out;
+    EXPECT_NE(text.err.find("--curve 12 fetches it"), std::string::npos) << text.err;
+  }
+}
+
 TEST_F(WebModelCommand, FetchesOnceWithACache) {
   HttpServer server(served(), {});
-  const std::vector<std::string> words = {"info",    server.address("packed.amt"), "--curve", "5",
-                                          "--cache", "kept:5MB",                   "--json"};
+  const std::vector<std::string> words = {
+      "info", server.address("packed.amt"), "--curve", "5", "--cache", "kept:5MB", "--json"};
   const Json first = run(words).json(), second = run(words).json();
   EXPECT_GT(first["network"]["bytes"].get<int>(), second["network"]["bytes"].get<int>());
   EXPECT_GT(second["network"]["cachedBytes"], 0);

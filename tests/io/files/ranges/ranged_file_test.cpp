@@ -34,7 +34,8 @@ class SpoiledServer final : public HttpClient {
  public:
   using Spoil = std::function<void(HttpReply& reply, int number)>;
 
-  explicit SpoiledServer(FileBytes file, Spoil spoil = {}) : file(std::move(file)), spoil_(std::move(spoil)) {}
+  explicit SpoiledServer(FileBytes file, Spoil spoil = {})
+      : file(std::move(file)), spoil_(std::move(spoil)) {}
 
   HttpReply get(std::uint64_t first, std::uint64_t last) override {
     HttpReply reply;
@@ -92,13 +93,15 @@ TEST(RangedFile, HasTheBytesOfThePartsThatWereLoaded) {
     for (int i = 0; i < 40; ++i) {
       std::vector<FileImage::Part> parts;
       for (int k = 0; k < 3; ++k) {
-        const std::size_t begin = random() % size, count = random() % (std::min<std::size_t>(size - begin, 50000) + 1);
+        const std::size_t begin = random() % size,
+                          count = random() % (std::min<std::size_t>(size - begin, 50000) + 1);
         parts.push_back((*file)->bytes().subspan(begin, count));
       }
       ASSERT_TRUE((*file)->loadParts(parts)) << sentenceOf(**file);
       for (const FileImage::Part part : parts)
         ASSERT_TRUE(std::ranges::equal(
-            part, std::span(server->file).subspan(std::size_t(part.data() - (*file)->bytes().data()), part.size())))
+            part,
+            std::span(server->file).subspan(std::size_t(part.data() - (*file)->bytes().data()), part.size())))
             << size << " bytes, seed " << kSeed;
     }
   }
@@ -111,7 +114,8 @@ TEST(RangedFile, FetchesNoBlockTwiceAndFarLessThanTheWhole) {
   EXPECT_EQ(server->asked.size(), 1u);
   EXPECT_EQ(server->sent, 16384u) << "the first request";
   const auto all = (*file)->bytes();
-  const FileImage::Part parts[] = {all.subspan(2'000'000, 10), all.subspan(2'050'000, 10), all.subspan(4'900'000, 10)};
+  const FileImage::Part parts[] = {all.subspan(2'000'000, 10), all.subspan(2'050'000, 10),
+                                   all.subspan(4'900'000, 10)};
   ASSERT_TRUE((*file)->loadParts(parts));
   EXPECT_EQ(server->asked.size(), 3u) << "two near parts are one request";
   EXPECT_LE(server->sent, 16384u * 7);
@@ -151,10 +155,10 @@ TEST(RangedFile, RefusesEveryAnswerThatIsNotWhatWasAskedForAndAsksNothingMore) {
          r.length = "3000000";
        }}};
   for (const auto& [sentence, spoil] : lies) {
-    const auto server =
-        std::make_shared<SpoiledServer>(nonzeroBytes(3000000, 2), [spoil = spoil](HttpReply& reply, int number) {
-          if (number > 1) spoil(reply);
-        });
+    const auto server = std::make_shared<SpoiledServer>(nonzeroBytes(3000000, 2),
+                                                        [spoil = spoil](HttpReply& reply, int number) {
+                                                          if (number > 1) spoil(reply);
+                                                        });
     const auto file = openedFrom(server);
     ASSERT_TRUE(file);
     const auto part = (*file)->bytes().subspan(2000000, 100);
@@ -174,8 +178,10 @@ TEST(RangedFile, CannotBeOpenedWhereTheFirstAnswerIsAnError) {
   const auto errorOf = [](const SpoiledServer::Spoil& spoil, std::size_t size = 100) {
     return openedFrom(std::make_shared<SpoiledServer>(nonzeroBytes(size, 3), spoil)).error();
   };
-  for (const auto& [status, code] : {std::pair{404, ErrorCode::notFound}, {410, ErrorCode::notFound},
-                                     {401, ErrorCode::unreadable}, {403, ErrorCode::unreadable},
+  for (const auto& [status, code] : {std::pair{404, ErrorCode::notFound},
+                                     {410, ErrorCode::notFound},
+                                     {401, ErrorCode::unreadable},
+                                     {403, ErrorCode::unreadable},
                                      {503, ErrorCode::unreadable}}) {
     const Error error = errorOf([status = status](HttpReply& reply, int) {
       reply = {};
@@ -189,18 +195,16 @@ TEST(RangedFile, CannotBeOpenedWhereTheFirstAnswerIsAnError) {
   EXPECT_EQ(openedFrom(std::make_shared<SpoiledServer>(FileBytes())).error().message, "is empty");
   const Error part = errorOf([](HttpReply& reply, int) { reply.range.clear(); }, 3000000);
   EXPECT_NE(part.message.find("a part of the file"), std::string::npos) << part.message;
-  const Error length = errorOf([](HttpReply& reply, int) {
-    reply.range = "bytes 0-99/9223372036854775807";
-  });
+  const Error length = errorOf([](HttpReply& reply, int) { reply.range = "bytes 0-99/9223372036854775807"; });
   EXPECT_EQ(length.code, ErrorCode::unreadable) << length.describe();
-  const Error vast = errorOf(
-      [](HttpReply& reply, int) { reply.range = "bytes 0-16383/9223372036854775807"; }, 20000);
+  const Error vast =
+      errorOf([](HttpReply& reply, int) { reply.range = "bytes 0-16383/9223372036854775807"; }, 20000);
   EXPECT_EQ(vast.code, ErrorCode::outOfMemory) << vast.describe();
 }
 
 TEST(RangedFile, OfAServerWithoutRangesIsReadOnce) {
-  const auto server =
-      std::make_shared<SpoiledServer>(nonzeroBytes(1000, 1), [](HttpReply& reply, int) { reply.range.clear(); });
+  const auto server = std::make_shared<SpoiledServer>(nonzeroBytes(1000, 1),
+                                                      [](HttpReply& reply, int) { reply.range.clear(); });
   const auto file = openedFrom(server);
   ASSERT_TRUE(file);
   ASSERT_TRUE((*file)->load((*file)->bytes()));
@@ -209,29 +213,33 @@ TEST(RangedFile, OfAServerWithoutRangesIsReadOnce) {
 }
 
 TEST(RangedFile, AsksAgainForWhatFailedAlone) {
-  const auto server = std::make_shared<SpoiledServer>(nonzeroBytes(3'000'000, 1), [](HttpReply& reply, int number) {
-    if (number != 3 && number != 5) return;
-    reply = {};
-    reply.status = 503;
-    reply.problem = "the server answers 503";
-    if (number == 5) reply.retryAfter = 1000;
-  });
+  const auto server =
+      std::make_shared<SpoiledServer>(nonzeroBytes(3'000'000, 1), [](HttpReply& reply, int number) {
+        if (number != 3 && number != 5) return;
+        reply = {};
+        reply.status = 503;
+        reply.problem = "the server answers 503";
+        if (number == 5) reply.retryAfter = 1000;
+      });
   const auto file = openedFrom(server, {}, 4);
   const auto all = (*file)->bytes();
-  const FileImage::Part parts[] = {all.subspan(500'000, 10), all.subspan(1'500'000, 10), all.subspan(2'500'000, 10)};
+  const FileImage::Part parts[] = {all.subspan(500'000, 10), all.subspan(1'500'000, 10),
+                                   all.subspan(2'500'000, 10)};
   ASSERT_TRUE((*file)->loadParts(parts)) << sentenceOf(**file);
   ASSERT_EQ(server->asked.size(), 6u);
   EXPECT_EQ(server->asked[4], server->asked[2]);
   EXPECT_EQ(server->asked[5], server->asked[2]);
   EXPECT_EQ(server->waits, (std::vector<double>{0.25, 30}));
   for (const auto part : parts)
-    EXPECT_TRUE(std::ranges::equal(part, std::span(server->file).subspan(std::size_t(part.data() - all.data()), 10)));
+    EXPECT_TRUE(
+        std::ranges::equal(part, std::span(server->file).subspan(std::size_t(part.data() - all.data()), 10)));
 }
 
 TEST(RangedFile, IsGivenUpAfterTheRetries) {
-  const auto server = std::make_shared<SpoiledServer>(nonzeroBytes(100'000, 1), [](HttpReply& reply, int number) {
-    if (number > 1) reply.bytes.pop_back();
-  });
+  const auto server =
+      std::make_shared<SpoiledServer>(nonzeroBytes(100'000, 1), [](HttpReply& reply, int number) {
+        if (number > 1) reply.bytes.pop_back();
+      });
   const auto file = openedFrom(server, {}, 2);
   EXPECT_FALSE((*file)->load((*file)->bytes()));
   EXPECT_EQ(server->asked.size(), 4u);
@@ -240,8 +248,8 @@ TEST(RangedFile, IsGivenUpAfterTheRetries) {
 
 TEST(RangedFile, EndsWhereTheReadingIsStopped) {
   std::atomic<bool> cancel = false;
-  const auto server = std::make_shared<SpoiledServer>(
-      nonzeroBytes(1'000'000, 1), [&](HttpReply& reply, int number) {
+  const auto server =
+      std::make_shared<SpoiledServer>(nonzeroBytes(1'000'000, 1), [&](HttpReply& reply, int number) {
         if (number < 2) return;
         cancel = true;
         reply.problem = "lost";

@@ -161,10 +161,9 @@ TEST_F(SpanCacheFolder, IsSharedBySeveralThatWriteAtOnce) {
         cache->write(key_, s, span, static_cast<SpanCache::Blocks>(1 << random() % 16));
         const unsigned blocks = cache->read(key_, s, got);
         for (std::size_t b = 0; b < 16; ++b)
-          if ((blocks >> b & 1) != 0 &&
-              !std::equal(got.begin() + std::ptrdiff_t(b * SpanCache::kBlock),
-                          got.begin() + std::ptrdiff_t((b + 1) * SpanCache::kBlock),
-                          span.begin() + std::ptrdiff_t(b * SpanCache::kBlock)))
+          if ((blocks >> b & 1) != 0 && !std::equal(got.begin() + std::ptrdiff_t(b * SpanCache::kBlock),
+                                                    got.begin() + std::ptrdiff_t((b + 1) * SpanCache::kBlock),
+                                                    span.begin() + std::ptrdiff_t(b * SpanCache::kBlock)))
             isWrong = true;
       }
     });
