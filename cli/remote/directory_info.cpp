@@ -32,17 +32,16 @@ class FactLines {
 };
 
 /// What a model of either kind has. Each node of a multitriangulation replaces its floor by two triangles
-/// more.
+/// more, or by one at a border, which the nodes alone tell.
 Json commonFacts(const AmtContainer& file, const AmtHead& head, const std::string& source,
                  const std::string& crsWkt, FactLines& lines) {
   const AmtCounts& n = head.counts;
-  const std::uint64_t vertices = n.rootVertices + n.nodes, finest = n.rootTriangles + 2 * n.nodes,
-                      all = n.rootTriangles + n.slots;
+  const std::uint64_t vertices = n.rootVertices + n.nodes, finest = n.rootTriangles + 2 * n.nodes;
   lines.add("written by", head.writer);
   lines.add("source", source);
   if (!crsWkt.empty()) lines.add("CRS", crsName(crsWkt));
   lines.add("vertices", grouped(vertices));
-  lines.add("triangles", fmt::format("{} at the finest, {} in all", grouped(finest), grouped(all)));
+  lines.add("triangles", fmt::format("at most {} at the finest", grouped(finest)));
   lines.add("root", fmt::format("{}, {}", grouped(n.rootTriangles, "triangle", "triangles"),
                                 grouped(n.rootVertices, "vertex", "vertices")));
   return {{"file", file.path()},
@@ -52,8 +51,8 @@ Json commonFacts(const AmtContainer& file, const AmtHead& head, const std::strin
           {"crs", crsName(crsWkt)},
           {"crsWkt", crsWkt},
           {"vertices", vertices},
-          {"triangles", all},
-          {"finestTriangles", finest},
+          {"triangles", nullptr},
+          {"finestTriangles", nullptr},
           {"rootTriangles", n.rootTriangles},
           {"rootVertices", n.rootVertices},
           {"rootError", nullptr},

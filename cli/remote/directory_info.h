@@ -8,8 +8,8 @@
 namespace arete {
 
 /// Says what the metadata and the directory of a model say, which lie at the beginning of the file: what
-/// needs its triangles (the curve, the relief, the largest error) is null in the answer. Fetches nothing more
-/// of a file on a server.
+/// needs its triangles (the curve, the relief, the largest error, numbers of triangles) is null in the
+/// answer. Fetches nothing more of a file on a server.
 ///
 /// Errors, naming the path: corrupt: the metadata.
 Status sayOfDirectory(const AmtContainer& file, Session& session);

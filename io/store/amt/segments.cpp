@@ -19,7 +19,8 @@
 namespace arete {
 namespace {
 
-// States of a segment. A checked one that is marked again is kMarked | kChecked; kAsked: load() has it, or will.
+// States of a segment. A checked one that is marked again is kMarked | kChecked; kAsked: load() has it, or
+// will.
 constexpr std::uint8_t kMarked = 1, kChecked = 2, kAsked = 4;
 
 }  // namespace

@@ -86,7 +86,7 @@ TEST_F(WebModel, GivesThePartsThatThePlainFileGives) {
 }
 
 TEST_F(WebModel, IsOpenedByOneRequestAndReadInPartByFewBytes) {
-  const std::string path = writtenTo(folder_, true, false, 320, 240);
+  const std::string path = writtenTo(folder_, true, false, 240, 180);
   const std::string bytes = bytesOf(path);
   HttpServer server({{"a.amt", bytes}}, {});
   const NetworkUse before = networkUse();
@@ -135,7 +135,7 @@ TEST_P(WebModelOfABadServer, IsRightOrRefused) {
       {"another date", [](HttpFault& f) { f.headers = "Last-Modified: today\r\n"; }},
       {"another length", [](HttpFault& f) { f.content = "short"; }},
       {"empty", [](HttpFault& f) { f.content = " "; }}};
-  const std::string path = writtenTo(folder_, isPacked, true, 80, 60), bytes = bytesOf(path);
+  const std::string path = writtenTo(folder_, isPacked, true, 60, 50), bytes = bytesOf(path);
   const TerrainModel wanted = built(read(path, near(1000, -1000, 0)));
   for (const auto& [name, spoil] : faults)
     for (const int first : {1, 2, 3}) {
