@@ -74,7 +74,7 @@ The package has the headers and the static libraries of the C++ library,
 what find_package(Arete) reads, and examples.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-    "libdraco-dev, libembree-dev (>= 3), libembree-dev (<< 4~), libexpected-dev, libfmt-dev"
+    "libcurl4-gnutls-dev | libcurl-dev, libdraco-dev, libembree-dev (>= 3), libembree-dev (<< 4~), libexpected-dev, libfmt-dev"
     "libgdal-dev (>= ${gdal}), libgdal-dev (<< ${next}~), libgeographiclib-dev, libgmp-dev, libmeshoptimizer-dev"
     "libmpfr-dev, libproj-dev, libsqlite3-dev, libtbb-dev, pkg-config, cmake, g++, make | ninja-build")
 list(JOIN CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS ", " CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS)

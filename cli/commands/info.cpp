@@ -13,6 +13,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/columns_json.h"
+#include "cli/remote/directory_info.h"
 #include "cli/scene/info.h"
 #include "cli/surface/info.h"
 #include "engine/base/counted.h"
@@ -34,6 +35,7 @@ struct InfoArguments {
   std::string model;
   std::size_t curvePoints = 12;
   std::string at;
+  const CLI::Option* curve = nullptr;
 };
 
 struct Facts {
@@ -244,6 +246,10 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
     return sayAboutScene(arguments.model, session);
   }
   ARETE_TRY(AmtContainer container, openModelFile(arguments.model));
+  // Terrain in pages says of itself what any other model is read for.
+  if (const bool isSummed = container.isPaged() && !container.isOfSurface();
+      container.owner()->isFar() && !isSummed && arguments.at.empty() && arguments.curve->count() == 0)
+    return sayOfDirectory(container, session);
   if (container.isOfSurface())
     return sayAboutSurface(container, arguments.at, arguments.curvePoints, session);
   ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
@@ -296,6 +302,7 @@ void addInfoCommand(CLI::App& app, Session& session) {
                                          "12, in % of its diagonal)")
                             ->check(wholeNumber(0, 1000))
                             ->type_name("N");
+  arguments->curve = points;
   command
       ->add_option(
           "--at", arguments->at,

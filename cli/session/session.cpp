@@ -15,6 +15,7 @@
 #include <new>
 #include <utility>
 
+#include "cli/cache/cache_argument.h"
 #include "cli/session/interrupt.h"
 #include "cli/session/named_files.h"
 #include "cli/session/next_step.h"
@@ -25,6 +26,8 @@
 #include "cli/session/run_log.h"
 #include "engine/memory/pages.h"
 #include "engine/parallel/thread_limit.h"
+#include "io/files/network/network_use.h"
+#include "io/files/ranges/web_settings.h"
 #include "io/files/text/address_text.h"
 #include "io/files/text/grouped.h"
 #include "io/files/watched_files.h"
@@ -114,6 +117,13 @@ void addFilesTo(Json& answer) {
   answer["replaced"] = std::move(replaced);
 }
 
+/// What was read of servers, where something was.
+void addNetworkTo(Json& answer) {
+  const NetworkUse use = networkUse();
+  if (use.requests == 0 || !answer.is_object() || answer.contains("network")) return;
+  answer["network"] = {{"requests", use.requests}, {"bytes", use.bytes}, {"cachedBytes", use.cachedBytes}};
+}
+
 /// "mesh info".
 std::string commandName(const CLI::App& command) {
   std::string name;
@@ -152,6 +162,12 @@ CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std:
   command
       ->add_flag("--confined", isConfined_,
                  "Read the named files and their sidecars only, without network (for services)")
+      ->group("Output");
+  command
+      ->add_option("--cache", cache_,
+                   "Keep what is fetched of models on servers in this folder, up to so many bytes (2GB)")
+      ->type_name("DIR[:BYTES]")
+      ->check(cacheArgument())
       ->group("Output");
   command
       ->add_option(
@@ -247,7 +263,10 @@ Status Session::prepareGdal() {
   logOfGdal = log_.get();
   sendUnclaimedGdalMessages(!quiet_ ? warnOfGdal : log_ ? logGdal : nullptr);
   guardProjFiles();
-  return isConfined_ ? confineGdal(fileNamesOf(words_)) : Status();
+  if (isConfined_) return confineGdal(fileNamesOf(words_));
+  ARETE_TRY(auto cache, openCache(cache_));
+  setWebSettings({&interruptFlag(), std::move(cache)});
+  return {};
 }
 
 Status Session::explain(Status status) const {
@@ -295,6 +314,7 @@ void Session::answer(const Json& object) {
   if (changedInputFile() != nullptr) return;
   Json whole = object;
   addFilesTo(whole);
+  addNetworkTo(whole);
   if (log_) log_->line("result", {{"result", whole}});
   if (!json_) return;
   answered_ = true;

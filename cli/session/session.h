@@ -96,7 +96,7 @@ class Session {
   std::vector<std::string> words_;
   Run run_;
   const CLI::App* command_ = nullptr;
-  std::string logPath_;
+  std::string logPath_, cache_;
   std::shared_ptr<RunLog> log_;
   Json error_;  // null, or the object of the error
 };

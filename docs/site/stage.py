@@ -25,7 +25,7 @@ ROOT_PAGES = {
 START = ["install", "tutorial", "choose", "limits", "compare", "faq", "help", "roadmap"]
 # The topics by reader. Every page of docs/topics is in one group.
 READERS = {
-    "Maps and terrain": ["reading", "heights", "gdal", "qgis", "formats"],
+    "Maps and terrain": ["reading", "heights", "gdal", "qgis", "web", "formats"],
     "Simulation and proof": ["error", "cuts", "fit", "certificate"],
     "Visibility": ["visibility", "scenes"],
     "Meshes": ["surfaces", "meshes", "decimation", "distance"],

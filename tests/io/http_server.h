@@ -28,6 +28,9 @@ struct HttpFault {
   bool isShort = false;    ///< half of the bytes, with a length that says so
   bool knowsNoRanges = false;
   bool isStalled = false;  ///< nothing is sent until the server ends
+  bool drips = false;      ///< the bytes come one by one, ten a second, until the server ends
+  int more = 0;            ///< bytes behind those that were asked for
+  int shift = 0;           ///< the range begins so many bytes later
   std::string tag = "\"one\"";
   std::string content;  ///< instead of the file's
 };
@@ -133,16 +136,26 @@ class HttpServer {
     if (const std::size_t range = request.find("Range: bytes=");
         range != request.npos && !fault.knowsNoRanges) {
       char* rest = nullptr;
-      const std::size_t first = std::strtoull(request.c_str() + range + 13, &rest, 10);
+      const std::size_t first =
+          std::strtoull(request.c_str() + range + 13, &rest, 10) + static_cast<std::size_t>(fault.shift);
       const std::size_t last = std::min<std::size_t>(std::strtoull(rest + 1, nullptr, 10), whole.size() - 1);
       if (first >= whole.size()) return send(connection, "HTTP/1.1 416 Fault\r\nContent-Length: 0\r\n\r\n");
       body = whole.substr(first, last + 1 - first);
       head =
           fmt::format("HTTP/1.1 206 Partial\r\nContent-Range: bytes {}-{}/{}\r\n", first, last, whole.size());
     }
+    body.append(static_cast<std::size_t>(fault.more), 'x');
     const std::size_t stated = fault.isShort ? body.size() / 2 : body.size();
     head += fmt::format("ETag: {}\r\nContent-Length: {}\r\n{}\r\n", fault.tag, stated, fault.headers);
     if (fault.isShort || fault.isDropped) body.resize(body.size() / 2);
+    if (fault.drips) {
+      bool isOpen = send(connection, head);
+      for (std::size_t i = 0; i < body.size() && isOpen && !isEnding_; ++i) {
+        isOpen = send(connection, body.substr(i, 1));
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      }
+      return isOpen;
+    }
     return send(connection, head + body) && !fault.isDropped;
   }
 

@@ -7,6 +7,7 @@ NOT_RUN = [(re.compile(pattern), reason) for pattern, reason in (
     (r"^\./dev ", "builds Arete, or runs the tests of which this is one"),
     (r"^git clone ", "needs a network"),
     (r"^arete-datasets fetch ", "needs a network"),
+    (r"^arete \w+ +https://", "needs a network"),
     (r"^sudo |^apt(-get)? ", "installs packages"),
     (r"^cmake ", "tests/library installs Arete and builds the examples"),
     (r"^(GDAL_DRIVER_PATH=\S+ )?qgis( |$)", "opens the window of QGIS"),

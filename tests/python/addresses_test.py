@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A DEM on a server, and GDAL's own files of the network beside ours in the process."""
+"""A DEM and a model on a server, and GDAL's own files of the network beside ours in the process."""
 
 import ctypes
 import http.server
 import os
 import re
+import tempfile
 import threading
 import unittest
+
+import numpy
 
 import arete
 
@@ -16,21 +19,23 @@ GRID = b"ncols 4\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 10\n" + b"1 2 3 4\
 class Server(http.server.BaseHTTPRequestHandler):
     asked = []
     sends_half = False
+    files = {"/dem.asc": GRID}
 
     def answer(self, method):
         Server.asked.append((method, self.path))
-        if self.path != "/dem.asc":
+        if self.path not in Server.files:
             self.send_response(404)
             self.send_header("Content-Length", "0")
             self.end_headers()
             return
-        body = GRID
+        whole = Server.files[self.path]
+        body = whole
         span = re.fullmatch(r"bytes=(\d+)-(\d+)", self.headers.get("Range", ""))
         if span:
-            first, last = int(span[1]), min(int(span[2]), len(GRID) - 1)
-            body = GRID[first : last + 1]
+            first, last = int(span[1]), min(int(span[2]), len(whole) - 1)
+            body = whole[first : last + 1]
             self.send_response(206)
-            self.send_header("Content-Range", f"bytes {first}-{last}/{len(GRID)}")
+            self.send_header("Content-Range", f"bytes {first}-{last}/{len(whole)}")
         else:
             self.send_response(200)
         if Server.sends_half:
@@ -75,6 +80,29 @@ class Addresses(unittest.TestCase):
             arete.build(self.address)
         self.assertIn(self.address, str(raised.exception))
         self.assertNotIn("vsiarete", str(raised.exception))
+
+    def test_a_model_is_opened_by_its_address(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "m.amt")
+            x, y = numpy.meshgrid(numpy.arange(60.0), numpy.arange(50.0))
+            arete.build(numpy.sin(x / 5) * numpy.cos(y / 7) * 40).save(path)
+            with open(path, "rb") as file:
+                Server.files["/m.amt"] = file.read()
+            local = arete.open(path)
+        address = f"http://127.0.0.1:{self.server.server_port}/m.amt"
+        for name in (address, "/vsicurl/" + address):
+            model = arete.open(name)
+            self.assertEqual(model.shape, local.shape)
+            for error in (0, 1, 10):
+                mine, its = model.cut(max_error=error), local.cut(max_error=error)
+                numpy.testing.assert_array_equal(mine.triangles, its.triangles)
+                numpy.testing.assert_array_equal(mine.vertices, its.vertices)
+        with self.assertRaises(FileNotFoundError):
+            arete.open(address + "x")
+        Server.sends_half = True
+        with self.assertRaises(OSError) as raised:
+            arete.open(address)
+        self.assertIn("127.0.0.1", str(raised.exception))
 
     def test_files_of_the_network_that_others_read_are_gdals_own(self):
         arete.build(self.address)

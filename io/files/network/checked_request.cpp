@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numeric>
 #include <optional>
 #include <string_view>
 #include <utility>
+
+#include "io/files/network/network_use.h"
 
 namespace arete {
 namespace {
@@ -58,25 +61,55 @@ bool mayPass(const RangeAnswer& answer, const HttpReply& reply) {
   return !answer.problem.empty() && !reply.isLasting;
 }
 
+RangeAnswer answerOf(HttpReply& reply, const HttpRange& range) {
+  RangeAnswer answer;
+  answer.problem = reply.problem;
+  answer.status = reply.status;
+  answer.bytes = std::move(reply.bytes);
+  noteRequest(answer.bytes.size());
+  if (answer.problem.empty()) checkReply(answer, reply, range.first, range.last);
+  return answer;
+}
+
 }  // namespace
 
 RangeAnswer requestRange(HttpClient& client, const RetryRules& rules, std::uint64_t first,
                          std::uint64_t last) {
+  const HttpRange range{first, last};
+  return std::move(requestRanges(client, rules, {&range, 1}).front());
+}
+
+// Those that failed for what may pass are asked for again together, after the longest wait that one of them
+// is to have.
+std::vector<RangeAnswer> requestRanges(HttpClient& client, const RetryRules& rules,
+                                       std::span<const HttpRange> ranges) {
+  std::vector<RangeAnswer> answers(ranges.size());
+  std::vector<std::size_t> open(ranges.size());
+  std::iota(open.begin(), open.end(), std::size_t{0});
   double delay = rules.firstDelay;
   for (int attempt = 0;; ++attempt) {
-    HttpReply reply = client.get(first, last);
-    RangeAnswer answer;
-    answer.problem = reply.problem;
-    answer.status = reply.status;
-    answer.bytes = std::move(reply.bytes);
-    if (answer.problem.empty()) checkReply(answer, reply, first, last);
-    if (!mayPass(answer, reply) || client.isCancelled()) return answer;
-    if (attempt >= rules.retries) {
-      if (rules.retries > 0) answer.problem += fmt::format(", {} times", rules.retries + 1);
-      return answer;
+    std::vector<HttpRange> asked;
+    for (const std::size_t i : open) asked.push_back(ranges[i]);
+    std::vector<HttpReply> replies = client.getAll(asked);
+    std::vector<std::size_t> again;
+    double wait = 0;
+    bool isGivenUp = client.isCancelled();
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      RangeAnswer& answer = answers[open[k]];
+      answer = answerOf(replies[k], asked[k]);
+      if (answer.problem.empty()) continue;
+      if (!mayPass(answer, replies[k])) {
+        isGivenUp = true;
+      } else if (attempt >= rules.retries) {
+        isGivenUp = true;
+        if (rules.retries > 0) answer.problem += fmt::format(", {} times", rules.retries + 1);
+      } else {
+        again.push_back(open[k]);
+        wait = std::max(wait, replies[k].retryAfter > 0 ? replies[k].retryAfter : delay);
+      }
     }
-    const double seconds = reply.retryAfter > 0 ? reply.retryAfter : delay;
-    if (!client.wait(std::min(seconds, kLongestWaitSeconds))) return answer;
+    if (isGivenUp || again.empty() || !client.wait(std::min(wait, kLongestWaitSeconds))) return answers;
+    open = std::move(again);
     delay *= 2;
   }
 }

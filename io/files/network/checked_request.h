@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,5 +27,10 @@ struct RangeAnswer {
 /// was asked for are tried again, after as many seconds as the server states (30 at most) or the rules say.
 RangeAnswer requestRange(HttpClient& client, const RetryRules& rules, std::uint64_t first,
                          std::uint64_t last);
+
+/// The same of several ranges, as many at once as the client sends. Once one of them has failed for good the
+/// others are not asked for again. The answers are in the order of the ranges.
+std::vector<RangeAnswer> requestRanges(HttpClient& client, const RetryRules& rules,
+                                       std::span<const HttpRange> ranges);
 
 }  // namespace arete

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,11 @@ struct HttpReply {
   std::string tag, date, range, length, encoding;
 };
 
+/// The bytes `first` to `last` of a file.
+struct HttpRange {
+  std::uint64_t first = 0, last = 0;
+};
+
 /// Sends the requests: through which library, with which certificates and proxies, is its own matter.
 class HttpClient {
  public:
@@ -27,6 +34,17 @@ class HttpClient {
   /// Requests the bytes `first` to `last` of the file, uncompressed. Follows redirections. Ends soon after
   /// isCancelled() became true. Thread-safe.
   virtual HttpReply get(std::uint64_t first, std::uint64_t last) = 0;
+
+  /// Requests several ranges, some of them at once where the client can. The replies are in the order of the
+  /// ranges. Thread-safe.
+  virtual std::vector<HttpReply> getAll(std::span<const HttpRange> ranges) {
+    std::vector<HttpReply> replies;
+    for (const HttpRange& range : ranges) replies.push_back(get(range.first, range.last));
+    return replies;
+  }
+
+  /// What ends the requests that follow, beside what the client knows itself. Null: nothing more.
+  virtual void cancelBy(const std::atomic<bool>* /*cancel*/) {}
 
   /// Waits before a request is repeated.
   /// @return False where the wait was cut off.

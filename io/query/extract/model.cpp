@@ -23,7 +23,9 @@ Result<Model> readModel(AmtContainer file, const RunContext& context) try {
 }
 
 Result<Model> openModel(const std::string& path, const AmtOpenOptions& options, const RunContext& context) {
-  ARETE_TRY(AmtContainer file, openModelFile(path, options));
+  AmtOpenOptions cancellable = options;
+  if (cancellable.cancel == nullptr) cancellable.cancel = context.cancel;
+  ARETE_TRY(AmtContainer file, openModelFile(path, cancellable));
   return readModel(std::move(file), context);
 }
 

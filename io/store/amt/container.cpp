@@ -59,6 +59,15 @@ Status AmtContainer::load(std::span<const std::byte> part) const {
   return file_->load(part) ? Status() : loaded();
 }
 
+Status AmtContainer::loadParts(std::span<const FileImage::Part> parts, const RunContext& context) const {
+  return file_->loadParts(parts, context) ? Status() : loaded();
+}
+
+Status AmtContainer::loadAll(const RunContext& context) const {
+  const FileImage::Part all = bytes();
+  return loadParts({&all, 1}, context);
+}
+
 Result<std::shared_ptr<const FileImage>> AmtContainer::openImage(const std::string& path,
                                                                  const AmtOpenOptions& options) {
   if (options.isCopied) {
@@ -201,7 +210,7 @@ Status AmtContainer::checkSums(std::span<const AmtTag> leftOut, const RunContext
     chunks.push_back(&chunk);
     blocks.push_back(bytes(chunk));
   }
-  ARETE_CHECK(load(blocks));
+  ARETE_CHECK(loadParts(blocks, context));
   const auto sums = amtChecksums(blocks, "check checksums", context);
   if (!sums) return failure(ErrorCode::interrupted, "the check was interrupted", path_);
   for (std::size_t i = 0; i < blocks.size(); ++i)

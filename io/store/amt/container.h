@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,8 @@ struct AmtOpenOptions {
   bool isCopied = false;
   /// Queries will read few parts of a large file: disables the system's read-ahead.
   bool randomAccess = false;
+  /// Ends the opening of a file on a server. May be null; it is not kept.
+  const std::atomic<bool>* cancel = nullptr;
 };
 
 /// An .amt file as a directory of chunks, whatever they hold: mapped, read piece by piece, or whole in
@@ -46,8 +49,9 @@ class AmtContainer {
   /// Reads a part of bytes() from a file that is read piece by piece. Every part has to be loaded before it
   /// is used: it is zeros until then. Thread-safe. Errors: unreadable: the file was changed.
   Status load(std::span<const std::byte> part) const;
-  Status load(std::span<const std::span<const std::byte>> parts) const;
-  Status loadAll() const { return load(bytes()); }
+  /// The same of several parts, fetched together where they come from a server.
+  Status loadParts(std::span<const FileImage::Part> parts, const RunContext& context = {}) const;
+  Status loadAll(const RunContext& context = {}) const;
   /// The first error of load(), on any thread.
   Status loaded() const;
   /// The directory, in the order of the file.

@@ -60,7 +60,7 @@ class AmtFile {
   std::span<const std::byte> bytes() const { return container_.bytes(); }
   /// Loads everything but packed nodes and the directory of pages below its root. Errors: unreadable: the
   /// file was changed while it was open.
-  Status loadAllButPacked() const;
+  Status loadAllButPacked(const RunContext& context = {}) const;
   const AmtContainer& container() const { return container_; }
   /// The program that wrote the file.
   const std::string& writer() const { return writer_; }

@@ -10,8 +10,8 @@
 // part are checked before they are followed. If an index is wrong the whole file is checked, so that the
 // culprit is named by its number in the file.
 //
-// Data are touched before they are used: that loads them where the file is read piece by piece, and what was
-// not loaded is zeros. A wrong index among these is met as in a damaged file.
+// Data are touched and then loaded before they are used, as many at once as can be: where the file is read
+// piece by piece they are zeros until then, and each load may be a round of requests to a server.
 #include "io/store/amt/part.h"
 
 #include <algorithm>
@@ -52,10 +52,14 @@ class PartReader {
   }
 
   Result<MultiTriangulation> run() {
-    ARETE_CHECK(checkSegmentChecksums());
     touchBeside();
+    const auto sums = std::as_bytes(file_.segmentChecksums());
+    ARETE_CHECK(segments_.load(context_, verify_ == AmtVerify::all ? sums : std::span<const std::byte>()));
+    ARETE_CHECK(checkSegmentChecksums());
     choosePages();
     if (isTheSameEverywhere()) return readPrefix();
+    touchPages();
+    ARETE_CHECK(segments_.load(context_));
     RankedNodes nodes = chooseNodes();
     if (context_.cancelled()) return interrupted();
     return 2 * std::uint64_t{nodes.size()} >= end_ ? readPrefix() : readSubset(std::move(nodes));
@@ -118,8 +122,10 @@ class PartReader {
 
   Result<MultiTriangulation> readPrefix() {
     touch(AmtPer::nodeOrEnd, end_, end_ + 1);
+    ARETE_CHECK(segments_.load(context_));
     if (!areSlots(0, end_, 0, a_.slotBegin[end_])) return culprit();
     touchNodes(0, end_, 0, a_.slotBegin[end_]);
+    ARETE_CHECK(segments_.load(context_));
     const auto part = prefixOfMt(whole_, end_);
     if (!part) return culprit();
     ARETE_CHECK(checkSegments());
@@ -127,16 +133,18 @@ class PartReader {
   }
 
   Result<MultiTriangulation> readSubset(RankedNodes nodes) {
-    if (!touchSubset(nodes)) return culprit();
+    ARETE_TRY(bool areSound, loadSubset(nodes));
+    if (!areSound) return culprit();
     MtSubset part = subsetOfMt(whole_, nodes);
     if (part.problem != MtSubset::Problem::none) {
       // Parents may be nodes of which nothing is loaded.
-      for (const std::span<const std::byte> array :
-           {std::as_bytes(a_.slotBegin), std::as_bytes(a_.floor), std::as_bytes(a_.creatorHint)})
-        ARETE_CHECK(file_.container().load(array));
+      const FileImage::Part arrays[] = {std::as_bytes(a_.slotBegin), std::as_bytes(a_.floor),
+                                        std::as_bytes(a_.creatorHint)};
+      ARETE_CHECK(file_.container().loadParts(arrays, context_));
       if (!addParents(whole_, nodes)) return culprit();
       nodes.rank();
-      if (!touchSubset(nodes)) return culprit();
+      ARETE_TRY(areSound, loadSubset(nodes));
+      if (!areSound) return culprit();
       part = subsetOfMt(whole_, nodes);
     }
     if (part.problem != MtSubset::Problem::none) return culprit();
@@ -144,14 +152,17 @@ class PartReader {
     return checked(part.mt);
   }
 
-  RankedNodes chooseNodes() {
-    RankedNodes nodes(whole_.nodeCount());
+  void touchPages() {
     for (std::uint32_t page = 0; page < pages_; ++page) {
       if (isPageRequired_[page] == 0) continue;
       const std::uint64_t begin = std::uint64_t{page} * kNodesPerPage,
                           end = std::min<std::uint64_t>(begin + kNodesPerPage, whole_.nodeCount());
       touch(AmtPer::node, begin, end);
     }
+  }
+
+  RankedNodes chooseNodes() {
+    RankedNodes nodes(whole_.nodeCount());
     parallelFor(std::uint32_t{0}, pages_, [&](std::uint32_t page) {
       if (isPageRequired_[page] == 0 || context_.cancelled()) return;
       const auto end = std::min<std::size_t>((page + 1) * kBlocksPerPage, nodes.wordCount());
@@ -182,20 +193,32 @@ class PartReader {
     touch(AmtPer::triangle, 0, a_.rootTriangles.size());
   }
 
+  /// Loads all of a subset: where its slots are, and then what they need.
   /// @return false if the slots are damaged
-  bool touchSubset(const RankedNodes& nodes) {
-    for (std::size_t word = 0; word < nodes.wordCount(); ++word) {
-      const std::uint64_t members = nodes.word(word);
-      if (members == 0) continue;
-      const auto first = static_cast<std::uint32_t>(word) * kNodesPerBlock;
-      const std::uint32_t begin = first + static_cast<std::uint32_t>(std::countr_zero(members)),
-                          end =
-                              first + kNodesPerBlock - static_cast<std::uint32_t>(std::countl_zero(members));
+  Result<bool> loadSubset(const RankedNodes& nodes) {
+    const auto forRuns = [&](const auto& visit) {
+      for (std::size_t word = 0; word < nodes.wordCount(); ++word) {
+        const std::uint64_t members = nodes.word(word);
+        if (members == 0) continue;
+        const auto first = static_cast<std::uint32_t>(word) * kNodesPerBlock;
+        const std::uint32_t end =
+            first + kNodesPerBlock - static_cast<std::uint32_t>(std::countl_zero(members));
+        if (!visit(first + static_cast<std::uint32_t>(std::countr_zero(members)), end)) return false;
+      }
+      return true;
+    };
+    forRuns([&](std::uint32_t begin, std::uint32_t end) {
       touch(AmtPer::nodeOrEnd, begin, end + 1);
+      return true;
+    });
+    ARETE_CHECK(segments_.load(context_));
+    const bool areSound = forRuns([&](std::uint32_t begin, std::uint32_t end) {
       if (!areSlots(begin, end, a_.slotBegin[begin], a_.slotBegin[end])) return false;
       touchNodes(begin, end, a_.slotBegin[begin], a_.slotBegin[end]);
-    }
-    return true;
+      return true;
+    });
+    ARETE_CHECK(segments_.load(context_));
+    return areSound;
   }
 
   /// Whether nodes [begin, end) may have the slots [slots, slotsEnd).
@@ -221,6 +244,7 @@ class PartReader {
   }
 
   Status checkSegments() {
+    ARETE_CHECK(file_.container().loaded());
     if (verify_ != AmtVerify::all) return {};
     return segments_.check(context_);
   }

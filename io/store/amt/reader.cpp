@@ -97,13 +97,13 @@ Result<AmtFile> AmtOpener::open(AmtContainer container) {
   return file;
 }
 
-// Packed nodes are left out here: each packet is loaded when it is decoded.
-Status AmtFile::loadAllButPacked() const {
-  std::vector<std::span<const std::byte>> parts;
+// Packed nodes are left out here: the packets that are wanted are loaded before they are decoded.
+Status AmtFile::loadAllButPacked(const RunContext& context) const {
+  std::vector<FileImage::Part> parts;
   for (const AmtChunk& chunk : chunks())
     if (chunk.tag != amt_tag::kPackedNodes && chunk.tag != amt_tag::kPageBlocks)
       parts.push_back(bytes(chunk));
-  return container_.load(parts);
+  return container_.loadParts(parts, context);
 }
 
 double AmtFile::errorBeyond(std::uint64_t nodes) const {
@@ -125,16 +125,18 @@ double AmtFile::errorBeyond(std::uint64_t nodes) const {
 Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const RunContext& context) const {
   const bool isPart = options.wanted && options.verify != AmtVerify::none && !isPacked() && hasSegments();
   if (isPart) return readAmtPart(*this, options.wanted, options.verify, context);
-  ARETE_CHECK(loadAllButPacked());
+  ARETE_CHECK(loadAllButPacked(context));
   ARETE_CHECK(checkAmt(*this, options.verify, context));
   if (!isPacked()) return model_.mt;
   const AmtContainer& all = container_;
+  const LoadParts load = [&](std::span<const FileImage::Part> parts) {
+    return all.loadParts(parts, context);
+  };
   Result<MultiTriangulation> mt =
-      isPaged()
-          ? unpackMt(*metadata_, {packedDirectory_, packedTables_, pageBlocks_, packedNodes_}, options.wanted,
-                     context, [&all](const auto& parts) { return all.load(parts); })
-          : unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options.wanted, context,
-                     [&all](std::span<const std::byte> packet) { return all.load(packet).has_value(); });
+      isPaged() ? unpackMt(*metadata_, {packedDirectory_, packedTables_, pageBlocks_, packedNodes_},
+                           options.wanted, context, load)
+                : unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options.wanted, context,
+                           load);
   ARETE_CHECK(container_.loaded());
   if (!mt) return failure(mt.error().code, mt.error().message, path());
   return mt;
@@ -330,7 +332,7 @@ Result<SurfaceModel> loadSurfaceAmt(const AmtContainer& container, AmtVerify ver
                                     const RunContext& context) try {
   if (!container.isOfSurface())
     return failure(ErrorCode::unsupported, "is of terrain, and a surface is wanted here", container.path());
-  ARETE_CHECK(container.loadAll());
+  ARETE_CHECK(container.loadAll(context));
   const Result<SurfaceMetadata> metadata = fromSurfaceJson(container.metadata());
   if (!metadata) return container.corrupt(fmt::format("chunk META: {}", metadata.error().message));
   return SurfaceReading(container, *metadata, verify, context).run();

@@ -19,8 +19,9 @@
 namespace arete {
 namespace {
 
-// States of a segment. A checked one that is marked again is kMarked | kChecked.
-constexpr std::uint8_t kMarked = 1, kChecked = 2;
+// States of a segment. A checked one that is marked again is kMarked | kChecked; kAsked: load() has it, or
+// will.
+constexpr std::uint8_t kMarked = 1, kChecked = 2, kAsked = 4;
 
 }  // namespace
 
@@ -46,12 +47,23 @@ void AmtSegments::touch(Chunk chunk, std::uint64_t begin, std::uint64_t end) {
   const Position& position = positions_[chunk.index];
   const std::uint64_t first = begin * position.elementBytes / kAmtSegmentBytes,
                       last = (end * position.elementBytes - 1) / kAmtSegmentBytes;
-  for (std::uint64_t i = first; i <= last; ++i) states_[position.first + i] |= kMarked;
   const auto bytes = file_.bytes(file_.chunks()[chunk.index]);
-  const std::uint64_t from = first * kAmtSegmentBytes,
-                      to = std::min<std::uint64_t>(bytes.size(), (last + 1) * kAmtSegmentBytes);
-  // check() and the reader ask whether it could be read.
-  static_cast<void>(file_.container().load(bytes.subspan(from, to - from)));
+  for (std::uint64_t i = first; i <= last; ++i) {
+    std::uint8_t& state = states_[position.first + i];
+    state |= kMarked;
+    if ((state & kAsked) != 0) continue;
+    state |= kAsked;
+    const std::uint64_t from = i * kAmtSegmentBytes,
+                        to = std::min<std::uint64_t>(bytes.size(), from + kAmtSegmentBytes);
+    unloaded_.push_back(bytes.subspan(from, to - from));
+  }
+}
+
+Status AmtSegments::load(const RunContext& context, std::span<const std::byte> beside) {
+  unloaded_.push_back(beside);
+  const Status loaded = file_.container().loadParts(unloaded_, context);
+  unloaded_.clear();
+  return loaded;
 }
 
 void AmtSegments::touchAll(Chunk chunk) {
@@ -70,10 +82,11 @@ std::size_t AmtSegments::chunkOf(std::size_t segment) const {
 }
 
 Status AmtSegments::check(const RunContext& context) {
+  ARETE_CHECK(load(context));
   ARETE_CHECK(file_.container().loaded());
   std::vector<std::size_t> segments;
   for (std::size_t i = 0; i < states_.size(); ++i)
-    if (states_[i] == kMarked) segments.push_back(i);
+    if ((states_[i] & (kMarked | kChecked)) == kMarked) segments.push_back(i);
   std::atomic<std::size_t> altered = states_.size();
   SharedProgress progress(context, "check checksums", segments.size() + 1);
   withThreads(context, [&] {
@@ -85,7 +98,7 @@ Status AmtSegments::check(const RunContext& context) {
       const auto these = bytes.subspan(at, std::min<std::uint64_t>(kAmtSegmentBytes, bytes.size() - at));
       progress.add();
       if (amtChecksum(these) == file_.segmentChecksums()[segment]) {
-        states_[segment] = kChecked;
+        states_[segment] = kChecked | kAsked;
         return;
       }
       std::size_t known = altered;

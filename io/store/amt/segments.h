@@ -24,14 +24,18 @@ class AmtSegments {
   /// Precondition: the file has the chunk, and the chunk has segments.
   Chunk of(const AmtTag& tag) const;
 
-  /// Marks the segments of elements [begin, end) of a chunk as used, and loads them (AmtContainer::load()):
-  /// before they are used. Precondition: the chunk has these elements.
+  /// Marks the segments of elements [begin, end) of a chunk as used; load() is to be called before they are
+  /// used. Precondition: the chunk has these elements.
   void touch(Chunk chunk, std::uint64_t begin, std::uint64_t end);
   void touchAll(Chunk chunk);
   void touchAll();
 
+  /// Loads what was touched since the last call (AmtContainer::loadParts()), and `beside`. Errors:
+  /// unreadable, which check() returns too.
+  Status load(const RunContext& context, std::span<const std::byte> beside = {});
+
   /// Compares the checksums of the segments that are marked and not checked yet. Errors: corrupt: the message
-  /// names the first altered chunk; interrupted; unreadable: what touch() could not load. Parallel.
+  /// names the first altered chunk; interrupted; unreadable: what could not be loaded. Parallel.
   Status check(const RunContext& context);
 
  private:
@@ -44,6 +48,7 @@ class AmtSegments {
   const AmtFile& file_;
   std::vector<Position> positions_;   // per chunk, and the end
   std::vector<std::uint8_t> states_;  // per segment
+  std::vector<FileImage::Part> unloaded_;
 };
 
 }  // namespace arete

@@ -26,10 +26,6 @@ struct PagedMt {
 };
 }  // namespace packed
 
-/// Sees to it that some of the packed bytes are in memory before they are decoded; false if they cannot be.
-/// Called on any thread. Null: all are.
-using LoadPacked = std::function<bool(std::span<const std::byte>)>;
-
 /// The packed form of a multitriangulation (docs/topics/amt-format.md, "Packed"): the contents of three
 /// chunks, together a ninth to a fifteenth of the arrays.
 struct PackedMt {
@@ -68,7 +64,7 @@ Result<PackedMt> packMt(const TerrainModel& model, const PackOptions& options = 
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,
                                     std::span<const std::byte> tables, std::span<const std::byte> nodes,
                                     const RequiredError& wanted = {}, const RunContext& context = {},
-                                    const LoadPacked& load = {});
+                                    const LoadParts& load = {});
 
 /// The same of pages: only the blocks of the directory that may describe a required page are used, and of the
 /// nodes the required pages, each down to its last required segment. Counts of pages are 64-bit; those of the

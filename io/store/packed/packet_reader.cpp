@@ -65,7 +65,7 @@ class Unpacker {
  public:
   /// @param isPaged the segments were checked, and each page has its number
   Unpacker(Directory directory, std::span<const RansTable> tables, std::span<const std::byte> bytes,
-           const RunContext& context, bool isPart, bool isPaged, const LoadPacked& load)
+           const RunContext& context, bool isPart, bool isPaged, const LoadParts& load)
       : directory_(std::move(directory)),
         bytes_(bytes),
         context_(context),
@@ -77,6 +77,7 @@ class Unpacker {
   }
 
   Result<MultiTriangulation> run(const MtKind& kind, AmtCounts counts) {
+    ARETE_CHECK(load());
     const auto arrays = std::make_shared<Arrays>();
     static_cast<MtKind&>(*arrays) = kind;
     const std::uint64_t allNodes = counts.nodes;
@@ -100,13 +101,26 @@ class Unpacker {
   }
 
  private:
+  bool isRequired(std::size_t packet) const {
+    return packet == 0 || !directory_.packets[packet].runs.empty();
+  }
+  /// Loads the packets that are required; of pages they are.
+  Status load() const {
+    if (!load_ || isPaged_) return {};
+    std::vector<std::span<const std::byte>> parts;
+    for (std::size_t i = 0; i < directory_.packets.size(); ++i)
+      if (const Packet& packet = directory_.packets[i]; isRequired(i))
+        parts.push_back(bytes_.subspan(packet.segments[0].begin(), packet.bytes()));
+    return load_(parts);
+  }
+
   /// Calls body(i) for the packets that are required.
   template <class Body>
   std::optional<PacketProblem> overPackets(Direction direction, const Body& body) {
     return forPackets(
         directory_.packets, direction, context_,
         [&](std::size_t i) -> std::optional<std::string> {
-          if (directory_.packets[i].runs.empty() && i != 0) return std::nullopt;
+          if (!isRequired(i)) return std::nullopt;
           return body(i);
         },
         [&](std::size_t i) {
@@ -125,7 +139,6 @@ class Unpacker {
     const Segment& first = directory_.packets[index].segments[0];
     if (!isPaged_) {
       const auto bytes = bytes_.subspan(first.begin(), first.bytes());
-      if (load_ && !load_(bytes)) return "cannot be read";
       if (amtChecksum(bytes) != first.checksum) return "has been altered: its checksum does not match";
     }
     ReaderIo io(*arrays_, directory_, index, tables_.data(), bytes_);
@@ -145,7 +158,7 @@ class Unpacker {
   std::span<const std::byte> bytes_;
   const RunContext& context_;
   bool isPart_, isPaged_;
-  const LoadPacked& load_;
+  const LoadParts& load_;
   std::vector<std::uint32_t> tables_;  ///< entries of all tables
   Arrays* arrays_ = nullptr;
   PerThread<CoderSpace> spaces_;
@@ -161,7 +174,7 @@ Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& c
                                   std::span<const std::byte> directoryBytes,
                                   std::span<const std::byte> tableBytes, std::span<const std::byte> nodes,
                                   const RequiredError& wanted, const RunContext& context,
-                                  const LoadPacked& load = {}) {
+                                  const LoadParts& load = {}) {
   std::string problem;
   auto directory = packed::directoryOf(directoryBytes, problem, !kind.hasPlan());
   if (!directory) return failure(ErrorCode::corrupt, "the directory of the packed nodes " + problem);
@@ -286,7 +299,7 @@ packed::MtKind kindOf(const SurfaceMetadata& metadata) {
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,
                                     std::span<const std::byte> tables, std::span<const std::byte> nodes,
                                     const RequiredError& wanted, const RunContext& context,
-                                    const LoadPacked& load) try {
+                                    const LoadParts& load) try {
   return unpack(kindOf(metadata), metadata.counts, directory, tables, nodes, wanted, context, load);
 } catch (...) {
   return caughtFailure();
