@@ -50,11 +50,6 @@ Status AmtContainer::loaded() const {
   return problem ? Status(tl::unexpected(*problem)) : Status();
 }
 
-Status AmtContainer::load(std::span<const std::span<const std::byte>> parts) const {
-  for (const std::span<const std::byte> part : parts) ARETE_CHECK(load(part));
-  return {};
-}
-
 Status AmtContainer::load(std::span<const std::byte> part) const {
   return file_->load(part) ? Status() : loaded();
 }

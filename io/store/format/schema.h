@@ -52,9 +52,15 @@ inline constexpr std::array kPackedRows = {
                            {.since = 3, .flags = kAmtRequired, .when = isPaged}),
     made<Model, std::byte>(amt_tag::kPackedDirectory, AmtPer::any, AmtCoding::packed, {.when = isUnpaged}),
     made<Model, std::byte>(amt_tag::kPackedTables, AmtPer::any, AmtCoding::packed),
+    made<Model, std::byte>(amt_tag::kPackedNodes, AmtPer::any, AmtCoding::packed, {.when = isUnpaged}),
+};
+/// What is read in part lies behind what is read whole.
+template <class Model>
+inline constexpr std::array kPageRows = {
     made<Model, std::byte>(amt_tag::kPageBlocks, AmtPer::any, AmtCoding::packed,
                            {.since = 3, .flags = kAmtRequired, .when = isPaged}),
-    made<Model, std::byte>(amt_tag::kPackedNodes, AmtPer::any, AmtCoding::packed),
+    made<Model, std::byte>(amt_tag::kPackedNodes, AmtPer::any, AmtCoding::packed,
+                           {.since = 3, .when = isPaged}),
 };
 /// Files written by early builds of Arete lack it.
 template <class Model>
@@ -176,12 +182,12 @@ template <>
 inline constexpr auto kAmtSchema<TerrainModel> = amt_rows::joined(
     amt_rows::kTopologyRows<TerrainModel>, amt_rows::kBoundRows, amt_rows::kNodeRows<TerrainModel>,
     amt_rows::kPlanRows, amt_rows::kPackedRows<TerrainModel>, amt_rows::kSampleRows,
-    amt_rows::kSegmentRows<TerrainModel>);
+    amt_rows::kPageRows<TerrainModel>, amt_rows::kSegmentRows<TerrainModel>);
 template <>
 inline constexpr auto kAmtSchema<SurfaceModel> = amt_rows::joined(
     amt_rows::kTopologyRows<SurfaceModel>, amt_rows::kRmsRows, amt_rows::kNodeRows<SurfaceModel>,
     amt_rows::kSourceRows, amt_rows::kPackedRows<SurfaceModel>, amt_rows::kLookRows,
-    amt_rows::kSegmentRows<SurfaceModel>);
+    amt_rows::kPageRows<SurfaceModel>, amt_rows::kSegmentRows<SurfaceModel>);
 
 /// The nodes of a packed file are in another order, so that no column of the MT is as in a plain one.
 template <class Model>

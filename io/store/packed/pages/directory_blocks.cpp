@@ -25,9 +25,9 @@ constexpr std::uint32_t kMaxIds = MultiTriangulation::kNone - 1;
 constexpr std::uint32_t kBands = MultiTriangulation::kBands;
 constexpr std::uint32_t kMostLevels = 5;  // 128^5 pages
 constexpr double kSteps = 65535;
-/// The least bytes of an entry: six floats, a checksum, a band, two numbers; and of a page: its box, a
-/// segment's checksum, and the numbers that each page has.
-constexpr std::uint64_t kLeastEntryBytes = 6 * 4 + 8 + 3, kLeastPageBytes = 6 * 2 + 8 + 6;
+/// The bytes of an entry, and the least ones of a page: its box, a segment's checksum, and the numbers that
+/// each page has.
+constexpr std::uint64_t kEntryBytes = 8 + 4 + 8 + 1 + 6 * 4, kLeastPageBytes = 6 * 2 + 8 + 6;
 
 float roundedDown(double x) {
   const auto near = static_cast<float>(x);
@@ -40,6 +40,11 @@ float roundedUp(double x) {
 
 Box3 boxOf(const Packet& page) {
   return {{page.xMin, page.yMin, page.zMin}, {page.xMax, page.yMax, page.zMax}};
+}
+
+/// The bytes that a number takes.
+std::uint64_t numberBytes(std::uint64_t number) {
+  return number < 128 ? 1 : 2;
 }
 
 /// A bound as a part of the extent of the block.
@@ -63,9 +68,10 @@ std::uint16_t highCode(double x, double low, double high) {
   return code;
 }
 
+/// All entries have the same size, so that where blocks lie can be said before they are written.
 void write(const BlockEntry& entry, NumberWriter& out) {
-  out.number(entry.offset);
-  out.number(entry.bytes);
+  out.plain(entry.offset);
+  out.plain(static_cast<std::uint32_t>(entry.bytes));
   out.plain(entry.checksum);
   out.plain(entry.highestBand);
   for (const Vec3& corner : {entry.box.low, entry.box.high})
@@ -81,12 +87,11 @@ std::vector<std::byte> bytesOf(std::span<const BlockEntry> entries) {
 
 bool readEntries(NumberReader& in, std::vector<BlockEntry>& entries) {
   const std::uint64_t count = in.number();
-  if (in.isBad() || count == 0 || count > kPagesPerBlock || count > in.left() / kLeastEntryBytes)
-    return false;
+  if (in.isBad() || count == 0 || count > kPagesPerBlock || count > in.left() / kEntryBytes) return false;
   entries.resize(count);
   for (BlockEntry& entry : entries) {
-    entry.offset = in.number();
-    entry.bytes = in.number();
+    entry.offset = in.plain<std::uint64_t>();
+    entry.bytes = in.plain<std::uint32_t>();
     entry.checksum = in.plain<std::uint64_t>();
     entry.highestBand = in.plain<std::uint8_t>();
     if (entry.highestBand >= kBands) return false;
@@ -130,26 +135,15 @@ std::vector<std::byte> leafBytes(std::span<const Packet> pages, const Box3& box)
   return out.take();
 }
 
-/// The entry of a block of so many bytes behind those there are.
-BlockEntry append(std::vector<std::byte>& blocks, std::span<const std::byte> bytes, std::uint8_t band,
-                  const Box3& box) {
-  BlockEntry entry{blocks.size(), bytes.size(), amtChecksum(bytes), band, box};
-  blocks.insert(blocks.end(), bytes.begin(), bytes.end());
-  return entry;
-}
+/// A block that is not placed yet.
+struct Block {
+  std::vector<std::byte> bytes;  // of a leaf
+  BlockEntry entry;
+};
 
-}  // namespace
-
-std::uint64_t PageRoot::nodes() const {
-  std::uint64_t sum = 0;
-  for (const std::uint64_t n : nodesOfBand) sum += n;
-  return sum;
-}
-
-PageDirectoryBytes pageDirectoryBytes(const Directory& directory) {
-  PageDirectoryBytes bytes;
-  const std::span<const Packet> pages = directory.packets;
-  std::vector<BlockEntry> level;
+/// The leaves of a directory, without offsets and checksums.
+std::vector<Block> leavesOf(std::span<const Packet> pages) {
+  std::vector<Block> leaves;
   for (std::size_t first = 0; first < pages.size(); first += kPagesPerBlock) {
     const auto of = pages.subspan(first, std::min<std::size_t>(kPagesPerBlock, pages.size() - first));
     Box3 around = Box3::empty();
@@ -166,25 +160,73 @@ PageDirectoryBytes pageDirectoryBytes(const Directory& directory) {
                     double(roundedDown(around.low.z))},
                    {double(roundedUp(around.high.x)), double(roundedUp(around.high.y)),
                     double(roundedUp(around.high.z))}};
-    level.push_back(append(bytes.blocks, leafBytes(of, box), band, box));
+    Block leaf{leafBytes(of, box), {}};
+    leaf.entry.bytes = leaf.bytes.size();
+    leaf.entry.highestBand = band;
+    leaf.entry.box = box;
+    leaves.push_back(std::move(leaf));
   }
-  std::uint32_t levels = 1;
-  for (; level.size() > kPagesPerBlock; ++levels) {
-    std::vector<BlockEntry> above;
-    for (std::size_t first = 0; first < level.size(); first += kPagesPerBlock) {
-      const auto of =
-          std::span(level).subspan(first, std::min<std::size_t>(kPagesPerBlock, level.size() - first));
-      Box3 box = Box3::empty();
-      std::uint8_t band = 0;
-      for (const BlockEntry& entry : of) {
-        box.include(entry.box.low);
-        box.include(entry.box.high);
-        band = std::max(band, entry.highestBand);
-      }
-      above.push_back(append(bytes.blocks, bytesOf(of), band, box));
+  return leaves;
+}
+
+/// The blocks above those of a level.
+std::vector<Block> levelAbove(std::span<const Block> level) {
+  std::vector<Block> above;
+  for (std::size_t first = 0; first < level.size(); first += kPagesPerBlock) {
+    const auto of = level.subspan(first, std::min<std::size_t>(kPagesPerBlock, level.size() - first));
+    Block block;
+    block.entry.box = Box3::empty();
+    for (const Block& below : of) {
+      block.entry.box.include(below.entry.box.low);
+      block.entry.box.include(below.entry.box.high);
+      block.entry.highestBand = std::max(block.entry.highestBand, below.entry.highestBand);
     }
-    level = std::move(above);
+    block.entry.bytes = numberBytes(of.size()) + of.size() * kEntryBytes;
+    above.push_back(std::move(block));
   }
+  return above;
+}
+
+std::vector<BlockEntry> entriesOf(std::span<const Block> blocks) {
+  std::vector<BlockEntry> entries;
+  for (const Block& block : blocks) entries.push_back(block.entry);
+  return entries;
+}
+
+}  // namespace
+
+std::uint64_t PageRoot::nodes() const {
+  std::uint64_t sum = 0;
+  for (const std::uint64_t n : nodesOfBand) sum += n;
+  return sum;
+}
+
+// The topmost blocks come first, so that they lie at the beginning of the file. A block refers to others by
+// their checksums, so blocks are written from the last level to the first.
+PageDirectoryBytes pageDirectoryBytes(const Directory& directory) {
+  const std::span<const Packet> pages = directory.packets;
+  std::vector<std::vector<Block>> levels = {leavesOf(pages)};
+  while (levels.back().size() > kPagesPerBlock) levels.push_back(levelAbove(levels.back()));
+  std::uint64_t end = 0;
+  for (auto level = levels.rbegin(); level != levels.rend(); ++level)
+    for (Block& block : *level) {
+      block.entry.offset = end;
+      end += block.entry.bytes;
+    }
+  PageDirectoryBytes bytes;
+  bytes.blocks.resize(end);
+  for (std::size_t height = 0; height < levels.size(); ++height)
+    for (std::size_t i = 0; i < levels[height].size(); ++i) {
+      Block& block = levels[height][i];
+      if (height > 0) {
+        const std::span<const Block> below = levels[height - 1];
+        const std::size_t first = i * kPagesPerBlock;
+        block.bytes = bytesOf(
+            entriesOf(below.subspan(first, std::min<std::size_t>(kPagesPerBlock, below.size() - first))));
+      }
+      block.entry.checksum = amtChecksum(block.bytes);
+      std::ranges::copy(block.bytes, bytes.blocks.begin() + static_cast<std::ptrdiff_t>(block.entry.offset));
+    }
   NumberWriter out;
   out.plain(kPagedVersion);
   for (const std::uint8_t c : directory.bandClass) out.plain(c);
@@ -194,9 +236,9 @@ PageDirectoryBytes pageDirectoryBytes(const Directory& directory) {
   for (const std::uint64_t n : nodesOfBand) out.number(n);
   out.number(pages.size());
   out.number(directory.slots());
-  out.number(levels);
+  out.number(levels.size());
   bytes.root = out.take();
-  const std::vector<std::byte> entries = bytesOf(level);
+  const std::vector<std::byte> entries = bytesOf(entriesOf(levels.back()));
   bytes.root.insert(bytes.root.end(), entries.begin(), entries.end());
   return bytes;
 }

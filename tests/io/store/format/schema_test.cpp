@@ -84,7 +84,7 @@ TEST(Schema, ListsTheChunksInTheOrderOfTheFile) {
   EXPECT_EQ(tagsOf<TerrainModel>(facts), "META PDIR PTAB PNOD ISAM IHGT FIXV ");
   EXPECT_EQ(tagsOf<SurfaceModel>(facts), "META PDIR PTAB PNOD PNUM PDSP LOOK ATTR PICT AERR LEFT ");
   facts.isPaged = true;
-  EXPECT_EQ(tagsOf<TerrainModel>(facts), "META PAGE PTAB PBLK PNOD ISAM IHGT FIXV ");
+  EXPECT_EQ(tagsOf<TerrainModel>(facts), "META PAGE PTAB ISAM IHGT FIXV PBLK PNOD ");
 }
 
 TEST(Schema, KnowsTheTypeAndTheNumberOfTheElements) {
