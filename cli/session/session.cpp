@@ -306,7 +306,7 @@ RunContext Session::context() const {
 void Session::say(const std::string& text) const {
   if (json_ || quiet_ || changedInputFile() != nullptr) return;
   progressBar().finishLine();
-  print(withoutControls(text), out_);
+  print(withoutControls(withoutQueries(text)), out_);
   std::fflush(out_);
 }
 
