@@ -164,8 +164,9 @@ CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std:
                  "Read the named files and their sidecars only, without network (for services)")
       ->group("Output");
   command
-      ->add_option("--cache", cache_,
-                   "Keep what is fetched of models on servers in this folder, up to so many bytes (2GB)")
+      ->add_option(
+          "--cache", cache_,
+          "Keep what is fetched of models on servers in this folder, up to this number of bytes (2GB)")
       ->type_name("DIR[:BYTES]")
       ->check(cacheArgument())
       ->group("Output");
@@ -306,7 +307,7 @@ RunContext Session::context() const {
 void Session::say(const std::string& text) const {
   if (json_ || quiet_ || changedInputFile() != nullptr) return;
   progressBar().finishLine();
-  print(withoutControls(text), out_);
+  print(withoutControls(withoutQueries(text)), out_);
   std::fflush(out_);
 }
 

@@ -11,8 +11,11 @@ from ._surface import Surface
 
 
 def open(path: PathLike, progress: Progress = None) -> Union[Model, Surface]:  # noqa: A001
-    """Opens an .amt file: a Model of terrain or a Surface."""
-    name = os.path.abspath(os.fspath(path))
+    """Opens an .amt file, also by its address ("https://..."): a Model of terrain or a Surface."""
+    name = os.fspath(path)
+    # An address, also within a path of GDAL, is no path of this machine.
+    if "://" not in name and not name.startswith("/vsi"):
+        name = os.path.abspath(name)
     model = _arete.open_model(name, progress)
     return Surface(model, name) if isinstance(model, _arete.Surface) else Model(model, name)
 

@@ -30,7 +30,7 @@ struct HttpFault {
   bool isStalled = false;  ///< nothing is sent until the server ends
   bool drips = false;      ///< the bytes come one by one, ten a second, until the server ends
   int more = 0;            ///< bytes behind those that were asked for
-  int shift = 0;           ///< the range begins so many bytes later
+  int shift = 0;           ///< the bytes by which the range begins later
   std::string tag = "\"one\"";
   std::string content;  ///< instead of the file's
 };
@@ -147,6 +147,7 @@ class HttpServer {
     body.append(static_cast<std::size_t>(fault.more), 'x');
     const std::size_t stated = fault.isShort ? body.size() / 2 : body.size();
     head += fmt::format("ETag: {}\r\nContent-Length: {}\r\n{}\r\n", fault.tag, stated, fault.headers);
+    if (request.starts_with("HEAD")) return send(connection, head);
     if (fault.isShort || fault.isDropped) body.resize(body.size() / 2);
     if (fault.drips) {
       bool isOpen = send(connection, head);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The bytes of an error's page, and those of a redirection, are not kept. Headers are those of the last
+// The bytes of an error's page or of a redirection are not kept. Headers belong to the last
 // answer: each status line begins them anew.
 #include "io/files/curl/curl_transfer.h"
 

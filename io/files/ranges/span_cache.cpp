@@ -47,7 +47,7 @@ std::uint64_t sumOf(SpanHead head, std::span<const std::byte> blocks) {
   return XXH3_64bits_withSeed(blocks.data(), blocks.size(), ofHead);
 }
 
-/// The blocks in a span of so many bytes: their places, in order.
+/// The places of the blocks in a span of `length` bytes, in order.
 template <class Visit>
 void forBlocks(std::uint32_t blocks, std::size_t length, const Visit& visit) {
   for (std::uint32_t i = 0; i < kSpanHasBlocks; ++i) {

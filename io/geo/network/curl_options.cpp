@@ -13,7 +13,7 @@
 namespace arete {
 namespace {
 
-/// The options of one address before those of GDAL.
+/// The options of one address, and where it states none, the ones of GDAL.
 class StatedOptions {
  public:
   explicit StatedOptions(const NetworkAddress& address) : address_(address) {}

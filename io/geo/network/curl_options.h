@@ -6,7 +6,7 @@
 
 namespace arete {
 
-/// How libcurl asks for an address, so that it asks as GDAL would: the options of the address, and GDAL's own
+/// How libcurl requests an address, which is as GDAL would: the options of the address, and GDAL's own
 /// (GDAL_HTTP_*, CURL_CA_BUNDLE, SSL_CERT_FILE), set in GDAL or in the environment.
 CurlOptions curlOptionsOf(const NetworkAddress& address);
 

@@ -52,7 +52,7 @@ class StoreClient final : public HttpClient {
       offsets.push_back(ranges[i].first);
       sizes.push_back(replies[i].bytes.size());
     }
-    // GDAL's reading of one range tells short reads apart; that of several does not.
+    // GDAL's reading of one range tells short reads apart; its reading of several does not.
     const bool isRead = ranges.size() == 1
                             ? VSIFSeekL(file.get(), offsets[0], SEEK_SET) == 0 &&
                                   VSIFReadL(targets[0], 1, sizes[0], file.get()) == sizes[0]
