@@ -59,7 +59,7 @@ class ImportanceCriterion final : public BoundedCriterion {
   const Importance& importance_;
 };
 
-/// Another order, with squares of distances weighed by those of the importance.
+/// Another order, whose squares of distances are multiplied by squares of the importance.
 class ImportantFirst final : public RefineOrder {
  public:
   /// Precondition: both outlive this.

@@ -13,7 +13,7 @@ namespace arete {
 /// The importance that a request names, as options name attributes. Where vertices and corners have one of
 /// that name, the larger counts. Nothing of an empty name.
 /// Errors: usage, culprit "importance" and the name: the model lacks it, it has several numbers, or it is of
-/// faces; those of importanceOf(), with the same culprit.
+/// faces; as importanceOf(), with the same culprit.
 Result<std::optional<Importance>> importanceNamed(const SurfaceModel& model, const std::string& name);
 
 }  // namespace arete
