@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "engine/base/float_bounds.h"
 #include "engine/base/nearest_on_triangle.h"
@@ -134,6 +135,7 @@ Result<Importance> importanceOf(const SurfaceModel& model, const Attribute& attr
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = attribute.numbers(i).front() / unit;
   // A face that was split has parts whose corners lie inside it, and are another's.
   std::vector<float> ofFace(model.sourceFaces, 0);
+  std::optional<std::pair<std::uint32_t, double>> first;  // that divides nothing, and its number
   for (std::uint32_t t = 0; t < mt.triangleIdCount(); ++t) {
     const NodeId remover = mt.remover(TriangleId(t)), creator = mt.creator(TriangleId(t));
     if (remover.isValid() && remover == creator) continue;  // a slot that is no triangle
@@ -141,12 +143,9 @@ Result<Importance> importanceOf(const SurfaceModel& model, const Attribute& attr
     double most = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const double value = values[ofWedges ? model.wedgesOf[t][i] : corners[i]];
-      if (!(value > 0) || !std::isfinite(value))
-        return failure(ErrorCode::invalidData,
-                       fmt::format("is {} at vertex {} of the source (the first is 0); what divides a "
-                                   "tolerance has to be above 0 and finite",
-                                   value, model.vertexOf[corners[i]]),
-                       attribute.name);
+      const bool divides = value > 0 && std::isfinite(value);
+      if (!divides && (!first || model.vertexOf[corners[i]] < first->first))
+        first = {model.vertexOf[corners[i]], value};
       most = std::max(most, value);
       found.least = std::min(found.least, value);
     }
@@ -154,6 +153,12 @@ Result<Importance> importanceOf(const SurfaceModel& model, const Attribute& attr
     found.largest = std::max(found.largest, double{found.most[t]});
     if (!remover.isValid()) ofFace[model.faceOf[t]] = std::max(ofFace[model.faceOf[t]], found.most[t]);
   }
+  if (first)
+    return failure(ErrorCode::invalidData,
+                   fmt::format("is {} at vertex {} of the source (the first is 0); what divides a tolerance "
+                               "has to be above 0 and finite",
+                               first->second, first->first),
+                   attribute.name);
   for (std::uint32_t t = 0; t < mt.triangleIdCount(); ++t)
     if (!mt.remover(TriangleId(t)).isValid()) found.most[t] = ofFace[model.faceOf[t]];
   LargestImportance(model, found.most).ofCoarse();
