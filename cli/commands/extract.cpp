@@ -68,7 +68,7 @@ struct ExtractArguments {
   std::string certificate, errorRaster, map;
   std::string dropParts;
   std::vector<std::string> dropAttributes;
-  std::string attributeErrors = {};
+  std::string attributeErrors = {}, importance = {};
   NormalsArguments normals;
   bool areLevels = false, measuresBothWays = false, staysUndisplaced = false;
   PlaceTarget place;
@@ -213,6 +213,7 @@ Status runSurfaceExtract(const ExtractArguments& arguments, const AmtContainer& 
                          .normals = arguments.normals.options,
                          .measuresBothWays = arguments.measuresBothWays,
                          .attributeErrors = arguments.attributeErrors,
+                         .importance = arguments.importance,
                          .staysUndisplaced = arguments.staysUndisplaced},
                         file, session);
 }
@@ -349,6 +350,11 @@ void addExtractCommand(CLI::App& app, Session& session) {
           ->add_option("--attribute-error", arguments->attributeErrors,
                        "What attributes may be off by: uv:2px,normal:10,color:8 (build --attributes)")
           ->type_name("NAME:E,..."));
+  kinds.ofSurfaces(command
+                       ->add_option("--importance", arguments->importance,
+                                    "Divide the tolerance by a number of the file's vertices: twice as "
+                                    "important, half the error")
+                       ->type_name("NAME"));
   const auto [normals, creaseAngle] = arguments->normals.addTo(*command);
   kinds.ofSurfaces(normals);
   kinds.ofSurfaces(creaseAngle);

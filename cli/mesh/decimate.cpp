@@ -197,6 +197,8 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
     text += fmt::format("  distance   no point of the source{} farther than {}\n",
                         dropped.components > 0 ? " but what is left out" : "",
                         withShare(outcome->fit->distance, diagonal));
+  if (outcome->fit && arguments.normals.options.kind == NormalsKind::keep)
+    text += movedText(outcome->fit->attributes);
   if (outcome->seams.size() > 2)
     text += fmt::format("  seams      {}\n", withOptionNames(outcome->seams).substr(2));
   if (hasBoth)
@@ -225,6 +227,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
     json["error"] = outcome->fit->distance;
     json["errorPercent"] = 100 * outcome->fit->distance / diagonal;
     json["rms"] = outcome->fit->rmsAfter;
+    for (const AttributeRms& of : outcome->fit->attributes) json["movedAttributes"].push_back(toJson(of));
   }
   for (const AttributeChange& change : outcome->attributeChanges)
     json["attributeChanges"].push_back(toJson(change));

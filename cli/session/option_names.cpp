@@ -46,6 +46,7 @@ constexpr std::array kNames = {
     Name{"frequency", "--frequency"},
     Name{"growth", "--error-growth"},
     Name{"headless", "--headless"},
+    Name{"importance", "--importance"},
     Name{"isDepth", "--positive"},
     Name{"isLonLat", "--lonlat"},
     Name{"keepBorders", "--keep-borders"},

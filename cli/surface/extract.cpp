@@ -60,6 +60,7 @@ Result<Requests> requestsOf(const SurfaceExtractArguments& arguments, const Surf
   ARETE_CHECK(arguments.outputs.check(several));
   ARETE_TRY(CutRequest common, readSurfaceRequest(asked, model, context));
   common.isDisplaced = !arguments.staysUndisplaced;
+  common.importance = arguments.importance;
   if (!arguments.attributeErrors.empty()) {
     auto stated = parseAttributeNumbers(arguments.attributeErrors);
     if (!stated) {
@@ -118,6 +119,9 @@ Error named(Error error, const SurfaceExtractArguments& arguments, const Extract
   constexpr std::string_view kBounded = "attributeErrors ";
   if (error.culprit.starts_with(kBounded))
     error.culprit = "--attribute-error " + error.culprit.substr(kBounded.size());
+  constexpr std::string_view kImportant = "importance ";
+  if (error.culprit.starts_with(kImportant))
+    error.culprit = "--importance " + error.culprit.substr(kImportant.size());
   constexpr std::string_view kDropped = "dropAttributes ";
   if (error.culprit.starts_with(kDropped))
     error.culprit = "--drop-attributes " + error.culprit.substr(kDropped.size());

@@ -22,6 +22,7 @@ struct SurfaceExtractArguments {
   NormalsOptions normals = {};
   bool measuresBothWays = false;     ///< the distance from the result to the source, too
   std::string attributeErrors = {};  ///< --attribute-error; empty: none
+  std::string importance = {};       ///< --importance; empty: none
   bool staysUndisplaced = false;     ///< vertices of a displaced model stay where they are in the source
 };
 

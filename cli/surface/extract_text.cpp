@@ -55,10 +55,15 @@ std::string extractText(const ExtractRequest& request, const ExtractedSurface& f
                             : fmt::format("; {:.3g} of each move, to keep the tolerance", found.fit->part));
   else if (found.isDisplaced)
     text += "  displaced  to where the distances are smaller (--no-displacement: as in the source)\n";
+  text += movedText(found.movedAttributes);
   for (const AttributeNumber& of : found.attributeErrors)
     text += std::isfinite(of.number) ? fmt::format("  {:<10} at most {:.4g}{}{} off within that distance\n",
                                                    of.name, of.number, of.unit.empty() ? "" : " ", of.unit)
                                      : fmt::format("  {:<10} not bounded\n", of.name);
+  if (found.importance)
+    text += fmt::format("  importance {} from {:.4g} to {:.4g}; no point farther than {} / {}\n",
+                        request.criterion.importance, found.importance->least, found.importance->largest,
+                        withShare(found.importance->weighted, diagonal), request.criterion.importance);
   if (found.movedByGrid > 0)
     text += fmt::format("  packed     on a grid that moves a point by up to {}, part of the error\n",
                         withShare(found.movedByGrid, diagonal));

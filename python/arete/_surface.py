@@ -29,7 +29,8 @@ class Surface(Stored):
             displaced: bool = True, fit: Optional[str] = None, progress: Progress = None,
             focus: Optional[Sequence[float]] = None, error_growth: Optional[float] = None, deadline: Optional[float] = None,
             order: Optional[str] = None, drop_parts: Size = 0, method: str = "minimal",
-            where: Optional[Where] = None, attribute_error: Union[str, Mapping[str, Union[float, str]]] = "") -> Tin:
+            where: Optional[Where] = None, attribute_error: Union[str, Mapping[str, Union[float, str]]] = "",
+            importance: str = "") -> Tin:
         """The fewest triangles of which no point of the source is farther than `max_error`, or the best of at most
         `max_triangles`.
 
@@ -46,6 +47,7 @@ class Surface(Stored):
         drop_parts: leaves out the components whose box has a smaller diagonal; the error is that of the rest.
         attribute_error: what attributes may be off by, each within max_error: {"uv": "2px", "normal": 10, "color": 8}; of a
             model built with attributes.
+        importance: the name of a number of vertices by which the error is divided from place to place; it is above 0.
         displaced: where the model was built with displacement, draw it nearer to the source at the same error.
         fit: "rms" moves vertices to where the mean square distance is small; within max_error, if it is stated.
 
@@ -71,6 +73,7 @@ class Surface(Stored):
         request = asked.request()
         request.displaced = displaced
         request.drop_parts = dropped or 0
+        request.importance = importance
         errors = attribute_error if isinstance(attribute_error, str) else ",".join(
             f"{name}:{most}" for name, most in attribute_error.items())
         if errors:

@@ -86,6 +86,7 @@ void defineRequest(py::module_& module) {
       .def_readwrite("deadline", &CutRequest::deadlineMilliseconds)
       .def_readwrite("displaced", &CutRequest::isDisplaced)
       .def_readwrite("drop_parts", &CutRequest::dropParts)
+      .def_readwrite("importance", &CutRequest::importance)
       .def("set_attribute_errors",
            [](CutRequest& request, const std::string& list) {
              auto numbers = parseAttributeNumbers(list);

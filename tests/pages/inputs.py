@@ -104,6 +104,14 @@ def painted(ply, obj):
             file.write("f " + " ".join(f"{v + 1}/{v + 1}/{v + 1}" for v in face) + "\n")
 
 
+def survey(ply, path):
+    """The same mesh with a quality of each vertex, 5 in the upper half and 1 in the lower."""
+    header, body = ply.read_text().split("end_header\n")
+    header = header.replace("property double z\n", "property double z\nproperty double quality\n")
+    lines = [line + (" 5" if float(line.split()[2]) > 0 else " 1") if len(line.split()) == 3 else line for line in body.split("\n")]
+    path.write_text(header + "end_header\n" + "\n".join(lines))
+
+
 def make(folder, arete):
     """Writes all inputs into a folder; `arete` is the program."""
     folder = pathlib.Path(folder)
@@ -129,6 +137,7 @@ def make(folder, arete):
         archive.writestr("N46E008.hgt", struct.pack(">1201h", *part, *void) * 200 + struct.pack(">h", -32768) * 1201 * 1001)
     scan(folder / "scan.ply")
     painted(folder / "scan.ply", folder / "scan.obj")
+    survey(folder / "scan.ply", folder / "survey.ply")
     run("convert", "scan.ply", "-o", "scan.stl")
     run("convert", "scan.ply", "-o", "scan.glb")
     run("convert", "scan.ply", "-o", "original.obj")

@@ -69,6 +69,30 @@ class Attributes(unittest.TestCase):
                 arete.measure(cut, scan, attributes=True)
 
 
+    def test_importance_divides_the_error(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scan = os.path.join(folder, "scan.ply")
+            n = 24
+            with open(scan, "w", encoding="utf-8") as file:
+                file.write(f"ply\nformat ascii 1.0\nelement vertex {(n + 1) ** 2}\nproperty double x\nproperty double y\n"
+                           "property double z\nproperty double quality\n"
+                           f"element face {n * n}\nproperty list uchar int vertex_indices\nend_header\n")
+                for r in range(n + 1):
+                    for c in range(n + 1):
+                        file.write(f"{c} {r} {np.sin(c) * np.cos(r)} {9 if c > n / 2 else 1}\n")
+                for r in range(n):
+                    for c in range(n):
+                        v = r * (n + 1) + c
+                        file.write(f"4 {v} {v + 1} {v + n + 2} {v + n + 1}\n")
+            surface = arete.build_surface(scan)
+            plain, cut = surface.cut(max_error=0.9), surface.cut(max_error=0.9, importance="quality")
+            self.assertEqual(len(surface.cut(max_error=0.1).triangles) > len(cut.triangles), True)
+            on_side = lambda tin: int((tin.vertices[:, 0] > n / 2 + 1).sum())  # noqa: E731
+            self.assertGreater(on_side(cut), 2 * on_side(plain))
+            with self.assertRaisesRegex(ValueError, "importance"):
+                surface.cut(max_error=0.9, importance="heat")
+
+
 class Surfaces(unittest.TestCase):
     @classmethod
     def setUpClass(cls):

@@ -76,6 +76,7 @@ Json toJson(const CutRequest& request) {
     json["outsideError"] = limitJson(request.outsideError);
   if (request.deadlineMilliseconds) json["deadlineMilliseconds"] = *request.deadlineMilliseconds;
   if (request.dropParts > 0) json["dropParts"] = request.dropParts;
+  if (!request.importance.empty()) json["importance"] = request.importance;
   for (const AttributeNumber& of : request.attributeErrors)
     json["attributeErrors"][of.name] =
         of.unit.empty() ? Json(of.number) : Json(fmt::format("{}{}", of.number, of.unit));

@@ -77,7 +77,8 @@ Result<SurfaceMeasure> measureSurface(const TriangleMesh& source, const Triangle
   ARETE_TRY(MeshDistanceReport distances, measureDistance(mesh, source, {.samples = samples}, context));
   measured.distances = std::move(distances);
   measured.distances.raise(model.positionError);
-  if (isComplete && (request.spaceRegion || request.focus)) {
+  // By importance the error is another one at each vertex; its cut states the largest of them.
+  if (isComplete && request.importance.empty() && (request.spaceRegion || request.focus)) {
     ARETE_TRY(const auto places, measurePlaces(source, mesh, model, request, context));
     measured.places = places;
   }

@@ -69,6 +69,11 @@ Json surfaceJson(const ExtractRequest& request, const ExtractedSurface& found) {
     json["dropped"] = {{"components", *found.droppedComponents},
                        {"faces", *found.droppedFaces},
                        {"distance", found.droppedDistance ? Json(*found.droppedDistance) : Json()}};
+  if (found.importance)
+    json["importance"] = {{"name", asked.importance},
+                          {"least", found.importance->least},
+                          {"largest", found.importance->largest},
+                          {"weightedError", found.importance->weighted}};
   if (!found.attributeErrors.empty()) {
     json["attributeErrors"] = Json::object();
     for (const AttributeNumber& of : found.attributeErrors)
@@ -84,6 +89,7 @@ Json surfaceJson(const ExtractRequest& request, const ExtractedSurface& found) {
                    {"rmsAfter", found.fit->rmsAfter},
                    {"errorBefore", found.storedError},
                    {"part", found.fit->part}};
+  for (const AttributeRms& of : found.movedAttributes) json["movedAttributes"].push_back(toJson(of));
   if (found.sourceCrossings) json["sourceSelfIntersections"] = *found.sourceCrossings;
   if (asked.maxError && std::isfinite(*asked.maxError)) {
     json["maxError"] = *asked.maxError;

@@ -22,8 +22,8 @@ Status checkKind(const CutRequest& r, ModelKind kind) {
                                 Field{"fit", fitsHeights}};
   const std::array ofSurface = {
       Field{"spaceRegion", r.spaceRegion != nullptr}, Field{"spaceCamera", r.spaceCamera.has_value()},
-      Field{"dropParts", r.dropParts != 0}, Field{"attributeErrors", !r.attributeErrors.empty()},
-      Field{"fit", r.fit == CutFit::rms}};
+      Field{"dropParts", r.dropParts != 0},           Field{"attributeErrors", !r.attributeErrors.empty()},
+      Field{"importance", !r.importance.empty()},     Field{"fit", r.fit == CutFit::rms}};
   const std::span<const Field> ofOther =
       kind == ModelKind::terrain ? std::span<const Field>(ofSurface) : std::span<const Field>(ofTerrain);
   for (const auto& [name, isStated] : ofOther)
@@ -51,6 +51,10 @@ Status checkRequest(const CutRequest& r, ModelKind kind) {
     return refused("attributeErrors", "cannot be combined with the saturated method");
   if (!r.attributeErrors.empty() && r.fit != CutFit::none)
     return refused("attributeErrors", "cannot be combined with a fit: it moves what is bounded");
+  if (!r.importance.empty() && r.method == CutMethod::saturated)
+    return refused("importance", "cannot be combined with the saturated method");
+  if (!r.importance.empty() && r.fit != CutFit::none)
+    return refused("importance", "cannot be combined with a fit: it keeps one error everywhere");
   if (r.fit == CutFit::none) return {};
   if (r.hasCamera() || r.focus || r.deadlineMilliseconds)
     return refused("fit", "cannot be combined with a camera, a focus or a deadline");

@@ -77,6 +77,10 @@ struct CutRequest {
   /// (SurfaceBuildOptions::boundsAttributes). Then no vertex is displaced.
   std::vector<AttributeNumber> attributeErrors = {};
 
+  /// The name of a number of vertices or corners of a surface: the error that is asked for is divided by it
+  /// from place to place (surface/front/importance.h). Then no vertex is displaced. Empty: none.
+  std::string importance = {};
+
   bool isDisplaced = true;  ///< of a surface: where the model has a displacement, vertices are displaced
   /// Components of a surface are left out if their box has a smaller diagonal.
   double dropParts = 0;

@@ -62,4 +62,16 @@ nlohmann::ordered_json toJson(const AttributeChange& change) {
           {"unequal", change.unequal}};
 }
 
+std::string movedText(const std::vector<AttributeRms>& moved) {
+  std::string text;
+  for (const AttributeRms& of : moved)
+    text += fmt::format("  {:<10} RMS {:.4g} at the nearest point; {:.4g} before vertices moved\n",
+                        optionNameOf(of.name), of.after, of.before);
+  return text;
+}
+
+nlohmann::ordered_json toJson(const AttributeRms& of) {
+  return {{"name", optionNameOf(of.name)}, {"rmsBefore", of.before}, {"rmsAfter", of.after}};
+}
+
 }  // namespace arete

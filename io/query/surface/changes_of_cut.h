@@ -17,6 +17,12 @@ std::vector<AttributeChange> changesOfCut(const SurfaceModel& model, const Taken
 /// A line for each attribute, behind two spaces and its name.
 std::string changesText(const std::vector<AttributeChange>& changes);
 
+/// What attributes of vertices that were moved are off by at the nearest point, a line for each.
+std::string movedText(const std::vector<AttributeRms>& moved);
+
+/// The name that options have for it, and its root mean squares.
+nlohmann::ordered_json toJson(const AttributeRms& of);
+
 /// Its name, the largest change (null: infinite), its unit, and how many places were compared and differ.
 nlohmann::ordered_json toJson(const AttributeChange& change);
 

@@ -129,6 +129,9 @@ Status SurfaceExtractor::write(const ExtractRequest& request, TakenSurface& take
   if (request.packedBits && !request.criterion.attributeErrors.empty())
     return failure(ErrorCode::usage, "cannot be combined with `packed`, which rounds attributes",
                    "attributeErrors");
+  if (request.packedBits && !request.criterion.importance.empty())
+    return failure(ErrorCode::usage, "cannot be combined with `packed`, which moves points alike everywhere",
+                   "importance");
   if (request.packedBits && !request.map.empty())
     return failure(ErrorCode::usage, "tells numbers of the file, whose order `packed` makes anew", "map");
   if (request.certificate.empty() && !request.packedBits) {
@@ -186,14 +189,17 @@ Result<ExtractedSurface> SurfaceExtractor::extractWithin(const ExtractRequest& r
   result.fit = taken.fit;
   // Packing rounds every attribute, and normals that are made anew are not the source's.
   if (!request.packedBits) result.attributeErrors = taken.attributeErrors;
-  std::erase_if(result.attributeErrors, [&](const AttributeNumber& of) {
+  result.movedAttributes = taken.fit ? taken.fit->attributes : taken.displacedAttributes;
+  const auto isLeftOut = [&](const auto& of) {
+    if (request.normals.kind != NormalsKind::keep && of.name == kNormalName) return true;
     return std::ranges::any_of(request.dropAttributes, [&](const std::string& dropped) {
-      return dropped == of.name || optionNameOf(dropped) == of.name;
+      return optionNameOf(dropped) == optionNameOf(of.name);
     });
-  });
-  if (request.normals.kind != NormalsKind::keep)
-    std::erase_if(result.attributeErrors, [](const AttributeNumber& of) { return of.name == kNormalName; });
+  };
+  std::erase_if(result.attributeErrors, isLeftOut);
+  std::erase_if(result.movedAttributes, isLeftOut);
   result.leftByRounding = taken.leftByRounding;
+  result.importance = taken.importance;
   result.triangles = taken.front.mesh.triangles.size();
   result.vertices = taken.front.mesh.positions.size();
   const bool isTolerance = request.criterion.promisesMaxError(taken.whole.isComplete) &&

@@ -33,12 +33,14 @@ struct ExtractedSurface {
   std::uint64_t crossings = 0;                   ///< pairs of triangles that cross
   std::optional<std::uint64_t> sourceCrossings;  ///< of the source, where any request had some
   std::optional<FitOutcome> fit;
-  double leftByRounding = 0;                                     ///< TakenSurface::leftByRounding
+  std::vector<AttributeRms> movedAttributes;  ///< by a fit or a displacement; of those that are written
+  double leftByRounding = 0;                  ///< TakenSurface::leftByRounding
   std::optional<std::uint64_t> droppedComponents, droppedFaces;  ///< where components may be left out
   std::optional<double> droppedDistance;          ///< the farthest that what is left out is from the result
   std::optional<double> otherWay;                 ///< the farthest that the result is from the source
   std::vector<AttributeChange> attributeChanges;  ///< changesOfCut(); of those that are written
   std::vector<AttributeNumber> attributeErrors;   ///< TakenSurface::attributeErrors
+  std::optional<TakenSurface::OfImportance> importance;
   double movedByFloats = 0;  ///< of a PLY with doubles of a source that states no frame (convert.h)
   double promisedError = 0;  ///< the tolerance, or what a budget, a deadline, a place or a fit came to
   MeshWriteReport written;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "surface/fit/attribute_fit.h"
 #include "surface/fit/fit.h"
 #include "surface/fit/held_vertices.h"
 
@@ -29,8 +28,11 @@ Result<FitOutcome> fitFront(SurfaceFront& front, const SurfaceMesh& source, cons
     ARETE_TRY(const double distance, distanceByChart(source.shape(), front.mesh.shape(), charts, context));
     outcome.distance = distance + positionError;
     if (maxError && outcome.distance > *maxError) continue;
-    ARETE_TRY(const auto attributes, fitAttributes(front.mesh, before, source, fitCharts, 0, context));
-    if (std::ranges::none_of(attributes, &AttributeRms::hasGrown)) return outcome;
+    ARETE_TRY(auto attributes, fitAttributes(front.mesh, before, source, fitCharts, 0, context));
+    if (std::ranges::none_of(attributes, &AttributeRms::hasGrown)) {
+      outcome.attributes = std::move(attributes);
+      return outcome;
+    }
     const std::vector<Vec3> moved = std::move(front.mesh.positions);
     front.mesh = asCut;
     front.mesh.positions = moved;

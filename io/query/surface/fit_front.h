@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
 #include "io/query/surface/distance_by_chart.h"
+#include "surface/fit/attribute_fit.h"
 #include "surface/front/front.h"
 
 namespace arete {
@@ -17,7 +19,8 @@ struct FitOutcome {
   /// chart: found by a search that shares nothing with the fit but boxes and distances of engine/base, or the
   /// error of the cut where nothing was moved.
   double distance = 0;
-  double part = 1;  ///< of the moves that was made, so that maxError is kept
+  double part = 1;                            ///< of the moves that was made, so that maxError is kept
+  std::vector<AttributeRms> attributes = {};  ///< that were fitted; empty where nothing was moved
 };
 
 /// Moves the vertices of a front by `--fit rms` (surface/fit/fit.h). Where the result is farther from the

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "engine/base/caught_failure.h"
@@ -14,16 +16,20 @@
 #include "io/query/request/check_request.h"
 #include "io/query/request/criterion.h"
 #include "io/query/surface/attribute_tolerances.h"
+#include "io/query/surface/named_importance.h"
 #include "surface/diagnosis/diagnosis.h"
 #include "surface/displacement/displaced_places.h"
+#include "surface/fit/attribute_fit.h"
 #include "surface/front/attribute_criterion.h"
 
 namespace arete {
 namespace {
 
 Result<Cut> cutOf(const CutRequest& request, const SurfaceModel& model, const Criterion& criterion,
-                  const DroppedComponents* dropped, const RunContext& context) {
+                  const Importance* importance, const DroppedComponents* dropped, const RunContext& context) {
   ARETE_TRY(CutOptions options, engineOptions(request, model));
+  if (importance && options.order && request.order == CutOrder::usual)
+    options.order = std::make_shared<ImportantFirst>(options.order, *importance);
   const std::uint32_t droppedTriangles = dropped ? dropped->rootTriangles : 0;
   if (options.maxTriangles) *options.maxTriangles += droppedTriangles;
   std::optional<KeptComponentsCriterion> keptCriterion;
@@ -41,6 +47,20 @@ Result<Cut> cutOf(const CutRequest& request, const SurfaceModel& model, const Cr
 Cut finestCutWithout(const SurfaceModel& model, const DroppedComponents* dropped) {
   Cut whole = frontOfPrefix(model.mt, model.mt.nodeCount());
   return dropped ? withoutDropped(model.mt, whole, *dropped).cut : whole;
+}
+
+/// Fits the attributes of a cut to where its vertices are now.
+Result<std::vector<AttributeRms>> attributesAtPlaces(const SurfaceModel& model, TakenSurface& taken,
+                                                     const std::vector<Vec3>& before,
+                                                     const DroppedComponents* dropped,
+                                                     const RunContext& context) {
+  SurfaceMesh& mesh = taken.front.mesh;
+  const bool hasAny = !mesh.vertexAttributes.empty() || !mesh.wedgeAttributes.empty();
+  if (!hasAny || mesh.positions == before) return std::vector<AttributeRms>();
+  const Cut finest = finestCutWithout(model, dropped);
+  const ChartsOfCut charts = chartsOfCut(model, finest, taken.cut);
+  return fitAttributes(mesh, before, finestWithout(model, dropped).mesh, {charts.ofSource, charts.ofCut}, 0,
+                       context);
 }
 
 }  // namespace
@@ -63,12 +83,15 @@ SurfaceFront finestWithout(const SurfaceModel& model, const DroppedComponents* d
 Result<TakenSurface> takeSurface(const SurfaceModel& model, const CutRequest& request,
                                  const DroppedComponents* dropped, const RunContext& context) try {
   ARETE_CHECK(checkRequest(request, ModelKind::surface));
-  ARETE_TRY(const auto criterion, engineCriterion(request, model));
+  ARETE_TRY(std::shared_ptr<const BoundedCriterion> criterion, engineCriterion(request, model));
+  const auto ofShape = criterion;
+  ARETE_TRY(const std::optional<Importance> importance, importanceNamed(model, request.importance));
+  if (importance) criterion = std::make_shared<ImportanceCriterion>(*ofShape, *importance);
   ARETE_TRY(const auto tolerances, attributeTolerances(model, request.attributeErrors));
   const AttributeCriterion ofBoth(*criterion, model, tolerances);
   const Criterion& asked = tolerances.empty() ? static_cast<const Criterion&>(*criterion) : ofBoth;
   TakenSurface taken;
-  ARETE_TRY(Cut whole, cutOf(request, model, asked, dropped, context));
+  ARETE_TRY(Cut whole, cutOf(request, model, asked, importance ? &*importance : nullptr, dropped, context));
   taken.whole = std::move(whole);
   if (dropped) {
     KeptCut rest = withoutDropped(model.mt, taken.whole, *dropped);
@@ -79,7 +102,13 @@ Result<TakenSurface> takeSurface(const SurfaceModel& model, const CutRequest& re
   }
   taken.front = surfaceOf(model, taken.cut);
   taken.error = taken.cut.achievedError;
-  if (request.spaceCamera) taken.pixels = worstSeverity(model.mt, *criterion, taken.cut);
+  if (request.spaceCamera) taken.pixels = worstSeverity(model.mt, *ofShape, taken.cut);
+  if (importance) {
+    taken.importance = {.least = importance->least, .largest = importance->largest};
+    for (const std::uint32_t id : taken.cut.ids)
+      taken.importance->weighted = std::max(taken.importance->weighted,
+                                            model.mt.error(TriangleId(id)) * importance->of(TriangleId(id)));
+  }
   if (request.fit == CutFit::rms) {
     // A cut that a budget ended does not keep the tolerance before the fit.
     ARETE_TRY(const auto fitted, fitFront(taken.front, finestWithout(model, dropped).mesh,
@@ -89,11 +118,15 @@ Result<TakenSurface> takeSurface(const SurfaceModel& model, const CutRequest& re
                                           model.positionError));
     taken.fit = fitted;
     taken.error = fitted.distance;
-  } else if (!model.displacement.isEmpty() && request.isDisplaced && request.attributeErrors.empty()) {
+  } else if (!model.displacement.isEmpty() && request.isDisplaced && request.attributeErrors.empty() &&
+             !importance) {
     const std::vector<double> promised = promisedErrors(model.mt, taken.cut, criterion.get());
+    const std::vector<Vec3> before = taken.front.mesh.positions;
     taken.front.mesh.positions = displacedPlaces(model.mt, model.displacement, taken.cut, promised);
     for (std::size_t t = 0; t < promised.size(); ++t) taken.front.errors[t] = floatAtLeast(promised[t]);
     taken.isDisplaced = true;
+    ARETE_TRY(auto attributes, attributesAtPlaces(model, taken, before, dropped, context));
+    taken.displacedAttributes = std::move(attributes);
   } else {
     taken.attributeErrors = statedAttributeErrors(model, taken.cut);
   }

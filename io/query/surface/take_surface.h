@@ -27,9 +27,19 @@ struct TakenSurface {
   SurfaceFront front;  ///< of the cut, fitted or displaced
   std::optional<FitOutcome> fit = {};
   bool isDisplaced = false;
+  /// Of a displaced cut: of attributes where its vertices were, and of those fitted to where they are.
+  std::vector<AttributeRms> displacedAttributes = {};
   /// For every point of the source there is one of the cut within `error` whose attributes are at most this
   /// far off (statedAttributeErrors()). Empty where they are not bounded, or no longer hold.
   std::vector<AttributeNumber> attributeErrors = {};
+  /// Where the request has an importance.
+  struct OfImportance {
+    double least = 0, largest = 0;  ///< in the source
+    /// The largest product of a triangle's error and its importance: no point of the source is farther than
+    /// this by its importance.
+    double weighted = 0;
+  };
+  std::optional<OfImportance> importance = {};
   double error = 0;                   ///< no point of the source (but what is left out) is farther than this
   std::optional<double> pixels = {};  ///< with a camera: the worst error in its picture
   /// The largest error that rounding (SurfaceModel::positionError) leaves above what is asked for; 0: none.

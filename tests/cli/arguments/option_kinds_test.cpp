@@ -125,6 +125,7 @@ const std::map<std::string, Tried>& triedCommands() {
          {"--drop-parts", {"--drop-parts 1%", "--max-error 2%"}},
          {"--drop-attributes", {"--drop-attributes texcoord", "--max-error 2%"}},
          {"--attribute-error", {"--attribute-error uv:0.1", "--max-error 2%"}},
+         {"--importance", {"--importance heat", "--max-error 2%"}},
          {"--normals", {"--normals smooth", "--max-error 2%"}},
          {"--crease-angle", {"--crease-angle 30 --normals smooth", "--max-error 2%"}},
          {"--both-ways", {"--both-ways", "--max-error 2%"}},

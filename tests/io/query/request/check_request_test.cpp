@@ -43,6 +43,17 @@ TEST(CheckRequest, RefusesWhatTheKindHasNotAndWhatExcludesEachOtherByTheNameOfTh
        }},
       {"camera", ModelKind::terrain, [](CutRequest& r) { r.camera = Camera(); }},
       {"pixelError", ModelKind::terrain, [](CutRequest& r) { r.pixelError = 1; }},
+      {"importance", ModelKind::terrain, [](CutRequest& r) { r.importance = "heat"; }},
+      {"importance", ModelKind::surface,
+       [](CutRequest& r) {
+         r.importance = "heat";
+         r.method = CutMethod::saturated;
+       }},
+      {"importance", ModelKind::surface,
+       [](CutRequest& r) {
+         r.importance = "heat";
+         r.fit = CutFit::rms;
+       }},
       {"order", ModelKind::surface, [](CutRequest& r) { r.order = CutOrder::twoQueues; }},
       {"fit", ModelKind::terrain,
        [](CutRequest& r) {
