@@ -54,54 +54,16 @@ Error tooFew(std::uint32_t budget, std::uint64_t least, const std::string& metho
           fmt::format("maxTriangles {}", budget)};
 }
 
-Result<DecimatedOutcome> measured(SurfaceMesh mesh, const DecimationRequest& asked,
-                                  const RunContext& context) {
-  const std::optional<std::uint32_t> maxTriangles = asked.maxTriangles;
-  SurfaceBuildOptions options;
-  options.keepsBorders = asked.keepsBorders;
-  // A cut of so many triangles has what is coarser than a quarter of them whole.
-  ARETE_TRY(const SurfaceModel model,
-            buildSurface(std::move(mesh), options, context, maxTriangles.value_or(0) / 4));
-  CutRequest request;
-  request.fit = CutFit::rms;
-  request.maxTriangles = maxTriangles;
-  if (maxTriangles && *maxTriangles < model.mt.rootTriangleCount()) {
-    const SurfaceMesh finest = finestSurfaceOf(model).mesh;
-    std::optional<std::uint64_t> ofShape;
-    if (const auto bare = buildSurface(SurfaceMesh(finest.shape()), options, context))
-      ofShape = bare->mt.rootTriangleCount();
-    return tl::unexpected(tooFew(*maxTriangles, model.mt.rootTriangleCount(), "measured", finest, ofShape));
-  }
-  if (asked.maxError) request.maxError = asked.maxError->of(model.diagonal);
-  ARETE_TRY(TakenSurface taken, takeSurface(model, request, nullptr, context));
-  DecimatedOutcome outcome;
-  if (asked.wantsFaces) outcome.triangleFor = facesOf(model, taken.whole);
-  outcome.attributeChanges = changesOfCut(model, taken);
-  outcome.mesh = std::move(taken.front.mesh);
-  outcome.vertexOf = std::move(taken.front.vertexOf);
-  outcome.fit = taken.fit;
-  ARETE_TRY(const std::uint64_t crossings, crossingsOf(outcome.mesh, context));
-  outcome.crossings = crossings;
-  if (crossings > 0) {
-    ARETE_TRY(const std::uint64_t ofSource, crossingsOf(finestSurfaceOf(model).mesh, context));
-    outcome.sourceCrossings = ofSource;
-  }
-  outcome.isComplete = taken.whole.isComplete;
-  if (2 * model.mt.rootTriangleCount() > model.mt.finestTriangleCount())
-    outcome.seams = seamsText(finestSurfaceOf(model).mesh);
-  outcome.maxError = request.maxError;
-  outcome.dropsFlatNormals = model.mending.dropsFlatNormals;
-  return outcome;
-}
-
 /// All attributes of vertices and wedges that a list names, or without a list those that count.
-Result<std::vector<AttributeWeight>> weightsOf(const SurfaceMesh& mesh, const std::string& list) {
+Result<std::vector<AttributeWeight>> weightsOf(const SurfaceMesh& mesh, const DecimationRequest& request) {
+  const std::string& list = request.attributeWeights;
   std::vector<AttributeWeight> weights;
   if (list.empty()) {
     for (const auto* all : {&mesh.vertexAttributes, &mesh.wedgeAttributes})
       for (const Attribute& attribute : *all) {
         if (attribute.meaning == AttributeMeaning::textureCoords)
-          weights.push_back({attribute.name, kUsualTexcoordWeight});
+          weights.push_back({attribute.name,
+                             request.method == "measured" ? kMeasuredTexcoordWeight : kUsualTexcoordWeight});
         if (attribute.meaning == AttributeMeaning::color)
           weights.push_back({attribute.name, kUsualColorWeight});
       }
@@ -134,6 +96,51 @@ Result<std::vector<AttributeWeight>> weightsOf(const SurfaceMesh& mesh, const st
   return weights;
 }
 
+Result<DecimatedOutcome> measured(SurfaceMesh mesh, const DecimationRequest& asked,
+                                  const RunContext& context) {
+  const std::optional<std::uint32_t> maxTriangles = asked.maxTriangles;
+  SurfaceBuildOptions options;
+  options.keepsBorders = asked.keepsBorders;
+  // Nothing but a stated weight makes a tolerance's result larger.
+  std::vector<AttributeWeight> weights;
+  if (maxTriangles || !asked.attributeWeights.empty()) {
+    ARETE_TRY(weights, weightsOf(mesh, asked));
+  }
+  // A cut of so many triangles has what is coarser than a quarter of them whole.
+  ARETE_TRY(const SurfaceModel model,
+            buildSurface(std::move(mesh), options, context, maxTriangles.value_or(0) / 4, weights));
+  CutRequest request;
+  request.fit = CutFit::rms;
+  request.maxTriangles = maxTriangles;
+  if (maxTriangles && *maxTriangles < model.mt.rootTriangleCount()) {
+    const SurfaceMesh finest = finestSurfaceOf(model).mesh;
+    std::optional<std::uint64_t> ofShape;
+    if (const auto bare = buildSurface(SurfaceMesh(finest.shape()), options, context))
+      ofShape = bare->mt.rootTriangleCount();
+    return tl::unexpected(tooFew(*maxTriangles, model.mt.rootTriangleCount(), "measured", finest, ofShape));
+  }
+  if (asked.maxError) request.maxError = asked.maxError->of(model.diagonal);
+  ARETE_TRY(TakenSurface taken, takeSurface(model, request, nullptr, context));
+  DecimatedOutcome outcome;
+  if (asked.wantsFaces) outcome.triangleFor = facesOf(model, taken.whole);
+  outcome.attributeChanges = changesOfCut(model, taken);
+  outcome.mesh = std::move(taken.front.mesh);
+  outcome.vertexOf = std::move(taken.front.vertexOf);
+  outcome.fit = taken.fit;
+  ARETE_TRY(const std::uint64_t crossings, crossingsOf(outcome.mesh, context));
+  outcome.crossings = crossings;
+  if (crossings > 0) {
+    ARETE_TRY(const std::uint64_t ofSource, crossingsOf(finestSurfaceOf(model).mesh, context));
+    outcome.sourceCrossings = ofSource;
+  }
+  outcome.isComplete = taken.whole.isComplete;
+  if (2 * model.mt.rootTriangleCount() > model.mt.finestTriangleCount())
+    outcome.seams = seamsText(finestSurfaceOf(model).mesh);
+  outcome.maxError = request.maxError;
+  outcome.dropsFlatNormals = model.mending.dropsFlatNormals;
+  return outcome;
+}
+
 Result<DecimatedOutcome> contracted(const SurfaceMesh& mesh, const DecimationRequest& asked,
                                     const RunContext& context) {
   const std::uint32_t maxTriangles = *asked.maxTriangles;
@@ -148,7 +155,7 @@ Result<DecimatedOutcome> contracted(const SurfaceMesh& mesh, const DecimationReq
   options.keepsClusterVertices = asked.clusterVertices == "original";
   options.keepsBorders = asked.keepsBorders;
   options.forbidsCrossings = asked.forbidsCrossings;
-  ARETE_TRY(options.attributeWeights, weightsOf(mesh, asked.attributeWeights));
+  ARETE_TRY(options.attributeWeights, weightsOf(mesh, asked));
   ARETE_TRY(DecimatedMesh decimated, decimate(mesh, options, context));
   if (decimated.mesh.triangles.size() > maxTriangles) {
     // As few as the shape alone comes to.
@@ -202,8 +209,8 @@ Status checkDecimation(const DecimationRequest& a) {
     return refuse("quadricWeight", "qem, half-edge, vertex-pair, face or cluster");
   if (a.forbidsCrossings && (!hasQueue || a.method == "vertex-pair"))
     return refuse("noCrossings", "qem, half-edge or face");
-  if (!a.attributeWeights.empty() && !hasQueue && a.method != "cluster")
-    return refuse("attributeWeight", "qem, half-edge, vertex-pair, face or cluster");
+  if (!a.attributeWeights.empty() && a.method == "lindstrom-turk")
+    return refuse("attributeWeight", "measured, qem, half-edge, vertex-pair, face or cluster");
   if (!a.attributeWeights.empty())
     if (const auto numbers = parseAttributeNumbers(a.attributeWeights); !numbers)
       return failure(numbers.error().code, numbers.error().message,
