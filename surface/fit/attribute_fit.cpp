@@ -105,7 +105,8 @@ class OneAttribute {
       for (std::size_t e = 0; e < count; ++e)
         if (isHeld[e] == 0) {
           const auto& [low, high] = rangeOf_[chartOf[e] * components_ + c];
-          now[e * components_ + c] = std::clamp(now[e * components_ + c] + change[e], low, high);
+          if (low <= high)
+            now[e * components_ + c] = std::clamp(now[e * components_ + c] + change[e], low, high);
         }
     }
     if (isTangent || attribute_.meaning == AttributeMeaning::normal) keepLengths(now);
