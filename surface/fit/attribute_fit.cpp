@@ -159,7 +159,7 @@ class OneAttribute {
         elementAt.emplace(keyOf(source_.positions[sourceVertexOf[e]], from_, e), e);
     const AffineCharts affine(ofSource_, sourceVertexOf, source_.positions, from_, components_,
                               std::max(rounding_, kRoundingOfText * largest_));
-    // The last range is that of all charts, for what has none.
+    // The last range covers all charts, for what has none.
     const auto charts = static_cast<std::uint32_t>(affine.function.size());
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     rangeOf_.assign((charts + 1) * components_, {kInfinity, -kInfinity});

@@ -18,15 +18,15 @@ struct SurfaceFitOptions {
   /// Samples of the source; 0: 40 for each triangle of the cut, or 16 for each face of the source but at most
   /// 100 000, whichever is more.
   std::uint64_t samples = 0;
-  /// Of a sample of a line, beside one of the area: lines are what is seen first, and attributes next to them
-  /// are those of the line.
+  /// Of a sample of a line, beside one of the area: lines are seen first, and attributes next to them
+  /// follow the line.
   double lineWeight = 16;
 };
 
 /// Where the vertices of a cut are moved to.
 struct FittedSurface {
   std::vector<Vec3> positions;
-  /// Root mean square of the samples' distances; those of lines are not among them.
+  /// Root mean square of the distances of samples of the area and of borders.
   double rmsBefore = 0, rmsAfter = 0;
   /// The largest distance of a sample of the source's lines from the line of the cut.
   double lineBefore = 0, lineAfter = 0;

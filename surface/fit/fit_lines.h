@@ -18,7 +18,7 @@ struct FitLines {
     std::array<std::uint32_t, 2> next{MeshAttributes::kNone, MeshAttributes::kNone};
     std::vector<Vec3> way = {};  ///< of the source, from the first end to the second
   };
-  /// Those of which an end may move.
+  /// Edges with an end that may move.
   std::vector<Edge> edges;
   /// By vertex of the cut: it is in the middle of one line, whose ways are known. Empty: there is none.
   std::vector<std::uint8_t> mayMove;
