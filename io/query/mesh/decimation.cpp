@@ -18,8 +18,10 @@
 #include "io/query/surface/changes_of_cut.h"
 #include "io/query/surface/take_surface.h"
 #include "surface/attributes/attribute_names.h"
+#include "surface/attributes/picture_length.h"
 #include "surface/builder/build.h"
 #include "surface/decimate/decimate.h"
+#include "surface/edit/small_components.h"
 #include "surface/front/face_map.h"
 #include "surface/front/front.h"
 #include "surface/model/labels.h"
@@ -59,13 +61,16 @@ Result<std::vector<AttributeWeight>> weightsOf(const SurfaceMesh& mesh, const De
   const std::string& list = request.attributeWeights;
   std::vector<AttributeWeight> weights;
   if (list.empty()) {
-    for (const auto* all : {&mesh.vertexAttributes, &mesh.wedgeAttributes})
-      for (const Attribute& attribute : *all) {
-        if (attribute.meaning == AttributeMeaning::textureCoords)
-          weights.push_back({attribute.name,
-                             request.method == "measured" ? kMeasuredTexcoordWeight : kUsualTexcoordWeight});
+    const double diagonal = diagonalOf(mesh),
+                 usual = request.method == "measured" ? kMeasuredTexcoordWeight : kUsualTexcoordWeight;
+    for (const bool ofWedges : {false, true})
+      for (const Attribute& attribute : ofWedges ? mesh.wedgeAttributes : mesh.vertexAttributes) {
         if (attribute.meaning == AttributeMeaning::color)
           weights.push_back({attribute.name, kUsualColorWeight});
+        if (attribute.meaning != AttributeMeaning::textureCoords) continue;
+        const double length = lengthOfPictureUnit(mesh, attribute, ofWedges);
+        const double share = length > 0 && diagonal > 0 ? length / (kUsualLength * diagonal) : 1;
+        weights.push_back({attribute.name, usual * std::min(1.0, share)});
       }
     return weights;
   }

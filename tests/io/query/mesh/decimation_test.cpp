@@ -112,6 +112,28 @@ TEST(Decimation, WithinADistanceCountsShapeAloneUnlessWeightsAreStated) {
   EXPECT_FALSE(made("").positions == made("color:0.5").positions);
 }
 
+// A picture that repeats has coordinates that are as many times larger.
+TEST(Decimation, WeighsTextureCoordinatesAlikeHoweverOftenThePictureRepeats) {
+  const auto made = [](const char* method, double times) {
+    SurfaceMesh mesh(shapes::globe(24, 12));
+    Attribute coords{.name = "texcoord",
+                     .meaning = AttributeMeaning::textureCoords,
+                     .type = ScalarType::float64,
+                     .components = 2};
+    for (const Vec3& p : mesh.positions)
+      coords.append(std::vector<double>{times * (p.x + p.y * p.y), times * (p.z - 0.4 * p.x)});
+    mesh.vertexAttributes = {coords};
+    const auto result = decimateMesh(mesh, {.method = method, .maxTriangles = 100});
+    if (!result) throw std::runtime_error(result.error().message);
+    return result->mesh.triangles;
+  };
+  for (const char* method : {"measured", "qem"}) {
+    const auto eight = made(method, 8);
+    EXPECT_EQ(eight, made(method, 64)) << method;
+    EXPECT_EQ(eight, made(method, 65536)) << method;
+  }
+}
+
 // Two colours that a wave divides on a plate: its shape needs two triangles.
 TEST(Decimation, ByMeasuredKeepsWhatIsPaintedOnAPlate) {
   SurfaceMesh mesh(shapes::sheet(30, 30));
