@@ -36,8 +36,8 @@ struct DecimationRequest {
 /// What texture coordinates and colours count where no weight is stated (AttributeWeight). Others do not
 /// count. "measured" has another one for texture coordinates, whose cost is an integral over the source.
 inline constexpr double kUsualTexcoordWeight = 0.2, kMeasuredTexcoordWeight = 0.4, kUsualColorWeight = 0.15;
-/// In diagonals. Where a unit of texture coordinates covers less on the surface, as of a picture that
-/// repeats, their weight is as much smaller: they would count so much that the shape is lost.
+/// In diagonals. Where a unit of texture coordinates covers less on the surface, because a picture repeats,
+/// their weight is as much smaller: they would count so much that the shape is lost.
 inline constexpr double kUsualLength = 0.8;
 
 /// What became of a mesh, whatever the method.
