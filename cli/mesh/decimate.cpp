@@ -291,8 +291,9 @@ void addMeshDecimateCommand(CLI::App& mesh, Session& session) {
       ->add_option(
           "--attribute-weight", arguments->request.attributeWeights,
           "What a change of an attribute counts beside a distance: uv:1,color:0.5. By 1, a change of 1\n"
-          "counts as the diagonal; of colours, one of a whole channel. Default: uv:0.2 (of each set) and\n"
-          "color:0.15, with --max-triangles; what is not in the list counts nothing")
+          "counts as the diagonal; of colours, one of a whole channel. Default: uv:0.2 of each set (of "
+          "measured\n"
+          "0.4, with --max-triangles) and color:0.15; what is not in the list counts nothing")
       ->type_name("NAME:W,...");
   command->add_flag("--keep-borders", arguments->request.keepsBorders,
                     "Vertices on borders stay, to the bit");

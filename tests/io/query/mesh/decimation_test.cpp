@@ -166,6 +166,34 @@ TEST(Decimation, ByMeasuredKeepsWhatIsPaintedOnAPlate) {
   EXPECT_LT(deviationOf(""), 0.2 * deviationOf("color:0"));
 }
 
+// No seam is where a picture is mirrored: the shape does not see it, and a triangle across it smears it.
+TEST(Decimation, ByMeasuredKeepsTheLineAboutWhichAPictureIsMirrored) {
+  SurfaceMesh mesh(shapes::sheet(30, 20));
+  Attribute coords{.name = "texcoord",
+                   .meaning = AttributeMeaning::textureCoords,
+                   .type = ScalarType::float64,
+                   .components = 2};
+  const auto wanted = [](const Vec3& p) { return std::array{std::abs(p.x - 12) / 18, p.y / 20}; };
+  for (Vec3& p : mesh.positions) {
+    p.z = 0;
+    coords.append(wanted(p));
+  }
+  mesh.vertexAttributes = {coords};
+  const auto made = decimateMesh(mesh, {.maxTriangles = 12});
+  ASSERT_TRUE(made);
+  EXPECT_LE(made->mesh.triangles.size(), 12u);
+  for (const auto& corners : made->mesh.triangles) {
+    double left = 0, right = 0;
+    for (const std::uint32_t v : corners) {
+      const Vec3& p = made->mesh.positions[v];
+      left = std::max(left, 12 - p.x);
+      right = std::max(right, p.x - 12);
+      EXPECT_NEAR(made->mesh.vertexAttributes[0].numbers(v)[0], wanted(p)[0], 1e-6);
+    }
+    EXPECT_LT(std::min(left, right), 1e-6);
+  }
+}
+
 // What is stated of a fit whose lines move, by an oracle that shares nothing with it.
 TEST(Decimation, ByMeasuredStatesADistanceToThePartAndItsLines) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
