@@ -75,8 +75,13 @@ class Fitting {
     Sums sums = assign(all);
     result.rmsBefore = all.rmsOf(sums.surface) / scale_;
     result.lineBefore = all.ofLines.largest() / scale_;
-    if (sums.surface > all.squaresOf(roundingOf(source) * scale_))
-      ARETE_CHECK(take(all, sums, options, result));
+    const double rounding = roundingOf(source) * scale_;
+    // Of a surface that is exact, lines alone are off.
+    if (!(sums.surface > all.squaresOf(rounding)) && !lines_.isEmpty())
+      for (std::size_t v = 0; v < isHeld_.size(); ++v)
+        if (lines_.mayMove[v] == 0) isHeld_[v] = 1;
+    if (sums.surface > all.squaresOf(rounding) || all.ofLines.largest() > 2 * rounding)
+      ARETE_CHECK(take(all, std::max(sums.surface, all.squaresOf(rounding)), sums, options, result));
     context_.report("fit", 1);
     result.rmsAfter = all.rmsOf(sums.surface) / scale_;
     result.lineAfter = all.ofLines.largest() / scale_;
@@ -113,16 +118,17 @@ class Fitting {
 
   double allOf(const Sums& sums) const { return sums.surface + lineWeight_ * sums.lines; }
 
-  /// Takes steps until one gains too little. No step makes the surface worse than it was at first, whatever
-  /// lines gain.
-  Status take(Samples& samples, Sums& sums, const SurfaceFitOptions& options, FittedSurface& result) {
-    const double first = sums.surface;
+  /// Takes steps until one gains too little.
+  /// @param most  of the surface: what it was at first, or rounding. No step makes more of it, whatever lines
+  ///              gain
+  Status take(Samples& samples, double most, Sums& sums, const SurfaceFitOptions& options,
+              FittedSurface& result) {
     while (result.steps < options.steps) {
       if (context_.cancelled()) return failure(ErrorCode::interrupted, "fitting was interrupted");
       context_.report("fit", double(result.steps) / options.steps);
       const std::vector<Vec3> before = positions_, moves = problem(samples).solve(isHeld_);
       Sums next = sums;
-      const auto isBetter = [&] { return allOf(next) < allOf(sums) && next.surface <= first; };
+      const auto isBetter = [&] { return allOf(next) < allOf(sums) && next.surface <= most; };
       for (int halving = 0; halving <= kHalvings; ++halving) {
         move(before, moves, std::ldexp(1.0, -halving));
         next = assign(samples);
@@ -238,7 +244,7 @@ class Fitting {
   }
 
   const std::vector<Triangle>& triangles_;
-  const std::vector<std::uint8_t>& isHeld_;
+  std::vector<std::uint8_t> isHeld_;
   const FitLines& lines_;
   double lineWeight_ = 0;
   const RunContext& context_;

@@ -13,7 +13,7 @@ namespace arete {
 
 struct SurfaceFitOptions {
   /// Steps at most; it ends sooner where a step gains less than a hundredth, and where the root mean square
-  /// is no more than the rounding of the source's coordinates: an exact cut is not moved.
+  /// and lines are off by no more than the rounding of the source's coordinates: an exact cut is not moved.
   int steps = 10;
   /// Samples of the source; 0: 40 for each triangle of the cut, or 16 for each face of the source but at most
   /// 100 000, whichever is more.

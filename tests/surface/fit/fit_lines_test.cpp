@@ -158,6 +158,33 @@ TEST(FitLines, MoveSeamsNearerToTheSourceWithBothSidesAtOnePlaceOfIt) {
   EXPECT_GT(onSeam, 10u);
 }
 
+// The shape of a plate is exact whatever lies on it.
+TEST(FitLines, MoveOnAPlateThatIsExact) {
+  SurfaceMesh mesh(shapes::sheet(30, 30));
+  for (Vec3& p : mesh.positions) p.z = 0;
+  mesh.materials = {{.name = "a"}, {.name = "b"}};
+  for (const auto& t : mesh.triangles) {
+    const Vec3 middle = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
+    mesh.materialOf.push_back(std::hypot(middle.x - 15, middle.y - 15) < 11 ? 1 : 0);
+  }
+  const CutOfMesh f = cutOfMesh(mesh, 0.02);
+  const FitLines lines = fitLines(f.cut, f.source);
+  ASSERT_FALSE(lines.isEmpty());
+  const auto fit = fitSurface(f.cut.shape(), heldBeside(f.cut, lines), f.source.shape(), {}, {}, lines);
+  ASSERT_TRUE(fit);
+  EXPECT_LT(fit->rmsAfter, 1e-6);
+  for (const Vec3& p : fit->positions) EXPECT_NEAR(p.z, 0, 1e-6);
+  EXPECT_GT(fit->steps, 0);
+  // The vertices of a ring that is inscribed lie outside of it, as on a ball.
+  const auto radius = [&](const std::vector<Vec3>& positions) {
+    double sum = 0;
+    for (std::size_t v = 0; v < positions.size(); ++v)
+      if (lines.mayMove[v] != 0) sum += std::hypot(positions[v].x - 15, positions[v].y - 15);
+    return sum;
+  };
+  EXPECT_GT(radius(fit->positions), radius(f.cut.positions));
+}
+
 // Three materials that meet at a vertex, and lines that end at the border.
 TEST(FitLines, LeaveWhatMeetsOrEndsToTheBit) {
   SurfaceMesh mesh(shapes::hills(24, 5));
