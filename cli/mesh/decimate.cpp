@@ -36,7 +36,6 @@ namespace {
 struct DecimateArguments {
   std::string input, maxTriangles, maxError, map, dropParts;
   DecimationRequest request;
-  bool statesOperator = false;
   MeshOutput output;
   MeshPlacing placing;
   NormalsArguments normals;
@@ -100,9 +99,6 @@ Result<DecimationRequest> requestOf(const DecimateArguments& arguments) {
   if (!arguments.maxError.empty()) {
     ARETE_TRY(request.maxError, distanceOf(arguments.maxError, kAnyUnit));
   }
-  // The multitriangulation has no weights.
-  if (!request.attributeWeights.empty() && !arguments.statesOperator && arguments.maxError.empty())
-    request.method = "qem";
   if (!arguments.dropParts.empty()) {
     ARETE_TRY([[maybe_unused]] const double least, leastPart(arguments.dropParts, 1, kAnyUnit));
   }
@@ -275,7 +271,6 @@ void addMeshDecimateCommand(CLI::App& mesh, Session& session) {
           "cells of an octree. Only measured states a distance, to the same object, material and chart; the "
           "others\n"
           "bound none, nor how far a line between parts moves")
-      ->each([arguments](const std::string&) { arguments->statesOperator = true; })
       ->check(oneOf({"measured", "qem", "lindstrom-turk", "half-edge", "vertex-pair", "face", "cluster"}))
       ->type_name("NAME");
   command
@@ -299,8 +294,9 @@ void addMeshDecimateCommand(CLI::App& mesh, Session& session) {
       ->add_option(
           "--attribute-weight", arguments->request.attributeWeights,
           "What a change of an attribute counts beside a distance: uv:1,color:0.5. By 1, a change of 1\n"
-          "counts as the diagonal; of colours, one of a whole channel. Default: uv:0.2 (of each set) and\n"
-          "color:0.15; what is not in the list counts nothing. Without --operator it takes qem")
+          "counts as the diagonal; of colours, one of a whole channel. Default: uv:0.2 of each set (of "
+          "measured\n"
+          "0.4, with --max-triangles) and color:0.15; what is not in the list counts nothing")
       ->type_name("NAME:W,...");
   command->add_flag("--keep-borders", arguments->request.keepsBorders,
                     "Vertices on borders stay, to the bit");

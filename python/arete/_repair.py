@@ -71,11 +71,11 @@ def decimate(mesh: Any, triangles: Optional[ArrayLike] = None, *, max_triangles:
 
     max_triangles: how many at most, or "10%" of them. max_error: how far a point of the mesh may be from the result, or
         "0.5%" of the diagonal; of the operator "measured".
-    operator: "measured", the closest for shape alone: of a file with attributes it keeps their seams, which others may leave
+    operator: "measured", the closest: of a file with attributes it keeps their seams, which others may leave
         out; "qem", "lindstrom-turk", "half-edge", "vertex-pair", "face" or "cluster".
     queue, quadric_weight, cluster_vertices, no_crossings: of some operators (docs/topics/decimation.md).
-    attribute_weight: what a change of attributes counts beside a distance, "uv:1,color:0.5", of the operators "qem",
-        "half-edge", "vertex-pair", "face" and "cluster"; "" for the usual weights.
+    attribute_weight: what a change of attributes counts beside a distance, "uv:1,color:0.5", of all operators but
+        "lindstrom-turk"; "" for the usual weights, which "measured" has with max_triangles.
     """
     request = _arete.DecimationRequest()
     request.attribute_weight = str(attribute_weight)

@@ -118,8 +118,9 @@ void sortFaces(PreparedSurface& prepared, std::span<const std::uint32_t> order) 
 
 class SurfaceBuild {
  public:
-  SurfaceBuild(const SurfaceBuildOptions& options, const RunContext& context, std::size_t fewEnough)
-      : options_(options), context_(context), fewEnough_(fewEnough) {}
+  SurfaceBuild(const SurfaceBuildOptions& options, const RunContext& context, std::size_t fewEnough,
+               std::span<const AttributeWeight> weights)
+      : options_(options), context_(context), fewEnough_(fewEnough), weights_(weights) {}
 
   Result<SurfaceModel> run(SurfaceMesh source) {
     ARETE_CHECK(checkOptions(options_));
@@ -139,6 +140,14 @@ class SurfaceBuild {
   }
 
  private:
+  AttributeField fieldOf() const {
+    const bool areWeighed =
+        std::ranges::any_of(weights_, [](const AttributeWeight& w) { return w.weight > 0; });
+    if (!options_.boundsAttributes && !areWeighed) return {};
+    AttributeField field(prepared_.mesh, prepared_.diagonal);
+    if (!weights_.empty()) field.weigh(weights_, prepared_.diagonal);
+    return field;
+  }
   Status simplify() {
     const TriangleMesh& mesh = prepared_.mesh;
     const auto vertexCount = static_cast<std::uint32_t>(mesh.positions.size());
@@ -156,8 +165,7 @@ class SurfaceBuild {
     MetricFrame metric;
     metric.origin = low / 2 + high / 2;
     MtRecorder recorder(faceCount, vertexCount, OutwardScale(prepared_.diagonal), metric);
-    const AttributeField field =
-        options_.boundsAttributes ? AttributeField(prepared_.mesh, prepared_.diagonal) : AttributeField();
+    const AttributeField field = fieldOf();
     SurfaceState state{.mesh = live,
                        .original = original,
                        .samples = *samples,
@@ -168,7 +176,8 @@ class SurfaceBuild {
                        .fewEnough = fewEnough_,
                        .unit = std::ldexp(1.0, -std::ilogb(prepared_.diagonal)),
                        .parts = {prepared_.mesh.hasWedges(), prepared_.partOf},
-                       .field = field};
+                       .field = field,
+                       .boundsAttributes = options_.boundsAttributes};
     model_.boundsLines = state.parts.hasLines();
     // A label is what a triangle inherits: a face of the source, and the wedges of its corners.
     state.labels.resize(faceCount);
@@ -215,7 +224,7 @@ class SurfaceBuild {
       model_.faceOf[t] = prepared_.faceOf[labels.face];
       if (mesh.hasWedges()) model_.wedgesOf[t] = labels.wedges;
     };
-    const auto& entries = state.field.entries();
+    const auto entries = std::span(state.field.entries()).first(state.boundedAttributes());
     for (const AttributeField::Entry& e : entries)
       model_.attributeErrors.push_back({e.name, e.inFile, e.ofWedges, e.length,
                                         OutwardScale(1.01 * e.largest),
@@ -277,6 +286,7 @@ class SurfaceBuild {
   const SurfaceBuildOptions& options_;
   const RunContext& context_;
   std::size_t fewEnough_;
+  std::span<const AttributeWeight> weights_;
   PreparedSurface prepared_;
   SurfaceModel model_;
 };
@@ -284,9 +294,10 @@ class SurfaceBuild {
 }  // namespace
 
 Result<SurfaceModel> buildSurface(SurfaceMesh source, const SurfaceBuildOptions& options,
-                                  const RunContext& context, std::size_t fewEnough) try {
-  return withThreads(context,
-                     [&] { return SurfaceBuild(options, context, fewEnough).run(std::move(source)); });
+                                  const RunContext& context, std::size_t fewEnough,
+                                  std::span<const AttributeWeight> weights) try {
+  return withThreads(
+      context, [&] { return SurfaceBuild(options, context, fewEnough, weights).run(std::move(source)); });
 } catch (...) {
   return caughtFailure();
 }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
+#include "surface/attributes/attribute_weight.h"
 #include "surface/model/surface_mesh.h"
 #include "surface/model/surface_model.h"
 
@@ -24,7 +26,10 @@ namespace arete {
 ///
 /// @param source is taken apart: moved in, it takes no memory beside what it becomes.
 /// @param fewEnough  triangles at which the removals end, for cuts that are not coarser; 0: none is left
+/// @param weights    of attributes in the order of the removals; empty: what is bounded has a weight of its
+///                   own (AttributeField), and nothing else counts
 Result<SurfaceModel> buildSurface(SurfaceMesh source, const SurfaceBuildOptions& options = {},
-                                  const RunContext& context = {}, std::size_t fewEnough = 0);
+                                  const RunContext& context = {}, std::size_t fewEnough = 0,
+                                  std::span<const AttributeWeight> weights = {});
 
 }  // namespace arete

@@ -44,6 +44,8 @@ constexpr std::size_t kMostAroundAtLast = 4096;
 /// A triangle that costs more than so many times what its short side does makes way for that. It removes
 /// twice as many triangles, and costs about four times as much where a surface bends evenly.
 constexpr double kMostDearer = 8;
+/// Where attributes count, an edge along a sharp change of them is cheap, and the triangle on it lies across.
+constexpr double kMostDearerInLooks = 1.5;
 /// What attributes count where a place is solved, of what they count in its cost: places that follow sharp
 /// changes of colour leave the surface.
 constexpr double kShareInPlace = 0.1;
@@ -227,7 +229,8 @@ class Contractions {
     const Step whole = stepOf(vertices, isTaken), ofSide = stepOf(shortSideOf(vertices), isTaken);
     if (ofSide.cost == kNever) return whole;
     const bool isLast = isTaken && mesh_.triangleCount() <= options_.maxTriangles + 2;  // the side is enough
-    return isLast || whole.cost > kMostDearer * ofSide.cost ? ofSide : whole;
+    const double most = attributes_.areWeighed() ? kMostDearerInLooks : kMostDearer;
+    return isLast || whole.cost > most * ofSide.cost ? ofSide : whole;
   }
   /// The ends of the short side of a triangle.
   SmallVector<std::uint32_t> shortSideOf(const SmallVector<std::uint32_t>& corners) const {
@@ -265,7 +268,9 @@ class Contractions {
       solve(step, quadric, places);
       return step;
     }
-    if (goesAlongLine(step.vertices, held.size())) {
+    if (held.size() == 2 && goesAlongLine(step.vertices, held[0], held[1])) {
+      std::swap(step.vertices[0], step.vertices[held[0]]);
+      std::swap(places[0], places[held[0]]);
       solve(step, quadric, places);
       return step;
     }
@@ -301,12 +306,18 @@ class Contractions {
     step.place = placeFor(forPlace += ofAttributes.times(kShareInPlace), places);
     step.cost = std::max(0.0, (whole += ofAttributes).at(step.place));
   }
-  /// Whether an edge lies on a line that neither ends nor branches at it, so that the line may take any place
-  /// there: planes across it hold it, and what the sides of a seam have.
-  bool goesAlongLine(const SmallVector<std::uint32_t>& vertices, std::size_t held) const {
-    return attributes_.areWeighed() && options_.method != DecimateOperator::halfEdge &&
-           !options_.keepsBorders && vertices.size() == 2 && held == 2 && mayGo(vertices) &&
-           mayGo(std::array{vertices[1], vertices[0]});
+  /// Whether two of the vertices are on a line that neither ends nor branches at them, so that the line may
+  /// take any place there: planes across it hold it, and what the sides of a seam have. A third vertex goes
+  /// along.
+  bool goesAlongLine(const SmallVector<std::uint32_t>& vertices, std::size_t one, std::size_t other) const {
+    if (!attributes_.areWeighed() || options_.method == DecimateOperator::halfEdge || options_.keepsBorders)
+      return false;
+    const auto mayGoTo = [&](std::size_t first) {
+      SmallVector<std::uint32_t> order = vertices;
+      std::swap(order[0], order[first]);
+      return mayGo(order);
+    };
+    return mayGoTo(one) && mayGoTo(other);
   }
   /// A vertex that is on no line gets on none by what happens around it.
   bool isOnLine(std::uint32_t v) {

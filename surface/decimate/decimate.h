@@ -7,6 +7,7 @@
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
+#include "surface/attributes/attribute_weight.h"
 #include "surface/model/surface_mesh.h"
 
 namespace arete {
@@ -28,15 +29,6 @@ enum class DecimateQueue {
   estimate,  ///< an estimate, the spread of the vertices, lazily; the quadric is solved in the step alone
 };
 
-/// What a change of an attribute counts beside a distance [Hoppe1999]. Attributes are solved together with
-/// the places, side by side of a seam, whatever they count.
-struct AttributeWeight {
-  std::string attribute;  ///< its name, of vertices and of wedges alike
-  /// How many diagonals of the mesh a change of 1 counts: texture coordinates and numbers in their own
-  /// unit, colours in the range of a channel, directions by the length between them.
-  double weight = 0;
-};
-
 struct DecimateOptions {
   DecimateOperator method = DecimateOperator::edge;
   DecimateQueue queue = DecimateQueue::lazy;
@@ -49,7 +41,8 @@ struct DecimateOptions {
   /// Steps that would make the surface cross itself are refused. Of the operators that contract edges or
   /// triangles.
   bool forbidsCrossings = false;
-  /// Of continuous attributes; one that is not here does not count. Of all methods but Lindstrom-Turk.
+  /// Of continuous attributes; one that is not here does not count. Attributes are solved together with the
+  /// places, side by side of a seam, whatever they count. Of all methods but Lindstrom-Turk.
   std::vector<AttributeWeight> attributeWeights = {};
 };
 

@@ -124,6 +124,18 @@ AttributeField::AttributeField(const SurfaceMesh& mesh, double diagonal)
   }
 }
 
+void AttributeField::weigh(std::span<const AttributeWeight> weights, double diagonal) {
+  for (Entry& e : entries_) {
+    const auto stated = std::ranges::find(weights, e.inFile, &AttributeWeight::attribute);
+    const double weight =
+        stated == weights.end() || e.kind == Entry::Kind::labels ? 0 : stated->weight * diagonal;
+    // Of a channel's range there are 255 units, and a direction's unit is a degree.
+    e.length = e.kind == Entry::Kind::color       ? weight / 255
+               : e.kind == Entry::Kind::direction ? weight * std::numbers::pi / 180
+                                                  : weight;
+  }
+}
+
 // The chord between two unit vectors is about their angle in radians.
 double AttributeField::Entry::weight() const {
   const double unit = kind == Kind::direction ? 180 / std::numbers::pi * length : length;

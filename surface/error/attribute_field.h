@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "surface/attributes/attribute_weight.h"
 #include "surface/error/face_polygon.h"
 #include "surface/error/original.h"
 #include "surface/model/surface_mesh.h"
@@ -38,6 +39,9 @@ class AttributeField {
   /// @param mesh the original; only its attributes of vertices and wedges count
   /// @param diagonal of its box. O(n log n).
   AttributeField(const SurfaceMesh& mesh, double diagonal);
+  /// Stated weights instead of the lengths that attributes count as by themselves: one that is not in the
+  /// list counts nothing.
+  void weigh(std::span<const AttributeWeight> weights, double diagonal);
 
   bool isEmpty() const { return entries_.empty(); }
   const std::vector<Entry>& entries() const { return entries_; }

@@ -77,14 +77,14 @@ class OneAttribute {
     return squared;
   }
 
-  std::vector<double> fitted(const SourceSamples& samples, const std::vector<NearestOfCut>& nearest) const {
+  std::vector<double> fitted(const SourceSamples& samples, const std::vector<NearestOfCut>& nearest) {
     const std::size_t count = was_.size() / components_;
     std::vector<double> now = was_;
     std::vector<std::uint8_t> isHeld(count, 0);
     for (std::size_t e = 0; e < count; ++e)
       for (std::size_t c = 0; c < components_; ++c)
         if (!std::isfinite(was_[e * components_ + c])) isHeld[e] = 1;
-    place(now, isHeld);
+    const std::vector<std::uint32_t> chartOf = place(now, isHeld);
     ScalarProblem problem(count, ofCut_);
     std::vector<std::vector<double>> right(components_, std::vector<double>(count, 0));
     for (std::size_t i = 0; i < nearest.size(); ++i) {
@@ -102,12 +102,12 @@ class OneAttribute {
     const std::vector<double> start = now;
     for (std::size_t c = 0; c < (isTangent ? std::min<std::size_t>(3, components_) : components_); ++c) {
       const std::vector<double> change = problem.solve(right[c], isHeld);
-      double low = std::numeric_limits<double>::infinity(), high = -low;
-      for (std::size_t i = c; i < from_.size(); i += components_)
-        if (std::isfinite(from_[i])) low = std::min(low, from_[i]), high = std::max(high, from_[i]);
       for (std::size_t e = 0; e < count; ++e)
-        if (isHeld[e] == 0)
-          now[e * components_ + c] = std::clamp(now[e * components_ + c] + change[e], low, high);
+        if (isHeld[e] == 0) {
+          const auto& [low, high] = rangeOf_[chartOf[e] * components_ + c];
+          if (low <= high)
+            now[e * components_ + c] = std::clamp(now[e * components_ + c] + change[e], low, high);
+        }
     }
     if (isTangent || attribute_.meaning == AttributeMeaning::normal) keepLengths(now);
     if (attribute_.meaning == AttributeMeaning::textureCoords && components_ >= 2) keepTurns(now, start);
@@ -141,7 +141,8 @@ class OneAttribute {
     return sum;
   }
   /// Numbers that follow from the place: of affine charts, and of texture coordinates on lines.
-  void place(std::vector<double>& now, std::vector<std::uint8_t>& isHeld) const {
+  /// @return by element: its chart of the source, of which rangeOf_ has the ranges
+  std::vector<std::uint32_t> place(std::vector<double>& now, std::vector<std::uint8_t>& isHeld) {
     const std::size_t count = now.size() / components_, ofSource = from_.size() / components_;
     const std::vector<std::uint32_t> vertexOf = verticesOfElements(cut_, ofCut_, count),
                                      sourceVertexOf = verticesOfElements(source_, ofSource_, ofSource);
@@ -158,6 +159,18 @@ class OneAttribute {
         elementAt.emplace(keyOf(source_.positions[sourceVertexOf[e]], from_, e), e);
     const AffineCharts affine(ofSource_, sourceVertexOf, source_.positions, from_, components_,
                               std::max(rounding_, kRoundingOfText * largest_));
+    // The last range covers all charts, for what has none.
+    const auto charts = static_cast<std::uint32_t>(affine.function.size());
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    rangeOf_.assign((charts + 1) * components_, {kInfinity, -kInfinity});
+    for (std::size_t e = 0; e < ofSource; ++e)
+      for (std::size_t c = 0; c < components_; ++c)
+        for (const std::size_t chart : {affine.chartOf[e], charts}) {
+          const double x = from_[e * components_ + c];
+          auto& [low, high] = rangeOf_[chart * components_ + c];
+          if (std::isfinite(x)) low = std::min(low, x), high = std::max(high, x);
+        }
+    std::vector<std::uint32_t> chartOf(count, charts);
     const bool isPicture = attribute_.meaning == AttributeMeaning::textureCoords;
     const bool isDirection =
         attribute_.meaning == AttributeMeaning::normal || attribute_.meaning == AttributeMeaning::tangent;
@@ -168,6 +181,7 @@ class OneAttribute {
       const auto found = elementAt.find(keyOf(before_[v], was_, e));
       if (found == elementAt.end()) continue;
       const std::uint32_t origin = found->second;
+      chartOf[e] = affine.chartOf[origin];
       const bool isMoved = cut_.positions[v] != before_[v];
       if (isPicture && borders.isOnBorder(origin)) {
         isHeld[e] = 1;
@@ -187,6 +201,7 @@ class OneAttribute {
         now[e * components_ + c] += gained;
       }
     }
+    return chartOf;
   }
   void keepLengths(std::vector<double>& now) const {
     if (components_ < 3) return;
@@ -226,6 +241,7 @@ class OneAttribute {
   std::size_t components_;
   std::vector<Corners3> ofCut_, ofSource_;
   std::vector<double> was_, from_;
+  std::vector<std::array<double, 2>> rangeOf_;  // by chart of the source and component, of finite numbers
   double largest_ = 0, rounding_ = 0;
 };
 
@@ -278,7 +294,7 @@ Result<std::vector<AttributeRms>> fitAttributes(SurfaceMesh& cut, const std::vec
     std::vector<std::vector<double>> taken;
     for (std::size_t a = 0; a < attributes.size(); ++a) {
       if (context.cancelled()) return failure(ErrorCode::interrupted, "fitting was interrupted");
-      const OneAttribute& one = attributes[a];
+      OneAttribute& one = attributes[a];
       AttributeRms rms{names[a], one.rms(samples, nearestBefore, one.was()), 0, one.rounding()};
       std::vector<double> numbers = one.was();
       rms.after = one.rms(samples, nearest, numbers);

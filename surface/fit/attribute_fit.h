@@ -32,11 +32,12 @@ struct AttributeRms {
 /// where they may be averaged. Each is the least squares solution for samples of the source, against their
 /// nearest points of the same chart and the same side of a seam.
 ///
-/// Numbers stay within the range of the source's, normals keep their length. Texture coordinates on borders
-/// and on either side of a seam are the values of the source's line at the nearest place, so that they stay
-/// in their chart and both sides show the same place; no triangle of a picture turns over. What is affine in
-/// the position, as a picture that was projected, has its value at the new place instead. Labels, the signs
-/// of tangents and what is not finite stay as they are, and so does what equals the source's already.
+/// Numbers stay within the range that the source has in their chart, normals keep their length. Texture
+/// coordinates on borders and on either side of a seam are the values of the source's line at the nearest
+/// place, so that they stay in their chart and both sides show the same place; no triangle of a picture turns
+/// over. What is affine in the position, as a picture that was projected, has its value at the new place
+/// instead. Labels, the signs of tangents and what is not finite stay as they are, and so does what equals
+/// the source's already.
 ///
 /// @param cut     with moved vertices and with the attributes of where they were
 /// @param before  by vertex of the cut: where it was, a place of a vertex of the source

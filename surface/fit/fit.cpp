@@ -17,6 +17,7 @@
 #include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/with_threads.h"
 #include "surface/fit/least_squares.h"
+#include "surface/fit/line_samples.h"
 #include "surface/fit/source_samples.h"
 #include "surface/topology/edges.h"
 #include "surface/topology/turn_guard.h"
@@ -37,8 +38,13 @@ constexpr int kHalvings = 3;
 
 class Fitting {
  public:
-  Fitting(const TriangleMesh& cut, const std::vector<std::uint8_t>& isHeld, const RunContext& context)
-      : triangles_(cut.triangles), isHeld_(isHeld), context_(context), positions_(cut.positions) {
+  Fitting(const TriangleMesh& cut, const std::vector<std::uint8_t>& isHeld, const FitLines& lines,
+          const RunContext& context)
+      : triangles_(cut.triangles),
+        isHeld_(isHeld),
+        lines_(lines),
+        context_(context),
+        positions_(cut.positions) {
     const MeshEdges edges(cut.triangles, cut.positions.size());
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const MeshEdges::Edge edge = edges[e];
@@ -47,9 +53,12 @@ class Fitting {
     }
     elements_ = cut.triangles;
     elements_.insert(elements_.end(), borders_.begin(), borders_.end());
+    for (const FitLines::Edge& edge : lines.edges)
+      elements_.push_back({edge.ends[0], edge.ends[1], edge.ends[1]});
   }
 
   Result<FittedSurface> run(const TriangleMesh& source, const SurfaceFitOptions& options) {
+    lineWeight_ = options.lineWeight;
     enterFrame();
     TriangleMesh framed = source;
     for (Vec3& p : framed.positions) p = (p - middle_) * scale_;
@@ -57,17 +66,25 @@ class Fitting {
         options.samples > 0 ? options.samples
                             : std::max(kSamplesPerTriangle * triangles_.size(),
                                        std::min(kMostForFaces, kSamplesPerFace * source.triangles.size()));
-    Samples all(sampleSource(framed, count));
+    Samples all(sampleSource(framed, count), lines_, [&](const Vec3& p) { return (p - middle_) * scale_; });
     if (all.source.ofArea.empty()) return failure(ErrorCode::invalidData, "has no area to be fitted to");
     if (borders_.empty()) all.source.ofBorder.clear();
     guard_.emplace(triangles_, positions_);
 
     FittedSurface result;
-    double sum = assign(all);
-    result.rmsBefore = all.rmsOf(sum) / scale_;
-    if (sum > all.squaresOf(roundingOf(source) * scale_)) ARETE_CHECK(take(all, sum, options, result));
+    Sums sums = assign(all);
+    result.rmsBefore = all.rmsOf(sums.surface) / scale_;
+    result.lineBefore = all.ofLines.largest() / scale_;
+    const double rounding = roundingOf(source) * scale_;
+    // Of a surface that is exact, lines alone are off.
+    if (!(sums.surface > all.squaresOf(rounding)) && !lines_.isEmpty())
+      for (std::size_t v = 0; v < isHeld_.size(); ++v)
+        if (lines_.mayMove[v] == 0) isHeld_[v] = 1;
+    if (sums.surface > all.squaresOf(rounding) || all.ofLines.largest() > 2 * rounding)
+      ARETE_CHECK(take(all, std::max(sums.surface, all.squaresOf(rounding)), sums, options, result));
     context_.report("fit", 1);
-    result.rmsAfter = all.rmsOf(sum) / scale_;
+    result.rmsAfter = all.rmsOf(sums.surface) / scale_;
+    result.lineAfter = all.ofLines.largest() / scale_;
     for (std::size_t v = 0; v < positions_.size(); ++v)
       positions_[v] = isHeld_[v] != 0 || wasNotMoved(v) ? source_[v] : positions_[v] / scale_ + middle_;
     result.positions = std::move(positions_);
@@ -84,32 +101,47 @@ class Fitting {
   struct Samples {
     SourceSamples source;
     std::vector<Assigned> ofArea = {}, ofBorder = {};
+    LineSamples ofLines;
 
-    explicit Samples(SourceSamples of) : source(std::move(of)) {}
+    template <class InFrame>
+    Samples(SourceSamples of, const FitLines& lines, const InFrame& inFrame)
+        : source(std::move(of)), ofLines(lines, source.width, inFrame) {}
     double count() const { return double(source.ofArea.size() + source.ofBorder.size()); }
     double rmsOf(double sum) const { return std::sqrt(sum / count()); }
     double squaresOf(double rms) const { return rms * rms * count(); }
   };
 
+  /// Of squared distances: of the surface with its borders, and of lines.
+  struct Sums {
+    double surface = 0, lines = 0;
+  };
+
+  double allOf(const Sums& sums) const { return sums.surface + lineWeight_ * sums.lines; }
+
   /// Takes steps until one gains too little.
-  Status take(Samples& samples, double& sum, const SurfaceFitOptions& options, FittedSurface& result) {
+  /// @param most  of the surface: what it was at first, or rounding. No step makes more of it, whatever lines
+  ///              gain
+  Status take(Samples& samples, double most, Sums& sums, const SurfaceFitOptions& options,
+              FittedSurface& result) {
     while (result.steps < options.steps) {
       if (context_.cancelled()) return failure(ErrorCode::interrupted, "fitting was interrupted");
       context_.report("fit", double(result.steps) / options.steps);
       const std::vector<Vec3> before = positions_, moves = problem(samples).solve(isHeld_);
-      double next = sum;
+      Sums next = sums;
+      const auto isBetter = [&] { return allOf(next) < allOf(sums) && next.surface <= most; };
       for (int halving = 0; halving <= kHalvings; ++halving) {
         move(before, moves, std::ldexp(1.0, -halving));
         next = assign(samples);
-        if (next < sum) break;
+        if (isBetter()) break;
       }
-      if (!(next < sum)) {
+      if (!isBetter()) {
         positions_ = before;
+        assign(samples);
         return {};
       }
       ++result.steps;
-      const double gain = (sum - next) / sum;
-      sum = next;
+      const double gain = 1 - allOf(next) / allOf(sums);
+      sums = next;
       if (gain < kLeastGain) return {};
     }
     return {};
@@ -139,9 +171,8 @@ class Fitting {
   }
   bool wasNotMoved(std::size_t v) const { return positions_[v] == framed_[v]; }
 
-  /// Finds the nearest points of all samples. The last ones are the guesses. @return the sum of the squared
-  /// distances
-  double assign(Samples& samples) {
+  /// Finds the nearest points of all samples. The last ones are the guesses.
+  Sums assign(Samples& samples) {
     if (!nearest_) {
       nearest_.emplace(positions_, triangles_);
       if (!borders_.empty()) nearestBorder_.emplace(positions_, borders_);
@@ -152,7 +183,7 @@ class Fitting {
     double sum = assign(*nearest_, samples.source.ofArea, samples.ofArea);
     if (!samples.source.ofBorder.empty())
       sum += assign(*nearestBorder_, samples.source.ofBorder, samples.ofBorder);
-    return sum;
+    return {sum, samples.ofLines.assign(positions_)};
   }
   static double assign(const TriangleBvh& nearest, const std::vector<Vec3>& samples,
                        std::vector<Assigned>& assigned) {
@@ -191,6 +222,14 @@ class Fitting {
       problem.add(static_cast<std::uint32_t>(triangles_.size()) + e, shares,
                   isInside ? metricAcross(unit(along), kAcross) : identity3(), residual);
     }
+    for (const auto& [place, e, shares, residual] : samples.ofLines.all()) {
+      const auto& [i, j] = lines_.edges[e].ends;
+      const Vec3 along = positions_[j] - positions_[i];
+      const bool isInside = std::min(shares[0], shares[1]) > kOnBoundary && dot(along, along) > 0;
+      problem.add(static_cast<std::uint32_t>(triangles_.size() + borders_.size()) + e,
+                  {shares[0], shares[1], 0},
+                  lineWeight_ * (isInside ? metricAcross(unit(along), kAcross) : identity3()), residual);
+    }
     return problem;
   }
 
@@ -205,12 +244,14 @@ class Fitting {
   }
 
   const std::vector<Triangle>& triangles_;
-  const std::vector<std::uint8_t>& isHeld_;
+  std::vector<std::uint8_t> isHeld_;
+  const FitLines& lines_;
+  double lineWeight_ = 0;
   const RunContext& context_;
   std::vector<Vec3> positions_, source_, framed_;  // in the frame; as given; as given, in the frame
   Vec3 middle_{0, 0, 0};
   double scale_ = 1;
-  std::vector<Triangle> elements_;  // the triangles, then the border edges
+  std::vector<Triangle> elements_;  // the triangles, then the edges of borders and of lines
   std::vector<Triangle> borders_;   // edges, the second corner twice
   std::optional<TriangleBvh> nearest_, nearestBorder_;
   std::optional<TurnGuard> guard_;
@@ -220,10 +261,10 @@ class Fitting {
 
 Result<FittedSurface> fitSurface(const TriangleMesh& cut, const std::vector<std::uint8_t>& isHeld,
                                  const TriangleMesh& source, const SurfaceFitOptions& options,
-                                 const RunContext& context) {
+                                 const RunContext& context, const FitLines& lines) {
   for (const TriangleMesh* mesh : {&cut, &source}) ARETE_CHECK(mesh->validate());
   if (cut.triangles.empty()) return FittedSurface{cut.positions, 0, 0, 0};
-  return withThreads(context, [&] { return Fitting(cut, isHeld, context).run(source, options); });
+  return withThreads(context, [&] { return Fitting(cut, isHeld, lines, context).run(source, options); });
 }
 
 }  // namespace arete

@@ -22,8 +22,7 @@ constexpr double kFirst = 0.7548776662466927, kSecond = 0.5698402909980532;
 
 }  // namespace
 
-SourceSamples sampleSource(const TriangleMesh& source, std::uint64_t count,
-                           const std::vector<std::array<std::uint32_t, 2>>& lines) {
+SourceSamples sampleSource(const TriangleMesh& source, std::uint64_t count) {
   SourceSamples samples;
   const auto at = [&](std::uint32_t v) -> const Vec3& { return source.positions[v]; };
   double area = 0;
@@ -46,7 +45,7 @@ SourceSamples sampleSource(const TriangleMesh& source, std::uint64_t count,
       samples.whereOfArea.push_back({t, {1 - u - v, u, v}});
     }
   }
-  const double width = std::sqrt(share);
+  const double width = samples.width = std::sqrt(share);
   const MeshEdges edges(source.triangles, source.positions.size());
   double length = 0;
   const auto sample = [&](const Vec3& p, const Vec3& q) {
@@ -59,7 +58,6 @@ SourceSamples sampleSource(const TriangleMesh& source, std::uint64_t count,
   };
   for (std::size_t e = 0; e < edges.size(); ++e)
     if (edges[e].isBorder()) sample(at(edges[e].low.index()), at(edges[e].high.index()));
-  for (const auto& [i, j] : lines) sample(at(i), at(j));
   return samples;
 }
 

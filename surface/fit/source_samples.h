@@ -19,12 +19,11 @@ struct SourceSamples {
   };
   std::vector<Vec3> ofArea, ofBorder;
   std::vector<Where> whereOfArea = {};
+  double width = 0;  ///< of the square that a sample of the area stands for
 };
 
 /// @param count  of the area; the samples of the border are beside them
-/// @param lines  pairs of vertices: edges that are sampled as borders are
 /// The same for the same mesh. Empty without area. O(triangles + samples).
-SourceSamples sampleSource(const TriangleMesh& source, std::uint64_t count,
-                           const std::vector<std::array<std::uint32_t, 2>>& lines = {});
+SourceSamples sampleSource(const TriangleMesh& source, std::uint64_t count);
 
 }  // namespace arete

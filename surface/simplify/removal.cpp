@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <cmath>
 
+#include "engine/base/triangle_shares.h"
 #include "engine/simplify/floor_joins.h"
 #include "surface/error/star_division.h"
 
@@ -40,13 +42,13 @@ bool SurfaceRemover::remove(VertexId v, RemovalId removal, std::span<Seam> seams
   for (int f = 0; f < floor.size; ++f) labels_[f] = hole_.labelsOf(s_, floor.triangles[f]);
   if (s_.acrossSides.size() > 0) gatherAcross();
 
+  for (int f = 0; f < star.triangleCount; ++f)
+    s_.pieces[star.slot(f)] = f < floor.size ? division_.takePieces(f) : PieceList();
+  for (int f = 0; f < floor.size; ++f) rms_[f] = rmsOf(floor, f);
   record(removal, floor.size);
   refill(s_.mesh, star, floor, FloorJoins(floor), s_.recorder.firstFloorTriangle(removal), removal, seams);
-  for (int f = 0; f < star.triangleCount; ++f) {
-    s_.pieces[star.slot(f)] = f < floor.size ? division_.takePieces(f) : PieceList();
-    if (f < floor.size) s_.labels.set(star.slot(f).index(), labels_[f]);
-  }
-  if (!s_.field.isEmpty()) boundAttributes(floor);
+  for (int f = 0; f < floor.size; ++f) s_.labels.set(star.slot(f).index(), labels_[f]);
+  if (s_.boundsAttributes) boundAttributes(floor);
   updateLink();
   s_.mesh.vertexHalfedge[v] = HalfedgeId();
   return star.isOpen;
@@ -123,6 +125,33 @@ void SurfaceRemover::boundAttributes(const HoleTriangulation& floor) {
   }
 }
 
+/// Of distances, and of attributes where a build weighs them for the order of a cut alone.
+double SurfaceRemover::rmsOf(const HoleTriangulation& floor, int f) {
+  const double ofDistances = division_.rms(f);
+  if (s_.field.isEmpty() || s_.boundsAttributes) return ofDistances;
+  samples_.clear();
+  s_.pieces[hole_.star().slot(f)].forEach([&](const Piece& piece) {
+    if (piece.across == 0) s_.samples.append(piece, samples_);
+  });
+  SpaceTriangle places;
+  std::array<std::uint32_t, 3> drawn = labels_[f].wedges;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const int corner = floor.triangles[f][c];
+    places[c] = hole_.corner(corner);
+    if (!s_.parts.hasWedges) drawn[c] = hole_.star().link[corner].index();
+  }
+  wanted_.resize(s_.field.components());
+  found_.resize(s_.field.components());
+  double squares = 0, area = 0;
+  for (const SurfaceSample& sample : samples_) {
+    s_.field.mean(s_.field.cornersOf(sample.face), sample.shares, wanted_);
+    s_.field.mean(drawn, nearestShares(sample.place, places), found_);
+    squares += sample.area * s_.field.weighedSquares(wanted_, found_);
+    area += sample.area;
+  }
+  return area > 0 ? std::sqrt(ofDistances * ofDistances + squares / area) : ofDistances;
+}
+
 void SurfaceRemover::record(RemovalId removal, int floorSize) {
   const Star& star = hole_.star();
   for (int i = 0; i < star.triangleCount; ++i) {
@@ -133,8 +162,7 @@ void SurfaceRemover::record(RemovalId removal, int floorSize) {
   for (int i = 0; i < star.linkSize; ++i) metric_[i] = s_.metric.toMetric(hole_.corner(i));
   metric_[star.linkSize] = s_.metric.toMetric(hole_.apex());
   for (int f = 0; f < floorSize; ++f)
-    codes_[f] = {s_.recorder.scale().encode(division_.bound(f)), s_.recorder.scale().encode(division_.rms(f)),
-                 0};
+    codes_[f] = {s_.recorder.scale().encode(division_.bound(f)), s_.recorder.scale().encode(rms_[f]), 0};
   const auto size = [](int n) { return static_cast<std::size_t>(n); };
   VertexRemoval what;
   what.vertex = hole_.vertex();

@@ -30,13 +30,16 @@ class SurfaceRemover {
   void record(RemovalId removal, int floorSize);
   void gatherAcross();
   void boundAttributes(const HoleTriangulation& floor);
+  double rmsOf(const HoleTriangulation& floor, int f);
   void updateLink();
 
   SurfaceState& s_;
   SurfaceHole hole_;
   PieceDivision division_;
   AttributeBound attributeBound_;
-  std::vector<double> attributeErrors_;
+  std::vector<double> attributeErrors_, wanted_, found_;
+  std::vector<SurfaceSample> samples_;
+  std::array<double, kMaxHoleCorners> rms_{};
   std::vector<AcrossSide> rimSides_;  // of the star's rim: what is across, by link corner
   std::array<FloorCodes, kMaxHoleCorners> codes_;
   std::array<RecorderId, kMaxHoleCorners> ceiling_;

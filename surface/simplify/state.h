@@ -36,16 +36,17 @@ struct SurfaceState {
   double unit = 1;
 
   SurfaceParts parts = {};
-  /// What is bounded beside distances, and counts in costs. Empty: nothing is.
+  /// What counts in costs beside distances. Empty: nothing does.
   const AttributeField& field;
+  bool boundsAttributes = !field.isEmpty();  ///< what is in the field
 
   IdArray<SlotId, std::vector<PieceList>> pieces = {};
   LabelArray labels{parts.hasWedges};  ///< by slot of the mesh
   /// Of the triangles of removed stars: by slot of the recorder (MtRecorder::firstSlot()).
   LabelArray starLabels{parts.hasWedges};
   /// By slot of the mesh, and of the recorder as starLabels; by entry of the field.
-  AttributeErrorArray attributeErrors{field.entries().size()}, starAttributeErrors{field.entries().size()};
-  /// By slot of the mesh: its sides that have pieces across them. Empty without wedges or without a field.
+  AttributeErrorArray attributeErrors{boundedAttributes()}, starAttributeErrors{boundedAttributes()};
+  /// By slot of the mesh: its sides that have pieces across them. Empty without wedges or without bounds.
   IdArray<SlotId, std::vector<std::array<AcrossSide, 3>>> acrossSides = {};
   /// The first of those of a removed vertex.
   IdArray<VertexId, std::vector<std::uint32_t>> firstStarLabel = {};
@@ -58,6 +59,7 @@ struct SurfaceState {
   IndependentSet::Records records = {};
   std::atomic<std::size_t> liveTriangles = 0;
 
+  std::size_t boundedAttributes() const { return boundsAttributes ? field.entries().size() : 0; }
   TriangleLabels labelsOf(SlotId slot) const { return labels[slot.index()]; }
   const Vec3& position(VertexId v) const { return original.positions[v.index()]; }
 };

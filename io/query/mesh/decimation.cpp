@@ -18,8 +18,10 @@
 #include "io/query/surface/changes_of_cut.h"
 #include "io/query/surface/take_surface.h"
 #include "surface/attributes/attribute_names.h"
+#include "surface/attributes/picture_length.h"
 #include "surface/builder/build.h"
 #include "surface/decimate/decimate.h"
+#include "surface/edit/small_components.h"
 #include "surface/front/face_map.h"
 #include "surface/front/front.h"
 #include "surface/model/labels.h"
@@ -54,14 +56,64 @@ Error tooFew(std::uint32_t budget, std::uint64_t least, const std::string& metho
           fmt::format("maxTriangles {}", budget)};
 }
 
+/// All attributes of vertices and wedges that a list names, or without a list those that count.
+Result<std::vector<AttributeWeight>> weightsOf(const SurfaceMesh& mesh, const DecimationRequest& request) {
+  const std::string& list = request.attributeWeights;
+  std::vector<AttributeWeight> weights;
+  if (list.empty()) {
+    const double diagonal = diagonalOf(mesh),
+                 usual = request.method == "measured" ? kMeasuredTexcoordWeight : kUsualTexcoordWeight;
+    for (const bool ofWedges : {false, true})
+      for (const Attribute& attribute : ofWedges ? mesh.wedgeAttributes : mesh.vertexAttributes) {
+        if (attribute.meaning == AttributeMeaning::color)
+          weights.push_back({attribute.name, kUsualColorWeight});
+        if (attribute.meaning != AttributeMeaning::textureCoords) continue;
+        const double length = lengthOfPictureUnit(mesh, attribute, ofWedges);
+        const double share = length > 0 && diagonal > 0 ? length / (kUsualLength * diagonal) : 1;
+        weights.push_back({attribute.name, usual * std::min(1.0, share)});
+      }
+    return weights;
+  }
+  ARETE_TRY(const std::vector<AttributeNumber> numbers, parseAttributeNumbers(list));
+  for (const AttributeNumber& asked : numbers) {
+    const std::string culprit = fmt::format("attributeWeight {}:{}{}", asked.name, asked.number, asked.unit);
+    if (!asked.unit.empty())
+      return failure(ErrorCode::usage, "a weight has no unit: it is how many diagonals a change of 1 counts",
+                     culprit);
+    Result<std::vector<NamedAttribute>> found = findAttributes(mesh, asked.name);
+    if (!found)
+      return failure(ErrorCode::usage, found.error().message,
+                     fmt::format("attributeWeight {}", found.error().culprit));
+    for (const NamedAttribute& one : *found) {
+      const bool isOfCorners = one.of == NamedAttribute::Of::wedges;
+      if (!isOfCorners && one.of != NamedAttribute::Of::vertices)
+        return failure(
+            ErrorCode::usage,
+            "belongs neither to vertices nor to corners: edges between faces that differ stay anyway",
+            culprit);
+      const Attribute& attribute =
+          isOfCorners ? mesh.wedgeAttributes[one.index] : mesh.vertexAttributes[one.index];
+      if (isLabel(attribute))
+        return failure(ErrorCode::usage, "has labels, which are not averaged and have no distance", culprit);
+      weights.push_back({attribute.name, asked.number});
+    }
+  }
+  return weights;
+}
+
 Result<DecimatedOutcome> measured(SurfaceMesh mesh, const DecimationRequest& asked,
                                   const RunContext& context) {
   const std::optional<std::uint32_t> maxTriangles = asked.maxTriangles;
   SurfaceBuildOptions options;
   options.keepsBorders = asked.keepsBorders;
+  // Nothing but a stated weight makes a tolerance's result larger.
+  std::vector<AttributeWeight> weights;
+  if (maxTriangles || !asked.attributeWeights.empty()) {
+    ARETE_TRY(weights, weightsOf(mesh, asked));
+  }
   // A cut of so many triangles has what is coarser than a quarter of them whole.
   ARETE_TRY(const SurfaceModel model,
-            buildSurface(std::move(mesh), options, context, maxTriangles.value_or(0) / 4));
+            buildSurface(std::move(mesh), options, context, maxTriangles.value_or(0) / 4, weights));
   CutRequest request;
   request.fit = CutFit::rms;
   request.maxTriangles = maxTriangles;
@@ -94,46 +146,6 @@ Result<DecimatedOutcome> measured(SurfaceMesh mesh, const DecimationRequest& ask
   return outcome;
 }
 
-/// All attributes of vertices and wedges that a list names, or without a list those that count.
-Result<std::vector<AttributeWeight>> weightsOf(const SurfaceMesh& mesh, const std::string& list) {
-  std::vector<AttributeWeight> weights;
-  if (list.empty()) {
-    for (const auto* all : {&mesh.vertexAttributes, &mesh.wedgeAttributes})
-      for (const Attribute& attribute : *all) {
-        if (attribute.meaning == AttributeMeaning::textureCoords)
-          weights.push_back({attribute.name, kUsualTexcoordWeight});
-        if (attribute.meaning == AttributeMeaning::color)
-          weights.push_back({attribute.name, kUsualColorWeight});
-      }
-    return weights;
-  }
-  ARETE_TRY(const std::vector<AttributeNumber> numbers, parseAttributeNumbers(list));
-  for (const AttributeNumber& asked : numbers) {
-    const std::string culprit = fmt::format("attributeWeight {}:{}{}", asked.name, asked.number, asked.unit);
-    if (!asked.unit.empty())
-      return failure(ErrorCode::usage, "a weight has no unit: it is how many diagonals a change of 1 counts",
-                     culprit);
-    Result<std::vector<NamedAttribute>> found = findAttributes(mesh, asked.name);
-    if (!found)
-      return failure(ErrorCode::usage, found.error().message,
-                     fmt::format("attributeWeight {}", found.error().culprit));
-    for (const NamedAttribute& one : *found) {
-      const bool isOfCorners = one.of == NamedAttribute::Of::wedges;
-      if (!isOfCorners && one.of != NamedAttribute::Of::vertices)
-        return failure(
-            ErrorCode::usage,
-            "belongs neither to vertices nor to corners: edges between faces that differ stay anyway",
-            culprit);
-      const Attribute& attribute =
-          isOfCorners ? mesh.wedgeAttributes[one.index] : mesh.vertexAttributes[one.index];
-      if (isLabel(attribute))
-        return failure(ErrorCode::usage, "has labels, which are not averaged and have no distance", culprit);
-      weights.push_back({attribute.name, asked.number});
-    }
-  }
-  return weights;
-}
-
 Result<DecimatedOutcome> contracted(const SurfaceMesh& mesh, const DecimationRequest& asked,
                                     const RunContext& context) {
   const std::uint32_t maxTriangles = *asked.maxTriangles;
@@ -148,7 +160,7 @@ Result<DecimatedOutcome> contracted(const SurfaceMesh& mesh, const DecimationReq
   options.keepsClusterVertices = asked.clusterVertices == "original";
   options.keepsBorders = asked.keepsBorders;
   options.forbidsCrossings = asked.forbidsCrossings;
-  ARETE_TRY(options.attributeWeights, weightsOf(mesh, asked.attributeWeights));
+  ARETE_TRY(options.attributeWeights, weightsOf(mesh, asked));
   ARETE_TRY(DecimatedMesh decimated, decimate(mesh, options, context));
   if (decimated.mesh.triangles.size() > maxTriangles) {
     // As few as the shape alone comes to.
@@ -202,8 +214,8 @@ Status checkDecimation(const DecimationRequest& a) {
     return refuse("quadricWeight", "qem, half-edge, vertex-pair, face or cluster");
   if (a.forbidsCrossings && (!hasQueue || a.method == "vertex-pair"))
     return refuse("noCrossings", "qem, half-edge or face");
-  if (!a.attributeWeights.empty() && !hasQueue && a.method != "cluster")
-    return refuse("attributeWeight", "qem, half-edge, vertex-pair, face or cluster");
+  if (!a.attributeWeights.empty() && a.method == "lindstrom-turk")
+    return refuse("attributeWeight", "measured, qem, half-edge, vertex-pair, face or cluster");
   if (!a.attributeWeights.empty())
     if (const auto numbers = parseAttributeNumbers(a.attributeWeights); !numbers)
       return failure(numbers.error().code, numbers.error().message,

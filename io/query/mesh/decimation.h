@@ -26,15 +26,19 @@ struct DecimationRequest {
   std::optional<std::uint32_t> maxTriangles = {};
   std::optional<StatedSize> maxError = {};  ///< a distance, or a share of the diagonal; of "measured" alone
   /// "uv:1,color:0.5": what attributes count beside distances (AttributeWeight), by their names for options;
-  /// empty: the usual ones. Of "qem", "half-edge", "vertex-pair", "face" and "cluster".
+  /// empty: the usual ones, but for "measured" without maxTriangles, where nothing is weighed. Of all but
+  /// "lindstrom-turk".
   std::string attributeWeights = {};
   bool keepsBorders = false, forbidsCrossings = false;
   bool wantsFaces = false;  ///< DecimatedOutcome::triangleFor also of "measured"
 };
 
 /// What texture coordinates and colours count where no weight is stated (AttributeWeight). Others do not
-/// count.
-inline constexpr double kUsualTexcoordWeight = 0.2, kUsualColorWeight = 0.15;
+/// count. "measured" has another one for texture coordinates, whose cost is an integral over the source.
+inline constexpr double kUsualTexcoordWeight = 0.2, kMeasuredTexcoordWeight = 0.4, kUsualColorWeight = 0.15;
+/// In diagonals. Where a unit of texture coordinates covers less on the surface, because a picture repeats,
+/// their weight is as much smaller: they would count so much that the shape is lost.
+inline constexpr double kUsualLength = 0.8;
 
 /// What became of a mesh, whatever the method.
 struct DecimatedOutcome {

@@ -23,10 +23,11 @@ struct FitOutcome {
   std::vector<AttributeRms> attributes = {};  ///< that were fitted; empty where nothing was moved
 };
 
-/// Moves the vertices of a front by `--fit rms` (surface/fit/fit.h). Where the result is farther from the
-/// source than maxError, a part of every move is made: a half, a quarter, an eighth, or nothing, which is the
-/// cut. Attributes follow (surface/fit/attribute_fit.h); where the root mean square of one would grow, a
-/// smaller part is made, too.
+/// Moves the vertices of a front by `--fit rms` (surface/fit/fit.h), where they are on lines along these.
+/// Where the result is farther from the source than maxError, vertices of lines stay nearer to them or where
+/// they are, and then a part of every move is made: a half, a quarter, an eighth, or nothing, which is the
+/// cut. Attributes follow (surface/fit/attribute_fit.h); where the root mean square of one would grow, or
+/// moves along lines bring the surface across itself more often, the same is done.
 /// @param charts    of the source and the cut: chartsOfCut()
 /// @param cutError  of the cut: at most maxError
 /// @param positionError  how far vertices of `source` may be from those that they stand for

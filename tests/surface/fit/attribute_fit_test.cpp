@@ -90,6 +90,29 @@ TEST(FitAttributes, MakesRoundAttributesNearerAndKeepsRangesLengthsAndLabels) {
   }
 }
 
+// A least squares fit of a dome passes above its top: over its own range, within the range of all.
+TEST(FitAttributes, KeepsNumbersWithinTheRangeOfWhatHangsTogether) {
+  const TriangleMesh low = shapes::sheet(30, 30);
+  SurfaceMesh mesh(low);
+  const auto count = static_cast<std::uint32_t>(low.positions.size());
+  for (const Vec3& p : low.positions) mesh.positions.push_back(p + Vec3{100, 0, 0});
+  for (Vec3& p : mesh.positions) p.z = 6 * std::sin(p.x / 7) * std::cos(p.y / 6);
+  for (const auto& [a, b, c] : low.triangles) mesh.triangles.push_back({a + count, b + count, c + count});
+  mesh.vertexAttributes = {attributeOf(mesh, "heat", AttributeMeaning::other, [](const Vec3& p) {
+    const bool isSecond = p.x > 60;
+    const double x = (p.x - (isSecond ? 120 : 20)) / 20, y = (p.y - 20) / 20;
+    const double r = x * x + 0.7 * y * y;
+    return std::vector<double>{isSecond ? 0.6 + 0.2 * r : 0.4 - 0.2 * r, 0.1 * x + 0.05 * y};
+  })};
+  const FittedCut f = fittedTenth(mesh);
+  EXPECT_LT(f.rms[0].after, f.rms[0].before);
+  for (std::size_t v = 0; v < f.cut.positions.size(); ++v) {
+    const double u = f.cut.vertexAttributes[0].numbers(v)[0];
+    const bool isSecond = f.cut.positions[v].x > 60;
+    EXPECT_TRUE(isSecond ? u >= 0.6 : u <= 0.4) << u;
+  }
+}
+
 TEST(FitAttributes, RefusesPlacesThatAreNotAsManyAsTheVertices) {
   SurfaceMesh mesh(shapes::globe(12, 7));
   EXPECT_FALSE(fitAttributes(mesh, {}, mesh));
