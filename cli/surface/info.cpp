@@ -94,7 +94,7 @@ Status sayAboutSurface(const AmtContainer& file, const std::string& at, std::siz
   else if (model.mayHaveLines())
     line("lines", "not bounded: an earlier version built the file");
   if (const auto& angle = model.options.creaseAngleDegrees)
-    line("creases", fmt::format("{} of more than {} degrees are lines",
+    line("creases", fmt::format("lines along {} of more than {} degrees",
                                 grouped(model.creaseEdges, "edge", "edges"), *angle));
   line("levels", std::to_string(model.levels));
   text += mendedText(model.mending, fmt::format("  {:<14} ", "mended"));

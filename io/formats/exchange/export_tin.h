@@ -18,7 +18,7 @@ struct TinExport {
   /// the map, whatever the orientation of the raster's grid.
   TriangleMesh mesh;
   std::vector<float> errors;            ///< per triangle: as stored or as fitted, rounded outwards
-  std::vector<std::uint32_t> vertexOf;  ///< by vertex: that of the model's MT
+  std::vector<std::uint32_t> vertexOf;  ///< by vertex: its number in the model's MT
   Vec3 origin;  ///< for formats of 32-bit floats, in source coordinates; the same for all cuts of a model
 };
 

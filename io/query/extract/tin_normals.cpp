@@ -23,8 +23,8 @@ constexpr std::uint32_t kNone = MeshAttributes::kNone;
 /// A finest triangle at a vertex: its other corners, counter-clockwise.
 struct Spoke {
   std::uint32_t from = 0, to = 0;  ///< vertices of the MT
-  Vec2 right, left;                ///< the directions to them in plan
-  Vec3 normal;                     ///< of length 1, or zero
+  Vec2 right = {}, left = {};      ///< the directions to them in plan
+  Vec3 normal = {};                ///< of length 1, or zero
   double angle = 0;                ///< at the vertex
   std::uint32_t sector = kNone;
 };

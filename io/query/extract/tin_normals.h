@@ -20,7 +20,7 @@ namespace arete {
 /// triangles.
 ///
 /// @param tin       positions in source coordinates
-/// @param vertexOf  by vertex of the TIN: that of the model's MT
+/// @param vertexOf  by vertex of the TIN: its number in the model's MT
 /// @param model     whole, not a part: the finest triangles are its
 /// @param toLengths leads source coordinates to right-handed ones, z up, in which angles have a meaning: the
 ///                  normals are of these
