@@ -22,6 +22,7 @@
 #include "io/formats/exchange/export_tin.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/io_fixture.h"
+#include "io/mesh_fixture.h"
 #include "io/query/extract/tin.h"
 #include "surface/normals/smooth_corners.h"
 #include "terrain/builder/build.h"
