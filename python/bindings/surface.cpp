@@ -223,8 +223,7 @@ void defineModel(py::module_& module) {
 }
 
 SurfaceFileOptions optionsOf(bool isDisplaced, bool keepsBorders, std::optional<double> ratio,
-                             std::optional<std::uint32_t> maxDegree,
-                             std::optional<double> creaseAngle,
+                             std::optional<std::uint32_t> maxDegree, std::optional<double> creaseAngle,
                              std::vector<std::string> dropAttributes = {}, bool boundsAttributes = false) {
   SurfaceBuildOptions build{.keepsBorders = keepsBorders};
   build.boundsAttributes = boundsAttributes;
@@ -244,9 +243,10 @@ void defineSurface(py::module_& module) {
                                       std::optional<double> creaseAngle,
                                       const std::vector<std::string>& dropAttributes, bool boundsAttributes,
                                       const py::object& progress) {
-    return buildFile(path,
-                     optionsOf(isDisplaced, keepsBorders, ratio, maxDegree, creaseAngle, dropAttributes, boundsAttributes),
-                     progress);
+    return buildFile(
+        path,
+        optionsOf(isDisplaced, keepsBorders, ratio, maxDegree, creaseAngle, dropAttributes, boundsAttributes),
+        progress);
   });
   module.def("build_surface_arrays", [](const Doubles& vertices, const Indices& triangles, bool isDisplaced,
                                         bool keepsBorders, std::optional<double> ratio,
