@@ -9,7 +9,8 @@
 
 namespace arete {
 
-NormalsArguments::Options NormalsArguments::addTo(CLI::App& command) {
+NormalsArguments::Options NormalsArguments::addTo(CLI::App& command, const char* ofSmooth,
+                                                  const char* ofCreases) {
   Options added;
   added.normals =
       command
@@ -20,20 +21,29 @@ NormalsArguments::Options NormalsArguments::addTo(CLI::App& command) {
                                : kind == "smooth" ? NormalsKind::smooth
                                                   : NormalsKind::keep;
               },
-              "Normals to write: those there are (keep, default), of each triangle (flat), or smooth "
-              "but where they are hard in the file and beyond --crease-angle (smooth)")
+              fmt::format(
+                  "Normals to write: those there are (keep, default), of each triangle (flat), or smooth "
+                  "but where they are hard in the file and beyond --crease-angle (smooth{})",
+                  ofSmooth))
           ->check(oneOf({"keep", "flat", "smooth"}))
           ->type_name("KIND");
   added.creaseAngle =
       command
           .add_option("--crease-angle", options.creaseAngleDegrees,
                       fmt::format("Between faces that are turned by more degrees, smooth normals are hard "
-                                  "(default {})",
-                                  kCreaseDegrees))
+                                  "(default {}{})",
+                                  kCreaseDegrees, ofCreases))
           ->check(CLI::Range(0.0, 180.0))
           ->needs(added.normals)
           ->type_name("DEG");
+  creaseAngleOption = added.creaseAngle;
   return added;
+}
+
+NormalsOptions NormalsArguments::ofTerrain() const {
+  NormalsOptions terrain = options;
+  if (creaseAngleOption == nullptr || creaseAngleOption->count() == 0) terrain.creaseAngleDegrees = 180;
+  return terrain;
 }
 
 }  // namespace arete

@@ -6,14 +6,19 @@
 
 namespace arete {
 
-/// The options --normals and --crease-angle of every command that writes a mesh of a surface.
+/// The options --normals and --crease-angle of every command that writes a mesh.
 struct NormalsArguments {
   struct Options {
     CLI::Option *normals = nullptr, *creaseAngle = nullptr;
   };
-  Options addTo(CLI::App& command);
+  /// @param ofSmooth, ofCreases added to the sentences about them
+  Options addTo(CLI::App& command, const char* ofSmooth = "", const char* ofCreases = "");
+
+  /// A vertex of terrain has one normal unless --crease-angle is stated.
+  NormalsOptions ofTerrain() const;
 
   NormalsOptions options = {};
+  CLI::Option* creaseAngleOption = nullptr;
 };
 
 }  // namespace arete

@@ -204,6 +204,8 @@ Status runSurfaceBuild(const BuildArguments& arguments, MeshInput input, double 
   SurfaceBuildArguments surface{arguments.dem.path, arguments.output, {}};
   surface.options.build.keepsBorders = arguments.keepsBorders;
   surface.options.build.boundsAttributes = arguments.boundsAttributes;
+  if (arguments.creaseAngleDegrees >= 0)
+    surface.options.build.creaseAngleDegrees = arguments.creaseAngleDegrees;
   surface.isPacked = arguments.isPacked || arguments.isPaged;
   surface.isPaged = arguments.isPaged;
   surface.positionBits = arguments.positionBits;
@@ -356,12 +358,13 @@ void addBuildCommand(CLI::App& app, Session& session) {
                                    "Points (GeoPackage, CSV, ...): the sample nearest to each is kept")
                       ->type_name("FILE")
                       ->group(keeping));
-  kinds.ofTerrain(command
-                      ->add_option("--crease-angle", arguments->creaseAngleDegrees,
-                                   "Vertices on creases sharper than this (classes corner and interior edge)")
-                      ->check(finiteBetween(0, 180))
-                      ->type_name("DEGREES")
-                      ->group(keeping));
+  command
+      ->add_option("--crease-angle", arguments->creaseAngleDegrees,
+                   "Of terrain the vertices on creases sharper than this (classes corner and interior\n"
+                   "edge), of a surface these creases as lines")
+      ->check(finiteBetween(0, 180))
+      ->type_name("DEGREES")
+      ->group(keeping);
   kinds.ofSurfaces(command
                        ->add_flag("--keep-borders", arguments->keepsBorders,
                                   "All border vertices, so that parts meet at every tolerance")

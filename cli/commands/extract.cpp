@@ -105,12 +105,15 @@ Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments
   const bool several = criteria.size() > 1;
   ARETE_CHECK(outputs.check(several));
   std::vector<ExtractRequest> requests;
-  for (const auto& [criterion, tag] : criteria)
+  for (const auto& [criterion, tag] : criteria) {
     requests.push_back(outputs.requestOf(criterion, tag, several));
+    requests.back().normals = arguments.normals.ofTerrain();
+  }
   for (const ExtractRequest& request : requests) {
     if (Status known = checkExtractOutput(request.output, model, request.format); !known)
       return failure(known.error().code, known.error().message, fmt::format("--output {}", request.output));
     ARETE_CHECK(checkExtractPlace(request));
+    ARETE_CHECK(checkExtractNormals(request, model));
     if (arguments.criterion.hasDeadline() && request.format.empty() && isGeoTiffName(request.output))
       return failure(ErrorCode::usage, "cannot be a raster with --deadline; write a mesh",
                      fmt::format("--output {}", request.output));
@@ -355,9 +358,8 @@ void addExtractCommand(CLI::App& app, Session& session) {
                                     "Divide the tolerance by a number of the file's vertices: twice as "
                                     "important, half the error")
                        ->type_name("NAME"));
-  const auto [normals, creaseAngle] = arguments->normals.addTo(*command);
-  kinds.ofSurfaces(normals);
-  kinds.ofSurfaces(creaseAngle);
+  arguments->normals.addTo(*command, ", of terrain by the finest triangles",
+                           "; of terrain none are unless it is stated");
   kinds.ofSurfaces(command->add_flag("--both-ways", arguments->measuresBothWays,
                                      "Also measure how far the result is from the source"));
   kinds.ofSurfaces(command->add_flag(

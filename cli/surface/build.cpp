@@ -44,6 +44,9 @@ void report(const SurfaceBuildArguments& arguments, std::uint64_t faces, std::ui
       grouped(mt.rootTriangleCount(), "triangle", "triangles"),
       grouped(mt.rootVertexCount(), "vertex", "vertices"), mt.largestError(),
       grouped(model.levels, "level", "levels"));
+  if (const auto& angle = model.options.creaseAngleDegrees)
+    text += fmt::format("  creases    {} of more than {} degrees\n",
+                        grouped(model.creaseEdges, "edge", "edges"), *angle);
   text += mendedText(model.mending, "  mended     ");
   // Seams that keep most of the surface from being coarser.
   if (2 * mt.rootTriangleCount() > mt.finestTriangleCount())
@@ -73,6 +76,7 @@ void report(const SurfaceBuildArguments& arguments, std::uint64_t faces, std::ui
        {"rootVertices", mt.rootVertexCount()},
        {"rootError", mt.largestError()},
        {"levels", model.levels},
+       {"creaseEdges", model.creaseEdges},
        {"mended", mendedJson(model.mending)},
        {"seconds",
         {{"read", seconds.read},

@@ -93,6 +93,9 @@ Status sayAboutSurface(const AmtContainer& file, const std::string& at, std::siz
     line("lines", "seams and edges between parts, within the error of every cut");
   else if (model.mayHaveLines())
     line("lines", "not bounded: an earlier version built the file");
+  if (const auto& angle = model.options.creaseAngleDegrees)
+    line("creases", fmt::format("lines along {} of more than {} degrees",
+                                grouped(model.creaseEdges, "edge", "edges"), *angle));
   line("levels", std::to_string(model.levels));
   text += mendedText(model.mending, fmt::format("  {:<14} ", "mended"));
   line("attributes", fmt::format("{} of vertices, {} of corners, {} of faces", a.vertexAttributes.size(),
@@ -127,6 +130,9 @@ Status sayAboutSurface(const AmtContainer& file, const std::string& at, std::siz
                   {"positionError", model.positionError},
                   {"displacement", !model.displacement.isEmpty()},
                   {"boundsLines", model.boundsLines},
+                  {"creaseAngleDegrees",
+                   model.options.creaseAngleDegrees ? Json(*model.options.creaseAngleDegrees) : Json()},
+                  {"creaseEdges", model.creaseEdges},
                   {"source", model.source},
                   {"crs", crsName(model.crsWkt)},
                   {"sourceFaces", model.fileFaces},

@@ -43,7 +43,8 @@ std::string whyNotFewer(const SurfaceModel& model, const DroppedComponents* drop
     why += ", " + grouped(borders, "border", "borders");
     if (model.options.keepsBorders) why += agreeing(borders, ", which is kept", ", which are kept");
   }
-  if (model.hasWedges()) why += ", seams";
+  if (model.creaseEdges > 0) why += ", " + grouped(model.creaseEdges, "crease", "creases");
+  if (!model.attributes.wedgeAttributes.empty()) why += ", seams";
   if (!model.attributes.materialOf.empty() || !model.attributes.objectOf.empty())
     why += ", edges between materials or objects";
   for (const Attribute& attribute : model.attributes.triangleAttributes)

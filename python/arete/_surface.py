@@ -162,7 +162,7 @@ class Surface(Stored):
 def build_surface(source: Any, triangles: Optional[ArrayLike] = None, *, displacement: bool = False,
                   keep_borders: bool = False, drop_attributes: Union[str, Sequence[str]] = (),
                   progress: Progress = None, ratio: Optional[float] = None, max_degree: Optional[int] = None,
-                  attributes: bool = False) -> Surface:
+                  attributes: bool = False, crease_angle: Optional[float] = None) -> Surface:
     """Builds the multitriangulation of a triangle mesh.
 
     source: a file that `arete build` takes for a surface; vertices (n, 3) with triangles (m, 3); or a mesh of meshio
@@ -173,17 +173,20 @@ def build_surface(source: Any, triangles: Optional[ArrayLike] = None, *, displac
         between parts keep vertices in every cut.
     attributes: bound what attributes of vertices and corners are off by, and let them count (Surface.cut(attribute_error=)).
     ratio, max_degree: how levels grow, and the most neighbours of a vertex that is removed.
+    crease_angle: edges whose faces are turned by more degrees are lines of every cut.
     """
     names = names_of(drop_attributes)
     growth, degree = number("ratio", ratio), whole("max_degree", max_degree, 6, 32)
+    angle = number("crease_angle", crease_angle, 0, 180)
     if isinstance(source, (str, os.PathLike)):
         if triangles is not None:
             raise TypeError("triangles are for arrays: a file says its own")
         path = os.fspath(source)
-        return Surface(_arete.build_surface_file(path, displacement, keep_borders, growth, degree, names, attributes,
-                                                 progress), files=[path])
+        return Surface(_arete.build_surface_file(path, displacement, keep_borders, growth, degree, angle, names,
+                                                 attributes, progress), files=[path])
     if names:
         raise ValueError("drop_attributes is for files: arrays have no attributes")
     if attributes:
         raise ValueError("attributes is for files: arrays have no attributes")
-    return Surface(_arete.build_surface_arrays(*mesh_of(source, triangles), displacement, keep_borders, growth, degree, progress))
+    return Surface(_arete.build_surface_arrays(*mesh_of(source, triangles), displacement, keep_borders, growth, degree, angle,
+                                               progress))

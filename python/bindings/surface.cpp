@@ -224,10 +224,11 @@ void defineModel(py::module_& module) {
 }
 
 SurfaceFileOptions optionsOf(bool isDisplaced, bool keepsBorders, std::optional<double> ratio,
-                             std::optional<std::uint32_t> maxDegree,
+                             std::optional<std::uint32_t> maxDegree, std::optional<double> creaseAngle,
                              std::vector<std::string> dropAttributes = {}, bool boundsAttributes = false) {
   SurfaceBuildOptions build{.keepsBorders = keepsBorders};
   build.boundsAttributes = boundsAttributes;
+  build.creaseAngleDegrees = creaseAngle;
   build.thresholdRatio = ratio.value_or(build.thresholdRatio);
   build.maxDegree = maxDegree.value_or(build.maxDegree);
   return {.build = build, .isDisplaced = isDisplaced, .dropAttributes = std::move(dropAttributes)};
@@ -240,16 +241,20 @@ void defineSurface(py::module_& module) {
   defineModel(module);
   module.def("build_surface_file", [](const std::string& path, bool isDisplaced, bool keepsBorders,
                                       std::optional<double> ratio, std::optional<std::uint32_t> maxDegree,
+                                      std::optional<double> creaseAngle,
                                       const std::vector<std::string>& dropAttributes, bool boundsAttributes,
                                       const py::object& progress) {
-    return buildFile(path,
-                     optionsOf(isDisplaced, keepsBorders, ratio, maxDegree, dropAttributes, boundsAttributes),
-                     progress);
+    return buildFile(
+        path,
+        optionsOf(isDisplaced, keepsBorders, ratio, maxDegree, creaseAngle, dropAttributes, boundsAttributes),
+        progress);
   });
   module.def("build_surface_arrays", [](const Doubles& vertices, const Indices& triangles, bool isDisplaced,
                                         bool keepsBorders, std::optional<double> ratio,
-                                        std::optional<std::uint32_t> maxDegree, const py::object& progress) {
-    return buildArrays(vertices, triangles, optionsOf(isDisplaced, keepsBorders, ratio, maxDegree), progress);
+                                        std::optional<std::uint32_t> maxDegree,
+                                        std::optional<double> creaseAngle, const py::object& progress) {
+    return buildArrays(vertices, triangles,
+                       optionsOf(isDisplaced, keepsBorders, ratio, maxDegree, creaseAngle), progress);
   });
   module.def("open_model", [](const std::string& path, const py::object& progress) -> AnyModel {
     // Not mapped: another program may truncate the file while this one goes on.

@@ -20,6 +20,7 @@
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/mt/hole_limit.h"
 #include "engine/parallel/with_threads.h"
+#include "surface/builder/crease_lines.h"
 #include "surface/builder/prepare.h"
 #include "surface/error/attribute_field.h"
 #include "surface/error/original.h"
@@ -37,6 +38,9 @@ Status checkOptions(const SurfaceBuildOptions& options) {
   if (!(options.thresholdRatio > 1) || !(options.thresholdRatio <= 16))
     return failure(ErrorCode::usage,
                    fmt::format("a growth of {} is not above 1 and at most 16", options.thresholdRatio));
+  if (const auto& angle = options.creaseAngleDegrees; angle && !(*angle >= 0 && *angle <= 180))
+    return failure(ErrorCode::usage, "must be an angle of 0 to 180 degrees",
+                   fmt::format("creaseAngleDegrees {}", *angle));
   return {};
 }
 
@@ -62,9 +66,11 @@ std::vector<std::uint32_t> orderAlongCurve(const TriangleMesh& mesh, const Vec3&
 }
 
 std::vector<std::uint8_t> fixedVertices(const LiveMesh& live, std::size_t vertexCount, bool keepsBorders,
-                                        std::span<const VertexId> pinched) {
+                                        std::span<const VertexId> pinched,
+                                        std::span<const std::uint32_t> ofCreases) {
   std::vector<std::uint8_t> isFixed(vertexCount, 0);
   for (const VertexId v : pinched) isFixed[v.index()] = 1;
+  for (const std::uint32_t v : ofCreases) isFixed[v] = 1;
   if (!keepsBorders) return isFixed;
   for (const LiveMesh::Triangle& t : live.triangles)
     for (std::size_t i = 0; i < 3; ++i)
@@ -133,6 +139,8 @@ class SurfaceBuild {
     if (const double diagonal = prepared_.diagonal; !(diagonal < 1e30) || !(diagonal > 1e-30))
       return failure(ErrorCode::invalidData,
                      fmt::format("a diagonal of {} is not between 1e-30 and 1e30", diagonal));
+    if (options_.creaseAngleDegrees)
+      creases_ = makeCreasesLines(prepared_.mesh, *options_.creaseAngleDegrees);
     sortFaces(prepared_, orderAlongCurve(mesh, prepared_.boxLow, prepared_.boxHigh));
     giveFreeHeapBack();
     ARETE_CHECK(simplify());
@@ -161,7 +169,7 @@ class SurfaceBuild {
     std::vector<VertexId> pinched;
     LiveMesh live = LiveMesh::fromTriangles(mesh.triangles, vertexCount, pinched);
     const std::vector<std::uint8_t> isFixed =
-        fixedVertices(live, vertexCount, options_.keepsBorders, pinched);
+        fixedVertices(live, vertexCount, options_.keepsBorders, pinched, creases_.fixed);
     MetricFrame metric;
     metric.origin = low / 2 + high / 2;
     MtRecorder recorder(faceCount, vertexCount, OutwardScale(prepared_.diagonal), metric);
@@ -257,6 +265,7 @@ class SurfaceBuild {
 
     model_.options = options_;
     model_.mending = prepared_.mending;
+    model_.creaseEdges = creases_.edges;
     model_.leftOutFaces = std::move(prepared_.leftOutFaces);
     model_.diagonal = prepared_.diagonal;
     model_.sourceVertices = prepared_.sourceVertices;
@@ -288,6 +297,7 @@ class SurfaceBuild {
   std::size_t fewEnough_;
   std::span<const AttributeWeight> weights_;
   PreparedSurface prepared_;
+  CreaseLines creases_;
   SurfaceModel model_;
 };
 

@@ -17,8 +17,8 @@ namespace arete {
 ///
 /// Every cut is an oriented manifold of the topology of the source: as many components, each with its Euler
 /// number. Seams, edges between objects, materials and labels of faces, and their ends stay lines of every
-/// cut, simplified along themselves: an error is a distance to the same part and chart
-/// (SurfaceModel::boundsLines), and none vanishes. A new vertex is never made.
+/// cut, as creases are where the options ask for it, simplified along themselves: an error is a distance to
+/// the same part and chart (SurfaceModel::boundsLines), and none vanishes. A new vertex is never made.
 ///
 /// The result does not depend on the number of threads, nor, but for scale, on a power of two that all
 /// coordinates are multiplied with. O(n log n) time. Errors: those of prepareSurface(); usage: an option out

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ struct SurfaceBuildOptions {
   /// Attributes of vertices and corners count: they are bounded (SurfaceModel::attributeErrors), and what
   /// changes them least goes first.
   bool boundsAttributes = false;
+
+  /// Edges whose faces are turned by more than this, 0..180 degrees (isCrease()), are lines of every cut, as
+  /// seams are; nullopt: a crease counts by its shape alone.
+  std::optional<double> creaseAngleDegrees = {};
 
   bool operator==(const SurfaceBuildOptions&) const = default;
 };
@@ -93,6 +98,7 @@ struct SurfaceModel {
   SurfaceRepairs mending;
   SurfaceBuildOptions options;
   std::uint32_t levels = 0;
+  std::uint64_t creaseEdges = 0;  ///< of the source that are lines: SurfaceBuildOptions::creaseAngleDegrees
 
   std::string source, sourceChecksum;
   std::string crsWkt, verticalUnit;

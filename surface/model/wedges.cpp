@@ -82,7 +82,30 @@ std::vector<std::uint32_t> equalPairs(const CornerPairs& corners, const std::vec
   return leader;
 }
 
+/// Pairs of one vertex with equal values become one wedge, that of the first of them.
+void joinPairs(SurfaceMesh& mesh, const CornerPairs& corners) {
+  if (mesh.wedgeAttributes.empty()) {
+    mesh.wedges.clear();
+    mesh.wedgeCount = 0;
+    return;
+  }
+  const std::vector<std::uint32_t> leader = equalPairs(corners, mesh.wedgeAttributes);
+  std::vector<std::uint32_t> kept, wedgeOfPair(corners.pairs.size());
+  for (std::size_t i = 0; i < corners.pairs.size(); ++i) {
+    if (leader[i] == i) kept.push_back(corners.pairs[i].second);
+    wedgeOfPair[i] = leader[i] == i ? static_cast<std::uint32_t>(kept.size() - 1) : wedgeOfPair[leader[i]];
+  }
+  for (std::size_t c = 0; c < corners.pairOf.size(); ++c)
+    mesh.wedges[c / 3][c % 3] = wedgeOfPair[corners.pairOf[c]];
+  for (Attribute& attribute : mesh.wedgeAttributes) attribute = gathered(attribute, kept);
+  mesh.wedgeCount = static_cast<std::uint32_t>(kept.size());
+}
+
 }  // namespace
+
+void joinEqualWedges(SurfaceMesh& mesh) {
+  if (mesh.hasWedges()) joinPairs(mesh, CornerPairs(MeshRef(mesh)));
+}
 
 void moveToWedges(SurfaceMesh& mesh) {
   if (!mesh.hasWedges()) {
@@ -120,24 +143,8 @@ void moveToVertices(SurfaceMesh& mesh) {
     else
       mesh.vertexAttributes.push_back(gathered(attribute, firstWedge));
   }
-  if (left.empty()) {
-    mesh.wedgeAttributes.clear();
-    mesh.wedges.clear();
-    mesh.wedgeCount = 0;
-    return;
-  }
-  // Pairs of one vertex with equal values become one wedge, that of the first of them.
-  const std::vector<std::uint32_t> leader = equalPairs(corners, left);
-  std::vector<std::uint32_t> kept, wedgeOfPair(corners.pairs.size());
-  for (std::size_t i = 0; i < corners.pairs.size(); ++i) {
-    if (leader[i] == i) kept.push_back(corners.pairs[i].second);
-    wedgeOfPair[i] = leader[i] == i ? static_cast<std::uint32_t>(kept.size() - 1) : wedgeOfPair[leader[i]];
-  }
-  for (std::size_t c = 0; c < corners.pairOf.size(); ++c)
-    mesh.wedges[c / 3][c % 3] = wedgeOfPair[corners.pairOf[c]];
-  mesh.wedgeAttributes.clear();
-  for (const Attribute& attribute : left) mesh.wedgeAttributes.push_back(gathered(attribute, kept));
-  mesh.wedgeCount = static_cast<std::uint32_t>(kept.size());
+  mesh.wedgeAttributes = std::move(left);
+  joinPairs(mesh, corners);
 }
 
 SplitMesh splitByWedges(MeshRef mesh) {

@@ -15,6 +15,10 @@ void moveToWedges(SurfaceMesh& mesh);
 /// Vertices that no triangle uses get zeros. O(n log n). Precondition: the mesh is valid.
 void moveToVertices(SurfaceMesh& mesh);
 
+/// Equal wedges of a vertex become one; without an attribute of wedges there are none. Values are compared by
+/// their bytes. O(n log n). Precondition: the mesh is valid.
+void joinEqualWedges(SurfaceMesh& mesh);
+
 /// The same mesh with a vertex for each wedge of a vertex, as formats need it that have no corners:
 /// attributes of wedges become attributes of vertices, instead of those of the same name. The first wedge of
 /// a vertex keeps its number; further ones follow the vertices of the source, in the order of the triangles.

@@ -98,9 +98,13 @@ class SmoothCorners {
     std::iota(root_.begin(), root_.end(), 0u);
   }
 
-  CornerNormals run() {
+  std::vector<Vec3> ofFaces() {
     findMates();
-    const std::vector<Vec3> handed = handedOn();
+    return handedOn();
+  }
+
+  CornerNormals run() {
+    const std::vector<Vec3> handed = ofFaces();
     for (std::uint32_t c = 0; c < mate_.size(); ++c)
       if (mate_[c] != kNoMate && c < mate_[c] &&
           !isCrease(handed[c / 3], handed[mate_[c] / 3], creaseDegrees_)) {
@@ -244,6 +248,10 @@ CornerNormals flatCorners(const TriangleMesh& mesh) {
     flat.normalOf.push_back({t, t, t});
   }
   return flat;
+}
+
+std::vector<Vec3> faceNormals(const TriangleMesh& mesh) {
+  return SmoothCorners(mesh, 180, {}).ofFaces();
 }
 
 CornerNormals smoothCorners(const TriangleMesh& mesh, double creaseDegrees, std::span<const Vec3> stated) {

@@ -20,6 +20,10 @@ struct CornerNormals {
 /// One normal for all corners of a triangle, zero where it has no area. O(triangles).
 CornerNormals flatCorners(const TriangleMesh& mesh);
 
+/// The normals of faces, of length 1. A triangle that is thinner than the numbers of the mesh has that of the
+/// face at its longest edge; zero where there is none. Precondition: as smoothCorners(). O(n log n).
+std::vector<Vec3> faceNormals(const TriangleMesh& mesh);
+
 /// The corners around a vertex that no hard edge parts have one normal: the sum of the normals of their faces
 /// by the angles of the faces at the vertex [ThurmerWuthrich1998]. So the diagonals of a plane face do not
 /// count. An edge is hard where isCrease() says so, where it is a border, where its faces are not oriented

@@ -337,6 +337,20 @@ class Surfaces(Folder):
         ours, theirs = (json.loads(self.bytes_of(f"{name}.certificate.json")) for name in ("ours", "theirs"))
         self.assertEqual(set(ours), set(theirs))
 
+    def test_creases_are_lines_where_they_are_wanted(self):
+        # A roof of 2 x 8 squares whose ridge is turned by 28 degrees.
+        vertices = [[x, y, 0.25 * (1 - abs(x - 1))] for y in range(9) for x in range(3)]
+        triangles = [t for y in range(8) for a in (3 * y, 3 * y + 1) for t in ([a, a + 1, a + 4], [a, a + 4, a + 3])]
+        for angle, ridge in ((20, 1), (30, 0)):
+            surface = arete.build_surface(vertices, triangles, crease_angle=angle)
+            self.assertTrue(surface.validate()["holds"])
+            kept = surface.cut(max_error="100%")
+            ends = [i for i, v in enumerate(kept.vertices) if v[0] == 1 and v[1] in (0, 8)]
+            edges = {frozenset((int(t[i]), int(t[i - 1]))) for t in kept.triangles for i in range(3)}
+            self.assertEqual(frozenset(ends) in edges and len(ends) == 2, bool(ridge))
+        with self.assertRaisesRegex(ValueError, "crease_angle"):
+            arete.build_surface(vertices, triangles, crease_angle=181)
+
     def test_curve_and_laws(self):
         curve = self.surface.curve(at=["1%", "5%"])
         for error, count in zip(curve.max_error, curve.minimal):

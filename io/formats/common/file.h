@@ -85,6 +85,9 @@ struct MeshWriteOptions {
   std::vector<std::string> notes = {};
   /// What happens to the other layers of a GeoPackage that exists.
   ExistingFile existing = ExistingFile::keepsOtherLayers;
+  /// Normals have the axes of the frame of a glTF of terrain: x east, y north, z up, in metres. Otherwise
+  /// they belong to the positions, and are made anew where the frame scales axes differently.
+  bool normalsAreOfFrame = false;
   /// A glTF of a mesh whose z is up is turned and has a frame; of any other its axes are those of the mesh.
   MeshUp up = MeshUp::z;
   /// MeshFile::folder.

@@ -29,6 +29,7 @@ Result<TinExport> exportTin(const TerrainModel& model, const Cut& cut) try {
   reserveInPages(tin.errors, cut.ids.size());
   for (const std::uint32_t t : cut.ids)
     tin.errors.push_back(static_cast<float>(model.mt.error(TriangleId(t))));
+  tin.vertexOf = cut.vertices;
   // Of the root, which is in every cut.
   std::vector<Vec3> root(model.mt.rootVertexCount());
   for (std::uint32_t v = 0; v < root.size(); ++v) root[v] = toSource(v);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -16,7 +17,8 @@ struct TinExport {
   /// Positions in source coordinates, heights in the DEM's vertical unit. Triangles are counter-clockwise on
   /// the map, whatever the orientation of the raster's grid.
   TriangleMesh mesh;
-  std::vector<float> errors;  ///< per triangle: as stored or as fitted, rounded outwards
+  std::vector<float> errors;            ///< per triangle: as stored or as fitted, rounded outwards
+  std::vector<std::uint32_t> vertexOf;  ///< by vertex: its number in the model's MT
   Vec3 origin;  ///< for formats of 32-bit floats, in source coordinates; the same for all cuts of a model
 };
 

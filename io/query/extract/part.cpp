@@ -39,7 +39,7 @@ constexpr std::uint64_t kGuessGrowth = 8;
 
 bool needsAllSamples(const ExtractRequest& request) {
   return !meshFormatOf(request.output, request.format) || !request.certificate.empty() ||
-         !request.errorRaster.empty();
+         !request.errorRaster.empty() || request.normals.kind == NormalsKind::smooth;
 }
 
 /// Whether the spheres of nodes decide which nodes are in the cut. A packed file stores none, and those made

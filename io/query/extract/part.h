@@ -27,8 +27,8 @@ struct PartAndCut {
 /// packed file stores no such balls: they are made of the nodes that were read.
 ///
 /// Where a format rounds heights, the part is enough for a tolerance smaller by TinExtractor::kReadReserve of
-/// it. The whole file is read where a TIN is measured against all samples or fitted to them, where a deadline
-/// alone ends the cut, and for a saturated cut by region, focus or camera of a packed file.
+/// it. The whole file is read where a TIN is measured against all samples, fitted to them or shaded by them,
+/// where a deadline alone ends the cut, and for a saturated cut by region, focus or camera of a packed file.
 ///
 /// @param outline  a part of the file's model, its root at least
 /// @return the part, and the cut where one had to be taken to know that the part is enough

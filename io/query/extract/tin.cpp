@@ -21,8 +21,10 @@
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/formats/exchange/written_mesh.h"
 #include "io/geo/crs/local_frame.h"
+#include "io/geo/crs/map_scale.h"
 #include "io/geo/crs/names.h"
 #include "io/geo/dem/raster_writer.h"
+#include "io/query/extract/tin_normals.h"
 #include "io/query/request/check_request.h"
 #include "io/query/request/criterion.h"
 #include "terrain/fit/fit.h"
@@ -141,6 +143,23 @@ Status checkExtractPlace(const ExtractRequest& request) {
   return checkPlacing(request.place, format);
 }
 
+Status checkExtractNormals(const ExtractRequest& request, const TerrainModel& model) {
+  if (request.normals.kind == NormalsKind::keep) return {};
+  if (isRaster(request))
+    return failure(ErrorCode::usage, "are for meshes, and a .tif holds heights", "normals");
+  if (request.place.isStated())
+    return failure(ErrorCode::usage,
+                   "cannot be combined with `metric` or `toCrs`; a .glb has metres, and normals of them",
+                   "normals");
+  ARETE_TRY(const MeshFormat format, meshFormatOf(request.output, request.format));
+  if (model.georeference.isGeographic && !format.holds.isYUp)
+    return failure(ErrorCode::usage,
+                   fmt::format("are made of lengths, and {} holds the degrees of the DEM; a .glb has metres",
+                               format.name),
+                   "normals");
+  return {};
+}
+
 Result<TinExport> takeTin(const TerrainModel& model, const CutRequest& c, const std::optional<Region>& region,
                           double reserve, std::optional<Cut> taken, ExtractedTin& tin,
                           const RunContext& context) try {
@@ -231,6 +250,23 @@ Result<PlacedMesh> TinExtractor::lead(const ExtractRequest& request, const TinEx
   return placed;
 }
 
+// A glTF has a frame of metres; other formats have the coordinates of the DEM, about an origin, so that the
+// numbers are small.
+Result<SurfaceMesh> TinExtractor::shade(const ExtractRequest& request, const TinExport& exported) const {
+  ARETE_TRY(const MeshFormat format, meshFormatOf(request.output, request.format));
+  const Vec3& origin = exported.origin;
+  if (!format.holds.isYUp)
+    return withNormals(
+        exported.mesh, exported.vertexOf, *model_, [&](const Vec3& p) { return p - origin; },
+        request.normals);
+  Georeference georeference = model_->georeference;
+  stateMapScale(georeference, {origin.x, origin.y});
+  ARETE_TRY(const LocalFrame frame, LocalFrame::create(localFrameSpec(georeference, origin)));
+  return withNormals(
+      exported.mesh, exported.vertexOf, *model_, [&](const Vec3& p) { return frame.toLocal(p); },
+      request.normals);
+}
+
 // A vertex on the rim that moves inwards leaves samples without a triangle.
 void TinExtractor::warnOfRim(int bits, ExtractedTin& tin) const {
   const Vec3& rounding = tin.format.frame.rounding;
@@ -279,8 +315,14 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
                          .packing = packingOf(request)};
   if (placed) placed->describe(write);
   TriangleMesh& mesh = placed ? placed->mesh : exported.mesh;
+  std::optional<SurfaceMesh> shaded;
+  if (request.normals.kind != NormalsKind::keep) {
+    ARETE_TRY(shaded, shade(request, exported));
+    write.normalsAreOfFrame = true;
+  }
+  const MeshRef drawn = shaded ? MeshRef(*shaded) : MeshRef(mesh);
   Result<WrittenMesh> written =
-      writeAndReadBack(mesh, request.output, write, model_->isRaster && !placed, context);
+      writeAndReadBack(drawn, request.output, write, model_->isRaster && !placed, context);
   if (!written) return tl::unexpected(within(tl::unexpected(written.error()), request.output).error());
   tin.format = formatOf(request.output, *written, write);
   if (!placed && !request.criterion.promisesMaxError(tin.isComplete))
@@ -294,9 +336,12 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
     tin.promisedError = noted;
     write.notes = {commentOf(request, *model_, tin)};
     tin.promisedError = promised;
-    written = writeAndReadBack(mesh, request.output, write, false, context);
+    written = writeAndReadBack(drawn, request.output, write, false, context);
     if (!written) return tl::unexpected(within(tl::unexpected(written.error()), request.output).error());
   }
+  if (shaded)
+    for (const std::string& lost : written->report.lost)
+      tin.warnings.push_back({WarningCode::omitted, fmt::format("cannot hold {}", lost)});
   if (request.packedBits && !placed) warnOfRim(*request.packedBits, tin);
   TriangleMesh& held = written->mesh ? *written->mesh : mesh;
   if (!placed) return std::move(held);
@@ -324,6 +369,7 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
                                            std::optional<Cut> taken) try {
   ExtractedTin tin;
   ARETE_CHECK(checkExtractPlace(request));
+  ARETE_CHECK(checkExtractNormals(request, *model_));
   OutputGroup together;
   Result<TriangleMesh> mesh = cutAndWrite(request, 0, std::move(taken), tin, context);
   if (!mesh) return tl::unexpected(mesh.error());

@@ -57,6 +57,10 @@ Status checkExtractOutput(const std::string& path, const TerrainModel& model, co
 /// the field: a .tif, which is on the DEM's grid; as checkPlacing().
 Status checkExtractPlace(const ExtractRequest& request);
 
+/// Checks that an output can have the normals of a request. Errors: usage, culprit "normals": a
+/// .tif; a mesh in degrees, or led elsewhere.
+Status checkExtractNormals(const ExtractRequest& request, const TerrainModel& model);
+
 /// The cut of a request, or its fit, as a mesh; nothing is written. Heights that were fitted promise nothing
 /// before they are measured.
 /// @param reserve  what the tolerance is reduced by
@@ -98,6 +102,8 @@ class TinExtractor {
   /// Where a format rounds heights, the cut is taken again with a tolerance that is smaller by the rounding,
   /// so that the promise holds for the numbers in the file. A measurement that contradicts the promise is
   /// reported by isKept; the files are written all the same.
+  /// Precondition: where the request states smooth normals, the model is whole, as readForExtract() reads
+  /// it.
   /// @param taken  the cut of this request, of the extractor's model with the full tolerance, where
   ///               readForExtract() has taken it; it is used instead of a new one
   /// Errors: those of takeCut(), writeMesh(), writeGeoTiff(), writeCertificate(); outOfMemory. O(cut), and
@@ -119,6 +125,8 @@ class TinExtractor {
   /// @param bound  receives the largest error inside the region
   Result<PlacedMesh> lead(const ExtractRequest& request, const TinExport& exported, ExtractedTin& tin,
                           double& bound, const RunContext& context) const;
+  /// A TIN with the normals of a request. Precondition: the model is whole.
+  Result<SurfaceMesh> shade(const ExtractRequest& request, const TinExport& exported) const;
   Status measureAndWrite(const ExtractRequest& request, const TriangleMesh& mesh, ExtractedTin& tin,
                          const RunContext& context);
   Status writeRasters(const ExtractRequest& request, const MeasureRasters& rasters, ExtractedTin& tin,

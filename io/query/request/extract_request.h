@@ -27,7 +27,9 @@ struct ExtractRequest {
   std::string map =
       {};  ///< of a surface: CSV of vertices and faces (io/query/surface/map_file.h); empty = none
   std::vector<std::string> dropAttributes = {};  ///< of a surface: names that dropAttributes() leaves out
-  NormalsOptions normals = {};                   ///< of a surface: made of the faces of the cut
+  /// Of a surface made of the faces of the cut; smooth ones of terrain come from the finest triangles
+  /// (io/query/extract/tin_normals.h).
+  NormalsOptions normals = {};
   std::optional<int> packedBits = {};  ///< MeshPacking::positionBits of a packed glTF; empty: not packed
   bool flipsV = false;                 ///< of a surface: flipTextures()
   bool keepsMesh = false;         ///< of terrain: the result holds the mesh, and the error of each sample

@@ -21,6 +21,7 @@
 #include "surface/displacement/displaced_places.h"
 #include "surface/fit/attribute_fit.h"
 #include "surface/front/attribute_criterion.h"
+#include "surface/model/wedges.h"
 
 namespace arete {
 namespace {
@@ -130,6 +131,8 @@ Result<TakenSurface> takeSurface(const SurfaceModel& model, const CutRequest& re
   } else {
     taken.attributeErrors = statedAttributeErrors(model, taken.cut);
   }
+  // Wedges that only creases part are one for every other program.
+  if (model.creaseEdges > 0) joinEqualWedges(taken.front.mesh);
   // A fit is measured by itself, and may keep what the stored errors cannot promise.
   const bool isKeptByFit = taken.fit && request.maxError && taken.fit->distance <= *request.maxError;
   if (request.statesError() && !isKeptByFit)

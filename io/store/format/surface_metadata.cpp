@@ -18,7 +18,7 @@ namespace {
 struct StoredSurface {
   std::uint32_t scaleBase = 0;
   std::optional<double> positionStep, positionError;
-  std::optional<std::uint64_t> fileFaces, splitFaces;
+  std::optional<std::uint64_t> fileFaces, splitFaces, creaseEdges;
 };
 
 template <class T>
@@ -63,6 +63,8 @@ void visitSurfaceMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
     build.field("thresholdRatio", model.options.thresholdRatio);
     build.field("levels", model.levels);
     build.flag("boundsAttributes", model.options.boundsAttributes);
+    build.optional("creaseAngleDegrees", model.options.creaseAngleDegrees);
+    build.optional("creaseEdges", stored.creaseEdges);
   });
   top.object("mending", [&](auto& mending) {
     mending.field("duplicateFaces", model.mending.duplicateFaces);
@@ -93,6 +95,7 @@ SurfaceMetadata amtMetadataOf(const SurfaceModel& model, std::string writer) {
   to.mending = model.mending;
   to.options = model.options;
   to.levels = model.levels;
+  to.creaseEdges = model.creaseEdges;
   to.positionError = model.positionError;
   to.boundsLines = model.boundsLines;
   to.source = nameWithoutQuery(model.source);
@@ -136,6 +139,8 @@ std::optional<std::string> findAmtProblem(const SurfaceMetadata& m) {
   if (m.model.options.maxDegree < 3 || m.model.options.maxDegree > kMaxHoleCorners - 1 ||
       !(m.model.options.thresholdRatio > 1))
     return "the build options are wrong";
+  if (const auto& angle = m.model.options.creaseAngleDegrees; angle && !(*angle >= 0 && *angle <= 180))
+    return fmt::format("the angle of creases is {}, not one of 0 to 180 degrees", *angle);
   return std::nullopt;
 }
 
@@ -145,8 +150,9 @@ std::string toAmtJson(const SurfaceMetadata& metadata) {
   JsonTree object(nlohmann::ordered_json::object());
   json_fields::Writer writer(*object);
   const SurfaceModel& model = metadata.model;
-  const StoredSurface stored{metadata.scale.base(), unlessZero(metadata.positionStep),
-                             unlessZero(model.positionError), model.fileFaces, model.mending.splitFaces};
+  const StoredSurface stored{metadata.scale.base(),           unlessZero(metadata.positionStep),
+                             unlessZero(model.positionError), model.fileFaces,
+                             model.mending.splitFaces,        unlessZero(model.creaseEdges)};
   visitSurfaceMetadata(writer, metadata, stored);
   return (*object).dump(1) + "\n";
 }
@@ -164,6 +170,7 @@ Result<SurfaceMetadata> fromSurfaceJson(std::string_view text) {
   m.positionStep = stored.positionStep.value_or(0);
   m.model.positionError = stored.positionError.value_or(0);
   m.model.fileFaces = stored.fileFaces.value_or(m.model.sourceFaces);
+  m.model.creaseEdges = stored.creaseEdges.value_or(0);
   m.model.mending.splitFaces = stored.splitFaces.value_or(splitFacesOf(m));
   if (problem.empty()) problem = findAmtProblem(m).value_or("");
   if (!problem.empty()) return failure(ErrorCode::corrupt, fmt::format("the metadata is wrong: {}", problem));

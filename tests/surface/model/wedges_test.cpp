@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "surface/shapes.h"
 
@@ -103,6 +106,32 @@ TEST(Wedges, EqualWedgesOfAVertexBecomeOneAndAFanOfManyIsFast) {
   moveToVertices(fan);
   EXPECT_TRUE(fan.validate());
   EXPECT_EQ(fan.wedgeCount, kFaces / 2 + kFaces + 1);
+}
+
+TEST(Wedges, ThatAreEqualAreJoinedWhereTheyAre) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const SurfaceMesh mesh = randomMesh(seed);
+    SurfaceMesh joined = mesh;
+    joinEqualWedges(joined);
+    ASSERT_TRUE(joined.validate());
+    expectSameCorners(mesh, joined);
+    ASSERT_EQ(joined.wedgeAttributes.size(), 2u) << "nothing moves to the vertices";
+    std::map<std::pair<std::uint32_t, std::vector<std::byte>>, std::uint32_t> wedgeOf;
+    for (std::size_t t = 0; t < joined.triangles.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i) {
+        std::vector<std::byte> value = valueAt(joined, t, i, "texcoord");
+        const std::vector<std::byte> normal = valueAt(joined, t, i, "normal");
+        value.insert(value.end(), normal.begin(), normal.end());
+        const std::uint32_t w = joined.wedges[t][i];
+        EXPECT_EQ(wedgeOf.try_emplace({joined.triangles[t][i], value}, w).first->second, w);
+      }
+  }
+  SurfaceMesh bare = randomMesh(1);
+  bare.wedgeAttributes.clear();
+  joinEqualWedges(bare);
+  EXPECT_FALSE(bare.hasWedges());
+  EXPECT_TRUE(bare.validate());
 }
 
 TEST(Wedges, AMeshWithoutCornersIsCopied) {

@@ -178,7 +178,8 @@ Status placePositions(GltfParts& parts, const MeshWriteOptions& options, GltfDir
     parts.asset["extras"]["arete"] = toJson(framed.frame);
     const auto& attributes = parts.mesh.vertexAttributes;
     const bool hasNormals = std::ranges::find(attributes, kNormalName, &Attribute::name) != attributes.end();
-    directions = framed.areAlike && hasNormals ? GltfDirections::turned : GltfDirections::recomputed;
+    directions = (framed.areAlike || options.normalsAreOfFrame) && hasNormals ? GltfDirections::turned
+                                                                              : GltfDirections::recomputed;
     return {};
   }
   ARETE_TRY(LocalPositions local, localPositions(parts.mesh.positions, options.origin));
@@ -255,8 +256,9 @@ Result<SurfaceContent> surfaceContent(MeshRef mesh, const MeshWriteOptions& opti
                                                                .pictures = true});
   take(others);
 
+  if (options.normalsAreOfFrame || (options.packing && options.up == MeshUp::z && !hasLooks(mesh.attributes)))
+    nameTerrain(*parts);
   if (options.packing) {
-    if (options.up == MeshUp::z && !hasLooks(mesh.attributes)) nameTerrain(*parts);
     surface.content = packedContent(*parts, options, lost);
     return surface;
   }

@@ -43,6 +43,8 @@ SurfaceMetadata full() {
                    .unusedVertices = 12,
                    .dropsFlatNormals = true};
   model.options = {.keepsBorders = true, .maxDegree = 13, .thresholdRatio = 1.0 + 1.0 / 11};
+  model.options.creaseAngleDegrees = 100.0 / 3;
+  model.creaseEdges = 15;
   model.levels = 14;
   model.source = "a \"quoted\" name\xfe.ply";
   model.sourceChecksum = "xxh3-128:0123";
@@ -76,6 +78,7 @@ void expectSame(const SurfaceMetadata& a, const SurfaceMetadata& b) {
   EXPECT_EQ(x.mending, y.mending);
   EXPECT_EQ(x.options, y.options);
   EXPECT_EQ(x.levels, y.levels);
+  EXPECT_EQ(x.creaseEdges, y.creaseEdges);
   EXPECT_EQ(x.source, y.source);
   EXPECT_EQ(x.sourceChecksum, y.sourceChecksum);
   EXPECT_EQ(x.crsWkt, y.crsWkt);
@@ -132,6 +135,8 @@ TEST(SurfaceMetadataText, IsRefusedWhereAFieldIsMissingOrOfAnotherType) {
                                                 "/verticalUnit",
                                                 "/up",
                                                 "/build/keepsBorders",
+                                                "/build/creaseAngleDegrees",
+                                                "/build/creaseEdges",
                                                 "/mending/splitFaces",
                                                 "/mending/dropsFlatNormals"};
   int fields = 0;
@@ -176,6 +181,7 @@ TEST(SurfaceMetadataText, IsRefusedWhereNumbersAreOutOfRangeOrWouldWrapAround) {
       {"error scale's base", [](SurfaceMetadata& m) { m.scale = OutwardScale::fromBase(1u << 30); }},
       {"build options", [](SurfaceMetadata& m) { m.model.options.maxDegree = 2; }},
       {"build options", [](SurfaceMetadata& m) { m.model.options.thresholdRatio = 1; }},
+      {"angle of creases", [](SurfaceMetadata& m) { m.model.options.creaseAngleDegrees = 181; }},
   };
   for (const auto& [sentence, change] : changes) {
     SurfaceMetadata m = full();
