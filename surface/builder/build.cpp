@@ -116,6 +116,10 @@ void sortFaces(PreparedSurface& prepared, std::span<const std::uint32_t> order) 
   sorted(prepared.partOf);
 }
 
+/// The parts of the diagonal that attributes are bounded within. A millionth less than what tolerances are
+/// stated as, so that rounding keeps none of them from its distance.
+constexpr std::array<double, 4> kAttributeDistances = {0.000999999, 0.0024999975, 0.004999995, 0.00999999};
+
 class SurfaceBuild {
  public:
   SurfaceBuild(const SurfaceBuildOptions& options, const RunContext& context, std::size_t fewEnough)
@@ -158,6 +162,9 @@ class SurfaceBuild {
     MtRecorder recorder(faceCount, vertexCount, OutwardScale(prepared_.diagonal), metric);
     const AttributeField field =
         options_.boundsAttributes ? AttributeField(prepared_.mesh, prepared_.diagonal) : AttributeField();
+    if (!field.isEmpty())
+      for (const double part : kAttributeDistances)
+        model_.attributeDistances.push_back(part * prepared_.diagonal);
     SurfaceState state{.mesh = live,
                        .original = original,
                        .samples = *samples,
@@ -168,7 +175,8 @@ class SurfaceBuild {
                        .fewEnough = fewEnough_,
                        .unit = std::ldexp(1.0, -std::ilogb(prepared_.diagonal)),
                        .parts = {prepared_.mesh.hasWedges(), prepared_.partOf},
-                       .field = field};
+                       .field = field,
+                       .attributeDistances = model_.attributeDistances};
     model_.boundsLines = state.parts.hasLines();
     // A label is what a triangle inherits: a face of the source, and the wedges of its corners.
     state.labels.resize(faceCount);
@@ -216,17 +224,20 @@ class SurfaceBuild {
       if (mesh.hasWedges()) model_.wedgesOf[t] = labels.wedges;
     };
     const auto& entries = state.field.entries();
+    const std::size_t levels = 1 + model_.attributeDistances.size();
     for (const AttributeField::Entry& e : entries)
       model_.attributeErrors.push_back({e.name, e.inFile, e.ofWedges, e.length,
                                         OutwardScale(1.01 * e.largest),
-                                        std::vector<std::uint16_t>(mt.triangleIdCount(), 0)});
+                                        std::vector<std::uint16_t>(levels * mt.triangleIdCount(), 0)});
     const auto putErrors = [&](std::uint32_t t, const auto& errorOf) {
-      for (std::size_t a = 0; a < entries.size(); ++a)
-        model_.attributeErrors[a].codes[t] = codeOf(errorOf(a), model_.attributeErrors[a].scale);
+      for (std::size_t level = 0; level < levels; ++level)
+        for (std::size_t a = 0; a < entries.size(); ++a)
+          model_.attributeErrors[a].codes[level * mt.triangleIdCount() + t] =
+              codeOf(errorOf(level * entries.size() + a), model_.attributeErrors[a].scale);
     };
     for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) {
       put(t, root.labels[t]);
-      putErrors(t, [&](std::size_t a) { return root.attributeErrors[entries.size() * t + a]; });
+      putErrors(t, [&](std::size_t a) { return root.attributeErrors[levels * entries.size() * t + a]; });
     }
     // Stars were labelled as vertices were removed; nodes have another order, so the vertex finds its labels.
     for (std::uint32_t n = 0; n < mt.nodeCount(); ++n) {

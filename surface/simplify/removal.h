@@ -17,7 +17,9 @@ namespace arete {
 class SurfaceRemover {
  public:
   explicit SurfaceRemover(SurfaceState& state)
-      : s_(state), division_(state.original), attributeBound_(state.original, state.field) {}
+      : s_(state),
+        division_(state.original, state.field),
+        attributeBound_(state.original, state.field, state.attributeDistances) {}
 
   /// Removes v, whose cost is known exactly: fills the hole with the fan of its record, divides the pieces,
   /// records the modification, rewrites the star, updates the records of its link.
@@ -37,7 +39,8 @@ class SurfaceRemover {
   PieceDivision division_;
   AttributeBound attributeBound_;
   std::vector<double> attributeErrors_;
-  std::vector<AcrossSide> rimSides_;  // of the star's rim: what is across, by link corner
+  std::vector<std::array<std::uint32_t, 3>> drawn_;  // by triangle of the floor
+  std::vector<AcrossSide> rimSides_;                 // of the star's rim: what is across, by link corner
   std::array<FloorCodes, kMaxHoleCorners> codes_;
   std::array<RecorderId, kMaxHoleCorners> ceiling_;
   std::array<RemovalId, kMaxHoleCorners> creator_;

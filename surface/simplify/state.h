@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/base/id_array.h"
@@ -38,13 +39,16 @@ struct SurfaceState {
   SurfaceParts parts = {};
   /// What is bounded beside distances, and counts in costs. Empty: nothing is.
   const AttributeField& field;
+  /// Attributes are bounded within a triangle's error, and within each of these where they are more.
+  std::span<const double> attributeDistances = {};
 
   IdArray<SlotId, std::vector<PieceList>> pieces = {};
   LabelArray labels{parts.hasWedges};  ///< by slot of the mesh
   /// Of the triangles of removed stars: by slot of the recorder (MtRecorder::firstSlot()).
   LabelArray starLabels{parts.hasWedges};
-  /// By slot of the mesh, and of the recorder as starLabels; by entry of the field.
-  AttributeErrorArray attributeErrors{field.entries().size()}, starAttributeErrors{field.entries().size()};
+  /// By slot of the mesh, and of the recorder as starLabels; as AttributeBound has them.
+  AttributeErrorArray attributeErrors{field.entries().size() * (1 + attributeDistances.size())},
+      starAttributeErrors{field.entries().size() * (1 + attributeDistances.size())};
   /// By slot of the mesh: its sides that have pieces across them. Empty without wedges or without a field.
   IdArray<SlotId, std::vector<std::array<AcrossSide, 3>>> acrossSides = {};
   /// The first of those of a removed vertex.

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/base/caught_failure.h"
@@ -95,7 +96,9 @@ Result<TakenSurface> takeSurface(const SurfaceModel& model, const CutRequest& re
     for (std::size_t t = 0; t < promised.size(); ++t) taken.front.errors[t] = floatAtLeast(promised[t]);
     taken.isDisplaced = true;
   } else {
-    taken.attributeErrors = statedAttributeErrors(model, taken.cut);
+    const StatedAttributes stated = statedAttributes(model, taken.cut, ofBoth);
+    taken.attributeErrors = statedAttributeErrors(model, stated);
+    taken.error = std::max(taken.error, stated.error);
   }
   // A fit is measured by itself, and may keep what the stored errors cannot promise.
   const bool isKeptByFit = taken.fit && request.maxError && taken.fit->distance <= *request.maxError;
