@@ -17,7 +17,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// What rounding adds: of corners that cuts rounded to the grid of faces, and of sums.
 constexpr double kRounding = 1 + 1e-9;
 
-constexpr int kHalvings = 8;
+/// How the weight of the distance is found: it grows by a factor until the place is near enough, and what
+/// lies between is halved. Whatever it is, the place is one of the ball.
+constexpr double kStep = 16;
+constexpr int kSteps = 12, kHalvings = 4;
 
 Vec3 placeAt(const SpaceTriangle& t, const std::array<double, 3>& shares) {
   return shares[0] * t[0] + shares[1] * t[1] + shares[2] * t[2];
@@ -63,12 +66,6 @@ bool AttributeBound::boundWithin(const Triangle& triangle, const PieceList& piec
 // counts as well, as much as is needed: the best place in the triangle and the ball is one of these.
 std::array<double, 3> AttributeBound::partner(const Triangle& triangle, const Vec3& p, double within,
                                               std::span<const double> wanted) {
-  const std::array<double, 3> nearest = nearestShares(p, triangle.places);
-  const double most = within * within * (1 - 1e-9);
-  if (!(squaredDistance(p, placeAt(triangle.places, nearest)) < most)) {
-    isHeld_ = true;
-    return nearest;
-  }
   const auto a = field_.at(triangle.drawn[0]), b = field_.at(triangle.drawn[1]),
              c = field_.at(triangle.drawn[2]);
   SquaresOverTriangle alike, apart;
@@ -78,10 +75,12 @@ std::array<double, 3> AttributeBound::partner(const Triangle& triangle, const Ve
     for (std::size_t i = e.first; i < e.first + e.measured(); ++i)
       alike.add(weight, b[i] - a[i], c[i] - a[i], wanted[i] - a[i]);
   }
-  if (!std::isfinite(alike.uu + alike.uv + alike.vv + alike.u + alike.v)) return nearest;
+  if (!std::isfinite(alike.uu + alike.uv + alike.vv + alike.u + alike.v))
+    return nearestShares(p, triangle.places);
   const Vec3 ab = triangle.places[1] - triangle.places[0], ac = triangle.places[2] - triangle.places[0],
              ap = p - triangle.places[0];
   apart = {dot(ab, ab), dot(ab, ac), dot(ac, ac), dot(ab, ap), dot(ac, ap)};
+  const double most = within > 0 ? within * within * (1 - 1e-9) : 0;
   const auto isNear = [&](const std::array<double, 3>& shares) {
     return squaredDistance(p, placeAt(triangle.places, shares)) <= most;
   };
@@ -91,10 +90,11 @@ std::array<double, 3> AttributeBound::partner(const Triangle& triangle, const Ve
   std::array<double, 3> best = alike.plus(low, apart).least();
   if (isNear(best)) return best;
   isHeld_ = true;
-  best = nearest;
+  best = nearestShares(p, triangle.places);
+  if (!(squaredDistance(p, placeAt(triangle.places, best)) < most)) return best;
   double high = low;
-  for (int step = 0; step < 24; ++step) {
-    high *= 4;
+  for (int step = 0; step < kSteps; ++step) {
+    high *= kStep;
     const auto shares = alike.plus(high, apart).least();
     if (isNear(shares)) {
       best = shares;
@@ -130,9 +130,11 @@ void AttributeBound::addPiece(const Triangle& triangle, const Piece& piece, std:
   compare(corners, errors);
 }
 
-// The nearest point of the side and how far from there the ball of the error reaches are parts of the side.
-double AttributeBound::partnerOnSide(double nearest, double room, std::span<const double> first,
+// The ball reaches as far on either side of the middle, the nearest point of the side's line, as room says;
+// both are parts of the side. The middle may lie beyond the side's ends.
+double AttributeBound::partnerOnSide(double middle, double room, std::span<const double> first,
                                      std::span<const double> second, std::span<const double> wanted) {
+  const double nearest = std::clamp(middle, 0.0, 1.0);
   double squares = 0, slope = 0;
   for (const AttributeField::Entry& e : field_.entries()) {
     if (e.length == 0) continue;
@@ -145,7 +147,8 @@ double AttributeBound::partnerOnSide(double nearest, double room, std::span<cons
   const double best = slope / squares;
   if (!(squares > 0) || !std::isfinite(best)) return nearest;
   const double inside = std::clamp(best, 0.0, 1.0),
-               moved = std::clamp(inside, nearest - room, nearest + room);
+               moved = room > 0 ? std::clamp(std::clamp(inside, middle - room, middle + room), 0.0, 1.0)
+                                : nearest;
   isHeld_ = isHeld_ || moved != inside;
   return moved;
 }
@@ -178,9 +181,9 @@ void AttributeBound::addAcross(const Triangle& triangle, const Piece& piece, std
     const auto wanted = std::span(ofPiece_).subspan(components * k, components);
     field_.mean(field_.cornersOf(piece.face), sharesOf(piece.polygon[k]), wanted);
     const Vec3 p = placeOf(piece.polygon[k], face);
-    const double nearest = length > 0 ? std::clamp(dot(p - a, along) / length, 0.0, 1.0) : 0;
-    const double room = most - squaredDistance(p, a + nearest * along);
-    const double at = partnerOnSide(nearest, room > 0 && length > 0 ? std::sqrt(room / length) : 0, atFirst,
+    const double middle = length > 0 ? dot(p - a, along) / length : 0;
+    const double room = most - squaredDistance(p, a + middle * along);
+    const double at = partnerOnSide(middle, room > 0 && length > 0 ? std::sqrt(room / length) : 0, atFirst,
                                     atSecond, wanted);
     field_.mean({ends[0], ends[1], ends[1]}, {1 - at, at, 0},
                 std::span(ofTriangle_).subspan(components * k, components));

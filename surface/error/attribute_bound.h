@@ -58,7 +58,7 @@ class AttributeBound {
   /// The shares of the point for a corner of a piece at p.
   std::array<double, 3> partner(const Triangle& triangle, const Vec3& p, double within,
                                 std::span<const double> wanted);
-  double partnerOnSide(double nearest, double room, std::span<const double> first,
+  double partnerOnSide(double middle, double room, std::span<const double> first,
                        std::span<const double> second, std::span<const double> wanted);
   void compare(std::size_t corners, std::span<double> errors);
 
