@@ -122,6 +122,10 @@ void sortFaces(PreparedSurface& prepared, std::span<const std::uint32_t> order) 
   sorted(prepared.partOf);
 }
 
+/// The parts of the diagonal that attributes are bounded within. A millionth less than what tolerances are
+/// stated as, so that rounding keeps none of them from its distance.
+constexpr std::array<double, 4> kAttributeDistances = {0.000999999, 0.0024999975, 0.004999995, 0.00999999};
+
 class SurfaceBuild {
  public:
   SurfaceBuild(const SurfaceBuildOptions& options, const RunContext& context, std::size_t fewEnough,
@@ -174,6 +178,9 @@ class SurfaceBuild {
     metric.origin = low / 2 + high / 2;
     MtRecorder recorder(faceCount, vertexCount, OutwardScale(prepared_.diagonal), metric);
     const AttributeField field = fieldOf();
+    if (options_.boundsAttributes && !field.isEmpty())
+      for (const double part : kAttributeDistances)
+        model_.attributeDistances.push_back(part * prepared_.diagonal);
     SurfaceState state{.mesh = live,
                        .original = original,
                        .samples = *samples,
@@ -185,7 +192,8 @@ class SurfaceBuild {
                        .unit = std::ldexp(1.0, -std::ilogb(prepared_.diagonal)),
                        .parts = {prepared_.mesh.hasWedges(), prepared_.partOf},
                        .field = field,
-                       .boundsAttributes = options_.boundsAttributes};
+                       .boundsAttributes = options_.boundsAttributes,
+                       .attributeDistances = model_.attributeDistances};
     model_.boundsLines = state.parts.hasLines();
     // A label is what a triangle inherits: a face of the source, and the wedges of its corners.
     state.labels.resize(faceCount);
@@ -232,18 +240,22 @@ class SurfaceBuild {
       model_.faceOf[t] = prepared_.faceOf[labels.face];
       if (mesh.hasWedges()) model_.wedgesOf[t] = labels.wedges;
     };
-    const auto entries = std::span(state.field.entries()).first(state.boundedAttributes());
+    const auto entries =
+        std::span(state.field.entries()).first(options_.boundsAttributes ? state.field.entries().size() : 0);
+    const std::size_t levels = 1 + model_.attributeDistances.size();
     for (const AttributeField::Entry& e : entries)
       model_.attributeErrors.push_back({e.name, e.inFile, e.ofWedges, e.length,
                                         OutwardScale(1.01 * e.largest),
-                                        std::vector<std::uint16_t>(mt.triangleIdCount(), 0)});
+                                        std::vector<std::uint16_t>(levels * mt.triangleIdCount(), 0)});
     const auto putErrors = [&](std::uint32_t t, const auto& errorOf) {
-      for (std::size_t a = 0; a < entries.size(); ++a)
-        model_.attributeErrors[a].codes[t] = codeOf(errorOf(a), model_.attributeErrors[a].scale);
+      for (std::size_t level = 0; level < levels; ++level)
+        for (std::size_t a = 0; a < entries.size(); ++a)
+          model_.attributeErrors[a].codes[level * mt.triangleIdCount() + t] =
+              codeOf(errorOf(level * entries.size() + a), model_.attributeErrors[a].scale);
     };
     for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) {
       put(t, root.labels[t]);
-      putErrors(t, [&](std::size_t a) { return root.attributeErrors[entries.size() * t + a]; });
+      putErrors(t, [&](std::size_t a) { return root.attributeErrors[levels * entries.size() * t + a]; });
     }
     // Stars were labelled as vertices were removed; nodes have another order, so the vertex finds its labels.
     for (std::uint32_t n = 0; n < mt.nodeCount(); ++n) {

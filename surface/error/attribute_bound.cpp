@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "engine/base/triangle_shares.h"
+#include "surface/error/piece_division.h"
+#include "surface/error/squares_over_triangle.h"
 
 namespace arete {
 namespace {
@@ -15,6 +17,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// What rounding adds: of corners that cuts rounded to the grid of faces, and of sums.
 constexpr double kRounding = 1 + 1e-9;
 
+/// How the weight of the distance is found: it grows by a factor until the place is near enough, and what
+/// lies between is halved. Whatever it is, the place is one of the ball.
+constexpr double kStep = 16;
+constexpr int kSteps = 12, kHalvings = 4;
+
 Vec3 placeAt(const SpaceTriangle& t, const std::array<double, 3>& shares) {
   return shares[0] * t[0] + shares[1] * t[1] + shares[2] * t[2];
 }
@@ -22,7 +29,24 @@ Vec3 placeAt(const SpaceTriangle& t, const std::array<double, 3>& shares) {
 }  // namespace
 
 void AttributeBound::bound(const Triangle& triangle, const PieceList& pieces, std::span<double> errors) {
+  const std::size_t count = field_.entries().size();
+  Triangle farther = triangle;
+  bool goesFarther = true;
+  for (std::size_t level = 0; level <= distances_.size(); ++level) {
+    const auto own = errors.subspan(level * count, count);
+    if (level > 0) {
+      std::ranges::copy(errors.subspan((level - 1) * count, count), own.begin());
+      if (!goesFarther || !(distances_[level - 1] > farther.error)) continue;
+      farther.error = distances_[level - 1];
+    }
+    goesFarther = boundWithin(farther, pieces, own);
+  }
+}
+
+bool AttributeBound::boundWithin(const Triangle& triangle, const PieceList& pieces,
+                                 std::span<double> errors) {
   std::ranges::fill(errors, 0.0);
+  isHeld_ = false;
   std::uint32_t cuts = 0;
   pieces.forEach([&](const Piece& piece) {
     cuts = std::max(cuts, piece.cuts);
@@ -34,54 +58,61 @@ void AttributeBound::bound(const Triangle& triangle, const PieceList& pieces, st
   // Between pieces that were cut there are gaps of a few units of the grid.
   for (std::size_t k = 0; k < errors.size(); ++k)
     if (cuts > 0) errors[k] += 4.0 * cuts / FacePoint::kOne * field_.entries()[k].largest;
+  return isHeld_;
 }
 
 // Where the attributes are alike is found by least squares over the two coordinates of the triangle, each
-// attribute weighed by its length, and the point goes there on a straight way, until it leaves the triangle
-// or is farther from p than the error.
-std::array<double, 3> AttributeBound::partner(const Triangle& triangle, const Vec3& p,
+// attribute weighed by its length. Where that place is farther from p than the error, the distance from p
+// counts as well, as much as is needed: the best place in the triangle and the ball is one of these.
+std::array<double, 3> AttributeBound::partner(const Triangle& triangle, const Vec3& p, double within,
                                               std::span<const double> wanted) {
-  const std::array<double, 3> nearest = nearestShares(p, triangle.places);
-  const Vec3 q = placeAt(triangle.places, nearest);
-  const double room = triangle.error * triangle.error - squaredDistance(p, q);
-  if (!(room > 0)) return nearest;
   const auto a = field_.at(triangle.drawn[0]), b = field_.at(triangle.drawn[1]),
              c = field_.at(triangle.drawn[2]);
-  double m00 = 0, m01 = 0, m11 = 0, r0 = 0, r1 = 0;
+  SquaresOverTriangle alike, apart;
   for (const AttributeField::Entry& e : field_.entries()) {
     if (e.length == 0) continue;
     const double weight = e.weight();
-    for (std::size_t i = e.first; i < e.first + e.measured(); ++i) {
-      const double du = b[i] - a[i], dv = c[i] - a[i];
-      const double off = wanted[i] - (nearest[0] * a[i] + nearest[1] * b[i] + nearest[2] * c[i]);
-      m00 += weight * du * du;
-      m01 += weight * du * dv;
-      m11 += weight * dv * dv;
-      r0 += weight * du * off;
-      r1 += weight * dv * off;
+    for (std::size_t i = e.first; i < e.first + e.measured(); ++i)
+      alike.add(weight, b[i] - a[i], c[i] - a[i], wanted[i] - a[i]);
+  }
+  if (!std::isfinite(alike.uu + alike.uv + alike.vv + alike.u + alike.v))
+    return nearestShares(p, triangle.places);
+  const Vec3 ab = triangle.places[1] - triangle.places[0], ac = triangle.places[2] - triangle.places[0],
+             ap = p - triangle.places[0];
+  apart = {dot(ab, ab), dot(ab, ac), dot(ac, ac), dot(ab, ap), dot(ac, ap)};
+  const double most = within > 0 ? within * within * (1 - 1e-9) : 0;
+  const auto isNear = [&](const std::array<double, 3>& shares) {
+    return squaredDistance(p, placeAt(triangle.places, shares)) <= most;
+  };
+  // A little of the distance in space, so that directions in which nothing changes are not taken.
+  constexpr double kSpace = 1e-6;
+  double low = kSpace;
+  std::array<double, 3> best = alike.plus(low, apart).least();
+  if (isNear(best)) return best;
+  isHeld_ = true;
+  best = nearestShares(p, triangle.places);
+  if (!(squaredDistance(p, placeAt(triangle.places, best)) < most)) return best;
+  double high = low;
+  for (int step = 0; step < kSteps; ++step) {
+    high *= kStep;
+    const auto shares = alike.plus(high, apart).least();
+    if (isNear(shares)) {
+      best = shares;
+      break;
+    }
+    low = high;
+  }
+  for (int step = 0; step < kHalvings; ++step) {
+    const double middle = std::sqrt(low * high);
+    const auto shares = alike.plus(middle, apart).least();
+    if (isNear(shares)) {
+      best = shares;
+      high = middle;
+    } else {
+      low = middle;
     }
   }
-  // A little of the distance in space, so that directions in which nothing changes are not taken.
-  const Vec3 ab = triangle.places[1] - triangle.places[0], ac = triangle.places[2] - triangle.places[0];
-  constexpr double kSpace = 1e-6;
-  m00 += kSpace * dot(ab, ab);
-  m01 += kSpace * dot(ab, ac);
-  m11 += kSpace * dot(ac, ac);
-  const double determinant = m00 * m11 - m01 * m01;
-  if (!(determinant > 0) || !std::isfinite(determinant)) return nearest;
-  const double du = (r0 * m11 - r1 * m01) / determinant, dv = (r1 * m00 - r0 * m01) / determinant;
-  const std::array<double, 3> step = {-du - dv, du, dv};
-  double part = 1;
-  for (std::size_t i = 0; i < 3; ++i)
-    if (step[i] < 0) part = std::min(part, nearest[i] / -step[i]);
-  // |p - q - s d|^2 <= error^2.
-  const Vec3 d = du * ab + dv * ac;
-  const double dd = dot(d, d), pd = dot(q - p, d);
-  if (dd > 0) part = std::min(part, (-pd + std::sqrt(std::max(0.0, pd * pd + dd * room))) / dd * (1 - 1e-9));
-  if (!(part > 0)) return nearest;
-  std::array<double, 3> moved;
-  for (std::size_t i = 0; i < 3; ++i) moved[i] = std::max(0.0, nearest[i] + part * step[i]);
-  return moved;
+  return best;
 }
 
 void AttributeBound::addPiece(const Triangle& triangle, const Piece& piece, std::span<double> errors) {
@@ -89,13 +120,37 @@ void AttributeBound::addPiece(const Triangle& triangle, const Piece& piece, std:
   ofPiece_.resize(components * corners);
   ofTriangle_.resize(components * corners);
   const SpaceTriangle face = original_.face(piece.face);
+  const double within = triangle.error - roundingOf(original_, face, piece.isWhole() ? 0 : piece.cuts);
   for (std::size_t i = 0; i < corners; ++i) {
     const auto wanted = std::span(ofPiece_).subspan(components * i, components);
     field_.mean(field_.cornersOf(piece.face), sharesOf(piece.polygon[i]), wanted);
-    const std::array<double, 3> shares = partner(triangle, placeOf(piece.polygon[i], face), wanted);
+    const std::array<double, 3> shares = partner(triangle, placeOf(piece.polygon[i], face), within, wanted);
     field_.mean(triangle.drawn, shares, std::span(ofTriangle_).subspan(components * i, components));
   }
   compare(corners, errors);
+}
+
+// The ball reaches as far on either side of the middle, the nearest point of the side's line, as room says;
+// both are parts of the side. The middle may lie beyond the side's ends.
+double AttributeBound::partnerOnSide(double middle, double room, std::span<const double> first,
+                                     std::span<const double> second, std::span<const double> wanted) {
+  const double nearest = std::clamp(middle, 0.0, 1.0);
+  double squares = 0, slope = 0;
+  for (const AttributeField::Entry& e : field_.entries()) {
+    if (e.length == 0) continue;
+    for (std::size_t i = e.first; i < e.first + e.measured(); ++i) {
+      const double d = second[i] - first[i];
+      squares += e.weight() * d * d;
+      slope += e.weight() * d * (wanted[i] - first[i]);
+    }
+  }
+  const double best = slope / squares;
+  if (!(squares > 0) || !std::isfinite(best)) return nearest;
+  const double inside = std::clamp(best, 0.0, 1.0),
+               moved = room > 0 ? std::clamp(std::clamp(inside, middle - room, middle + room), 0.0, 1.0)
+                                : nearest;
+  isHeld_ = isHeld_ || moved != inside;
+  return moved;
 }
 
 // The triangle beyond the side has the side's ends as the chart of the piece has them.
@@ -119,11 +174,17 @@ void AttributeBound::addAcross(const Triangle& triangle, const Piece& piece, std
   const SpaceTriangle face = original_.face(piece.face);
   const Vec3 a = triangle.places[i], along = triangle.places[j] - a;
   const double length = dot(along, along);
+  const auto atFirst = field_.at(ends[0]), atSecond = field_.at(ends[1]);
+  const double within = triangle.error - roundingOf(original_, face, piece.isWhole() ? 0 : piece.cuts);
+  const double most = within > 0 ? within * within * (1 - 1e-9) : 0;
   for (std::size_t k = 0; k < corners; ++k) {
-    field_.mean(field_.cornersOf(piece.face), sharesOf(piece.polygon[k]),
-                std::span(ofPiece_).subspan(components * k, components));
+    const auto wanted = std::span(ofPiece_).subspan(components * k, components);
+    field_.mean(field_.cornersOf(piece.face), sharesOf(piece.polygon[k]), wanted);
     const Vec3 p = placeOf(piece.polygon[k], face);
-    const double at = length > 0 ? std::clamp(dot(p - a, along) / length, 0.0, 1.0) : 0;
+    const double middle = length > 0 ? dot(p - a, along) / length : 0;
+    const double room = most - squaredDistance(p, a + middle * along);
+    const double at = partnerOnSide(middle, room > 0 && length > 0 ? std::sqrt(room / length) : 0, atFirst,
+                                    atSecond, wanted);
     field_.mean({ends[0], ends[1], ends[1]}, {1 - at, at, 0},
                 std::span(ofTriangle_).subspan(components * k, components));
   }

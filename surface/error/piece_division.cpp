@@ -31,23 +31,9 @@ Vec3 unitOrZero(const Vec3& a) {
   return length > 0 ? a / length : a;
 }
 
-/// Fills `heights` with those of the corners over a plane, whose normal need not have length 1.
-/// @return the least and the greatest of them and 0
-template <class Plane>
-std::pair<double, double> heightsOver(const Plane& plane, std::span<const FacePoint> polygon,
-                                      const SpaceTriangle& face, std::vector<double>& heights) {
-  heights.clear();
-  double low = 0, high = 0;
-  for (const FacePoint& p : polygon) {
-    const double height = dot(plane.normal, placeOf(p, face) - plane.point);
-    heights.push_back(height);
-    low = std::min(low, height);
-    high = std::max(high, height);
-  }
-  return {low, high};
-}
-
 }  // namespace
+
+const AttributeField PieceDivision::kNoAttributes;
 
 void PieceDivision::clear() {
   parts_.clear();
@@ -124,15 +110,95 @@ bool PieceDivision::join(std::span<const Part> some, Part& into) {
   return twiceArea(hull_) <= apart + std::int64_t{FacePoint::kOne} * (cuts + 4);
 }
 
-PieceDivision::Whole PieceDivision::bestWhole(const SpaceTriangle& face, std::span<const FacePoint> polygon,
-                                              double* least) const {
+void PieceDivision::squaresAt(std::uint32_t number, const FacePoint& p, const Vec3& place,
+                              FloorDistance::Squares& to) {
+  if (joint_.size() == 0) {
+    floor_.squares(place, to);
+    return;
+  }
+  wanted_.resize(field_.components());
+  field_.mean(field_.cornersOf(number), sharesOf(p), wanted_);
+  for (std::size_t lane = 0; lane < joint_.size(); ++lane) to[lane] = joint_.squared(lane, place, wanted_);
+}
+
+std::pair<double, double> PieceDivision::heightsOver(const Cut& plane, std::span<const FacePoint> polygon,
+                                                     std::uint32_t number, const SpaceTriangle& face,
+                                                     std::vector<double>& heights) {
+  heights.clear();
+  double low = 0, high = 0;
+  for (const FacePoint& p : polygon) {
+    double height = dot(plane.normal, placeOf(p, face) - plane.point);
+    if (joint_.size() > 0) {
+      const std::size_t count = field_.components();
+      wanted_.resize(count);
+      field_.mean(field_.cornersOf(number), sharesOf(p), wanted_);
+      const double *const point = ofPlanes_.data() + plane.attributes, *const normal = point + count;
+      for (std::size_t i = 0; i < count; ++i)
+        if (normal[i] != 0) height += normal[i] * (wanted_[i] - point[i]);
+    }
+    heights.push_back(height);
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  return {low, high};
+}
+
+void PieceDivision::countAttributes(Cut& cut, const HoleTriangulation& floor, std::span<const Vec3> corners,
+                                    const FloorJoins::Diagonal& diagonal, bool isForthBelow) {
+  const std::size_t count = field_.components();
+  cut.attributes = ofPlanes_.size();
+  ofPlanes_.resize(ofPlanes_.size() + 2 * count, 0.0);
+  double* const normal = ofPlanes_.data() + cut.attributes + count;
+  Vec3 inSpace{};
+  for (const bool isForth : {true, false}) {
+    const std::size_t t = isForth ? diagonal.forth.triangle : diagonal.back.triangle;
+    std::array<std::size_t, 3> at{};  // the ends, and the third corner
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint8_t corner = floor.triangles[t][c];
+      at[corner == diagonal.from ? 0 : corner == diagonal.to ? 1 : 2] = c;
+    }
+    const auto place = [&](std::size_t i) { return corners[floor.triangles[t][at[i]]]; };
+    const auto values = [&](std::size_t i) { return field_.at(drawn_[t][at[i]]); };
+    const Vec3 along = place(1) - place(0), up = place(2) - place(0);
+    double length = dot(along, along), common = dot(along, up);
+    const auto forEach = [&](const auto& visit) {
+      for (const AttributeField::Entry& e : field_.entries()) {
+        if (e.length == 0) continue;
+        for (std::size_t i = e.first; i < e.first + e.measured(); ++i) {
+          const double a = values(0)[i], onEdge = values(1)[i] - a, off = values(2)[i] - a;
+          if (std::isfinite(onEdge + off)) visit(i, e.weight(), onEdge, off);
+        }
+      }
+    };
+    forEach([&](std::size_t, double weight, double onEdge, double off) {
+      length += weight * onEdge * onEdge;
+      common += weight * onEdge * off;
+    });
+    const double share = length > 0 ? common / length : 0;
+    const Vec3 across = up - share * along;
+    double squared = dot(across, across);
+    forEach([&](std::size_t, double weight, double onEdge, double off) {
+      squared += weight * (off - share * onEdge) * (off - share * onEdge);
+    });
+    if (!(squared > 0)) continue;
+    const double towards = (isForth == isForthBelow ? -1 : 1) / std::sqrt(squared);
+    inSpace = inSpace + towards * across;
+    forEach([&](std::size_t i, double weight, double onEdge, double off) {
+      normal[i] += towards * weight * (off - share * onEdge);
+    });
+    std::ranges::copy(values(0), ofPlanes_.begin() + std::ptrdiff_t(cut.attributes));
+  }
+  cut.normal = inSpace;
+}
+
+PieceDivision::Whole PieceDivision::bestWhole(std::uint32_t number, const SpaceTriangle& face,
+                                              std::span<const FacePoint> polygon, double* least) {
   std::array<double, kMaxHoleCorners> most{};
   double leastOfAll = 0;
   FloorDistance::Squares squares;
   for (const FacePoint& p : polygon) {
-    const Vec3 place = placeOf(p, face);
     double nearest = std::numeric_limits<double>::infinity();
-    floor_.squares(place, squares);
+    squaresAt(number, p, placeOf(p, face), squares);
     for (int t = 0; t < floor_.size(); ++t) {
       most[t] = std::max(most[t], squares[t]);
       nearest = std::min(nearest, squares[t]);
@@ -169,26 +235,28 @@ int PieceDivision::planCuts(const HoleTriangulation& floor, const FloorJoins& jo
   const Vec3 along = corners[diagonal.to] - corners[diagonal.from];
   const Vec3 normal = unitOrZero(floor_.normal(laneOf_[diagonal.forth.triangle])) +
                       unitOrZero(floor_.normal(laneOf_[diagonal.back.triangle]));
-  Cut cut{corners[diagonal.from], cross(normal, along), 0, 0};
+  Cut cut{corners[diagonal.from], cross(normal, along), 0, 0, 0};
+  if (joint_.size() > 0)
+    countAttributes(cut, floor, corners, diagonal, (bestBelow >> diagonal.forth.triangle & 1) != 0);
   cut.below = planCuts(floor, joins, corners, bestBelow);
   cut.above = planCuts(floor, joins, corners, members & ~bestBelow);
   tree_.push_back(cut);
   return static_cast<int>(tree_.size() - 1);
 }
 
-void PieceDivision::cutAlong(int node, std::size_t depth, const SpaceTriangle& face,
+void PieceDivision::cutAlong(int node, std::size_t depth, std::uint32_t number, const SpaceTriangle& face,
                              const FacePolygon& polygon, std::uint32_t cuts) {
   if (node < 0) {
     if (leafCount_ == leaves_.size()) leaves_.emplace_back();
     Leaf& leaf = leaves_[leafCount_++];
     leaf.polygon = polygon;
     leaf.cuts = cuts;
-    leaf.whole = bestWhole(face, polygon, nullptr);
+    leaf.whole = bestWhole(number, face, polygon, nullptr);
     return;
   }
   const Cut plane = tree_[static_cast<std::size_t>(node)];
   Halves& halves = halves_[depth];
-  const auto [low, high] = heightsOver(plane, polygon, face, halves.heights);
+  const auto [low, high] = heightsOver(plane, polygon, number, face, halves.heights);
   bool isBelow = low < 0;
   if (low < 0 && high > 0) {
     cut(polygon, halves.heights, halves.below, halves.above);
@@ -196,17 +264,17 @@ void PieceDivision::cutAlong(int node, std::size_t depth, const SpaceTriangle& f
     // the rest it would count as if it were far from there.
     const bool hasBelow = twiceArea(halves.below) > 0, hasAbove = twiceArea(halves.above) > 0;
     if (hasBelow && hasAbove) {
-      cutAlong(plane.below, depth + 1, face, halves.below, cuts + 1);
-      cutAlong(plane.above, depth + 1, face, halves.above, cuts + 1);
+      cutAlong(plane.below, depth + 1, number, face, halves.below, cuts + 1);
+      cutAlong(plane.above, depth + 1, number, face, halves.above, cuts + 1);
       return;
     }
     isBelow = hasBelow || (!hasAbove && -low > high);
   }
-  cutAlong(isBelow ? plane.below : plane.above, depth + 1, face, polygon, cuts);
+  cutAlong(isBelow ? plane.below : plane.above, depth + 1, number, face, polygon, cuts);
 }
 
 /// @param enough the squared distance below which a leaf is not cut
-void PieceDivision::cutFurther(std::size_t at, const SpaceTriangle& face, double enough,
+void PieceDivision::cutFurther(std::size_t at, std::uint32_t number, const SpaceTriangle& face, double enough,
                                std::uint32_t depth) {
   constexpr std::uint32_t kDeepest = 6;
   // A cut adds rounding, which should stay well below what it gains.
@@ -219,11 +287,12 @@ void PieceDivision::cutFurther(std::size_t at, const SpaceTriangle& face, double
   Halves& halves = halves_[0];
   for (const Cut& plane : tree_) {
     const FacePolygon& polygon = leaves_[at].polygon;
-    const auto [low, high] = heightsOver(plane, polygon, face, halves.heights);
+    const auto [low, high] = heightsOver(plane, polygon, number, face, halves.heights);
     if (!(low < 0 && high > 0)) continue;
     cut(polygon, halves.heights, halves.below, halves.above);
     if (!(twiceArea(halves.below) > 0 && twiceArea(halves.above) > 0)) continue;
-    const Whole one = bestWhole(face, halves.below, nullptr), other = bestWhole(face, halves.above, nullptr);
+    const Whole one = bestWhole(number, face, halves.below, nullptr),
+                other = bestWhole(number, face, halves.above, nullptr);
     const double worst = std::max(one.squared, other.squared);
     const bool isFirst = !isCut && worst <= least && std::min(one.squared, other.squared) <= enough;
     if (!(worst < least) && !isFirst) continue;
@@ -237,8 +306,8 @@ void PieceDivision::cutFurther(std::size_t at, const SpaceTriangle& face, double
   const std::size_t next = leafCount_++;
   leaves_[at] = std::move(below);
   leaves_[next] = std::move(above);
-  cutFurther(at, face, enough, depth + 1);
-  cutFurther(next, face, enough, depth + 1);
+  cutFurther(at, number, face, enough, depth + 1);
+  cutFurther(next, number, face, enough, depth + 1);
 }
 
 void PieceDivision::assign(std::uint32_t face, std::uint32_t cuts, std::span<const FacePoint> polygon,
@@ -249,13 +318,14 @@ void PieceDivision::assign(std::uint32_t face, std::uint32_t cuts, std::span<con
   const double rounding = roundingOf(original_, place, isWholeFace(polygon) ? 0 : cuts);
   // A sum over the polygon's middle and corners that is exact for a triangle and a quadratic function.
   Vec3 middle;
-  double atCorners = 0;
+  double atCorners = 0, most = 0;
   FloorDistance::Squares squares;
   for (const FacePoint& p : polygon) {
     const Vec3 at = placeOf(p, place);
     middle = middle + at;
     floor_.squares(at, squares);
     atCorners += squares[lane];
+    most = std::max(most, squares[lane]);
   }
   const double count = double(polygon.size()), unit = 1.0 / FacePoint::kOne;
   const double area =
@@ -263,7 +333,7 @@ void PieceDivision::assign(std::uint32_t face, std::uint32_t cuts, std::span<con
   integrals_[f].area += area;
   floor_.squares(middle / count, squares);
   integrals_[f].squared += area * (0.75 * squares[lane] + 0.25 * atCorners / count);
-  bounds_[f] = std::max(bounds_[f], std::sqrt(whole.squared) * (1 + 1e-12) + rounding);
+  bounds_[f] = std::max(bounds_[f], std::sqrt(most) * (1 + 1e-12) + rounding);
 }
 
 /// The pieces are measured by their distances from the segment between a and b: the triangle contains it, so
@@ -288,15 +358,19 @@ void PieceDivision::giveAcross(int f, std::uint8_t across, const Vec3& a, const 
 }
 
 void PieceDivision::divide(std::span<const Vec3> corners, const HoleTriangulation& floor,
-                           std::uint32_t members) {
+                           std::uint32_t members, std::span<const std::array<std::uint32_t, 3>> drawn) {
   joinParts();
   floor_.clear();
+  joint_.clear();
+  ofPlanes_.clear();
+  drawn_ = drawn;
   for (int t = 0; t < floor.size; ++t) {
     if ((members >> t & 1) == 0) continue;
     const auto& [i, j, m] = floor.triangles[t];
     laneOf_[t] = static_cast<std::uint8_t>(floor_.size());
     triangleOf_[floor_.size()] = static_cast<std::uint8_t>(t);
     floor_.add({corners[i], corners[j], corners[m]});
+    if (!drawn.empty()) joint_.add({corners[i], corners[j], corners[m]}, drawn[static_cast<std::size_t>(t)]);
     lists_[t].clear();
     bounds_[t] = 0;
     integrals_[t] = {};
@@ -305,7 +379,7 @@ void PieceDivision::divide(std::span<const Vec3> corners, const HoleTriangulatio
   double anyway = 0;
   for (Part& part : parts_) {
     double least = 0;
-    part.whole = bestWhole(original_.face(part.face), polygonOf(part), &least);
+    part.whole = bestWhole(part.face, original_.face(part.face), polygonOf(part), &least);
     anyway = std::max(anyway, least);
   }
   tree_.clear();
@@ -324,9 +398,9 @@ void PieceDivision::divide(std::span<const Vec3> corners, const HoleTriangulatio
     }
     leafCount_ = 0;
     hull_.assign(polygonOf(part).begin(), polygonOf(part).end());
-    cutAlong(root, 0, face, hull_, part.cuts);
+    cutAlong(root, 0, part.face, face, hull_, part.cuts);
     for (std::size_t i = 0, count = leafCount_; i < count; ++i)
-      cutFurther(i, face, kNearEnough * kNearEnough * anyway, 0);
+      cutFurther(i, part.face, face, kNearEnough * kNearEnough * anyway, 0);
     // Cuts are kept only if they make the part's largest distance smaller; otherwise the part stays whole and
     // the lists stay short.
     double worst = 0;

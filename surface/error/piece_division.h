@@ -5,12 +5,15 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/mt/hole_limit.h"
 #include "engine/simplify/floor_joins.h"
 #include "engine/simplify/hole_triangles.h"
+#include "surface/error/attribute_field.h"
 #include "surface/error/floor_distance.h"
+#include "surface/error/joint_distance.h"
 #include "surface/error/original.h"
 #include "surface/error/pieces.h"
 
@@ -34,7 +37,11 @@ inline double roundingOf(const OriginalSurface& original, const SpaceTriangle& f
 /// stay exact, but for rounding.
 class PieceDivision {
  public:
-  explicit PieceDivision(const OriginalSurface& original) : original_(original) {}
+  explicit PieceDivision(const OriginalSurface& original) : PieceDivision(original, kNoAttributes) {}
+  /// @param field attributes that count in what belongs to which triangle, where divide() knows the
+  /// triangles'
+  PieceDivision(const OriginalSurface& original, const AttributeField& field)
+      : original_(original), field_(field), joint_(field) {}
 
   /// Starts with no pieces.
   void clear();
@@ -54,7 +61,10 @@ class PieceDivision {
   }
   /// @param members of the floor, a bit for each triangle: those that the pieces may belong to. They fill a
   ///        polygon. Precondition: not empty.
-  void divide(std::span<const Vec3> corners, const HoleTriangulation& floor, std::uint32_t members);
+  /// @param drawn by triangle of the floor, the corners as the field has them. Empty: attributes do not
+  /// count.
+  void divide(std::span<const Vec3> corners, const HoleTriangulation& floor, std::uint32_t members,
+              std::span<const std::array<std::uint32_t, 3>> drawn = {});
 
   /// Gives the pieces to the side between a and b of a triangle of the floor (Piece::across): they are within
   /// its bound of that. After divide() with the triangle as a member.
@@ -85,6 +95,7 @@ class PieceDivision {
   struct Cut {
     Vec3 point, normal;
     int below, above;
+    std::size_t attributes;  ///< where attributes count: in ofPlanes_, a point's and the normal's
   };
   struct Integral {
     double squared = 0, area = 0;
@@ -102,17 +113,34 @@ class PieceDivision {
   /// Makes the convex hull of pieces of one face. @return whether they fill it.
   bool join(std::span<const Part> some, Part& into);
   /// @param least receives a bound from below of what any division reaches; may be null.
-  Whole bestWhole(const SpaceTriangle& face, std::span<const FacePoint> polygon, double* least) const;
+  Whole bestWhole(std::uint32_t number, const SpaceTriangle& face, std::span<const FacePoint> polygon,
+                  double* least);
+  /// By lane, of a point of a face: where attributes count, with them.
+  void squaresAt(std::uint32_t number, const FacePoint& p, const Vec3& place, FloorDistance::Squares& to);
+  /// Of the corners of a polygon over a cut's plane: the least and the greatest of them and 0.
+  std::pair<double, double> heightsOver(const Cut& plane, std::span<const FacePoint> polygon,
+                                        std::uint32_t number, const SpaceTriangle& face,
+                                        std::vector<double>& heights);
+  /// The plane through a diagonal that is as far from the triangle above as from the one below, attributes
+  /// counted.
+  void countAttributes(Cut& cut, const HoleTriangulation& floor, std::span<const Vec3> corners,
+                       const FloorJoins::Diagonal& diagonal, bool isForthBelow);
   /// Adds the cuts between some triangles to the tree. @return its root.
   int planCuts(const HoleTriangulation& floor, const FloorJoins& joins, std::span<const Vec3> corners,
                std::uint32_t members);
-  void cutAlong(int node, std::size_t depth, const SpaceTriangle& face, const FacePolygon& polygon,
-                std::uint32_t cuts);
-  void cutFurther(std::size_t at, const SpaceTriangle& face, double enough, std::uint32_t depth);
+  void cutAlong(int node, std::size_t depth, std::uint32_t number, const SpaceTriangle& face,
+                const FacePolygon& polygon, std::uint32_t cuts);
+  void cutFurther(std::size_t at, std::uint32_t number, const SpaceTriangle& face, double enough,
+                  std::uint32_t depth);
   void assign(std::uint32_t face, std::uint32_t cuts, std::span<const FacePoint> polygon,
               const SpaceTriangle& place, const Whole& whole);
 
+  static const AttributeField kNoAttributes;
   const OriginalSurface& original_;
+  const AttributeField& field_;
+  JointDistance joint_;  ///< of the members; empty where attributes do not count
+  std::span<const std::array<std::uint32_t, 3>> drawn_;
+  std::vector<double> wanted_, ofPlanes_;
   std::vector<Part> parts_;
   FacePolygon points_, hull_;
   FloorDistance floor_;  // of the members

@@ -22,6 +22,8 @@ struct ReplacedStar {
   std::span<const Vec3> corners;
   const HoleTriangulation& floor;
   const StarLine& line;
+  /// By triangle of the floor, where attributes count (PieceDivision::divide()).
+  std::span<const std::array<std::uint32_t, 3>> drawn = {};
 };
 
 /// Divides the pieces of a star among the floor (PieceDivision), each side of a line by itself. Where a side
@@ -78,7 +80,7 @@ void divideStar(PieceDivision& division, const ReplacedStar& star, const PiecesO
     const std::uint32_t own = members[static_cast<std::size_t>(side)];
     if (own == 0) continue;
     gather(side);
-    division.divide(star.corners, star.floor, own);
+    division.divide(star.corners, star.floor, own, star.drawn);
   }
   if (star.line.isThere())
     for (const int side : {0, 1})

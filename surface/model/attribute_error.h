@@ -10,9 +10,10 @@
 
 namespace arete {
 
-/// How far an attribute of the source is from what each triangle of an MT has, where both are as near as the
-/// error of the triangle says: for every point x of what the triangle stands for there is one point y of it,
-/// the same for all attributes, with |x - y| at most the error and the attributes as far apart as this says.
+/// How far an attribute of the source is from what each triangle of an MT has, where both are near: for every
+/// point x of what the triangle stands for there is one point y of it, the same for all attributes, with
+/// |x - y| at most a distance and the attributes as far apart as this says. At level 0 the distance is the
+/// error of the triangle, at the others at most the larger of that and SurfaceModel::attributeDistances.
 /// In the unit of AttributeDistance (surface/attributes/attribute_distance.h); texture coordinates in their
 /// own unit.
 struct AttributeErrors {
@@ -22,12 +23,15 @@ struct AttributeErrors {
   /// The length that a unit of the distance counts as, where attributes are weighed against the shape.
   double length = 0;
   OutwardScale scale;
-  std::vector<std::uint16_t> codes;  ///< by triangle id; zero of slots that are no triangle
+  /// By level, by triangle id; zero of slots that are no triangle.
+  std::vector<std::uint16_t> codes;
 
   /// Of a triangle of which no bound is known, or of labels that differ.
   static constexpr OutwardScale::Code kUnbounded = OutwardScale::kMaxCode;
-  double of(std::uint32_t triangle) const {
-    const OutwardScale::Code code = codes[triangle];
+  double of(std::uint32_t triangle) const { return atSlot(triangle); }
+  /// @param slot level * triangle ids + triangle
+  double atSlot(std::size_t slot) const {
+    const OutwardScale::Code code = codes[slot];
     return code == kUnbounded ? std::numeric_limits<double>::infinity() : double(scale.decode(code));
   }
 

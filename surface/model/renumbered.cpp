@@ -59,7 +59,16 @@ SurfaceModel renumbered(const SurfaceModel& model, const MultiTriangulation& mt,
   if (!model.displacement.isEmpty())
     result.displacement = {reordered(model.displacement.directions, vertexOf),
                            reordered(model.displacement.reaches, triangleOf)};
-  for (AttributeErrors& errors : result.attributeErrors) errors.codes = reordered(errors.codes, triangleOf);
+  const std::size_t ids = model.mt.triangleIdCount();
+  for (AttributeErrors& errors : result.attributeErrors) {
+    std::vector<std::uint16_t> all;
+    for (std::size_t at = 0; at < errors.codes.size(); at += ids) {
+      const auto level = std::span(errors.codes).subspan(at, ids);
+      const auto codes = reordered(std::vector<std::uint16_t>(level.begin(), level.end()), triangleOf);
+      all.insert(all.end(), codes.begin(), codes.end());
+    }
+    errors.codes = std::move(all);
+  }
   reorder(result.attributes.vertexAttributes, vertexOf);
   if (!model.hasWedges()) return result;
   result.wedgesOf = reordered(model.wedgesOf, triangleOf);

@@ -53,8 +53,12 @@ Status SurfaceModel::validate() const {
                                   displacement.reaches.size() != mt.triangleIdCount()))
     return refuse("its displacement is of another number of vertices or triangles");
   for (const AttributeErrors& errors : attributeErrors)
-    if (errors.codes.size() != mt.triangleIdCount())
+    if (errors.codes.size() != (1 + attributeDistances.size()) * mt.triangleIdCount())
       return refuse(fmt::format("the errors of {} are of another number of triangles", errors.name));
+  for (std::size_t i = 0; i < attributeDistances.size(); ++i)
+    if (!(attributeDistances[i] > (i > 0 ? attributeDistances[i - 1] : 0)) ||
+        !std::isfinite(attributeDistances[i]))
+      return refuse("the distances of its attribute errors do not rise");
   if (hasWedges() == (a.wedgeCount == 0))
     return refuse("wedges are counted and not listed, or the other way");
   for (const Attribute& attribute : a.vertexAttributes)

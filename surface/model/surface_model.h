@@ -82,6 +82,8 @@ struct SurfaceModel {
 
   /// Of attributes of vertices and wedges, where the build has bounded them.
   std::vector<AttributeErrors> attributeErrors;
+  /// Of their levels from 1 on: rising, positive.
+  std::vector<double> attributeDistances;
 
   /// Where coarse cuts are drawn; empty: where the source's vertices are.
   SurfaceDisplacement displacement;

@@ -11,22 +11,24 @@ namespace arete {
 /// The errors of several attributes for many triangles, zero until set. Without attributes no memory.
 class AttributeErrorArray {
  public:
-  explicit AttributeErrorArray(std::size_t attributes) : attributes_(attributes) {}
+  explicit AttributeErrorArray(std::size_t perTriangle) : perTriangle_(perTriangle) {}
 
-  void reserve(std::size_t size) { errors_.reserve(size * attributes_); }
+  std::size_t perTriangle() const { return perTriangle_; }
+
+  void reserve(std::size_t size) { errors_.reserve(size * perTriangle_); }
   /// New elements are undefined.
-  void resize(std::size_t size) { errors_.resize(size * attributes_); }
-  float get(std::size_t i, std::size_t attribute) const { return errors_[i * attributes_ + attribute]; }
+  void resize(std::size_t size) { errors_.resize(size * perTriangle_); }
+  float get(std::size_t i, std::size_t attribute) const { return errors_[i * perTriangle_ + attribute]; }
   void set(std::size_t i, std::size_t attribute, float error) {
-    errors_[i * attributes_ + attribute] = error;
+    errors_[i * perTriangle_ + attribute] = error;
   }
   /// Copies all errors of a triangle.
   void copy(std::size_t from, const AttributeErrorArray& of, std::size_t to) {
-    for (std::size_t a = 0; a < attributes_; ++a) set(to, a, of.get(from, a));
+    for (std::size_t a = 0; a < perTriangle_; ++a) set(to, a, of.get(from, a));
   }
 
  private:
-  std::size_t attributes_;
+  std::size_t perTriangle_;
   ChunkedArray<float> errors_;
 };
 

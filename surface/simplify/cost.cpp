@@ -10,8 +10,6 @@
 #include <limits>
 #include <utility>
 
-#include "engine/base/triangle_shares.h"
-
 namespace arete {
 namespace {
 
@@ -57,10 +55,11 @@ double SurfaceCost::squaredOf(const SurfaceSample& sample) {
   const auto nearest = static_cast<std::size_t>(
       std::min_element(squares.begin(), squares.begin() + fan_.size()) - squares.begin());
   wanted_.resize(s_.field.components());
-  found_.resize(s_.field.components());
   s_.field.mean(s_.field.cornersOf(sample.face), sample.shares, wanted_);
-  s_.field.mean(fanDrawn_[nearest], nearestShares(sample.place, fanPlaces_[nearest]), found_);
-  return squares[nearest] + s_.field.weighedSquares(wanted_, found_);
+  double least = joint_.squared(nearest, sample.place, wanted_);
+  for (std::size_t t = 0; t < joint_.size(); ++t)
+    if (t != nearest && squares[t] < least) least = std::min(least, joint_.squared(t, sample.place, wanted_));
+  return least;
 }
 
 double SurfaceCost::integralOver(int corner, double limit) {
@@ -69,18 +68,16 @@ double SurfaceCost::integralOver(int corner, double limit) {
   double sum = 0;
   for (int side = 0; side < (line.isThere() ? 2 : 1); ++side) {
     fan_.clear();
-    fanDrawn_.clear();
-    fanPlaces_.clear();
+    joint_.clear();
     for (const auto& corners : fan.view()) {
       if (line.sideOf(corners) != side) continue;
       const auto& [i, j, m] = corners;
       const SpaceTriangle triangle{hole_.corner(i), hole_.corner(j), hole_.corner(m)};
       fan_.add(triangle);
       if (!s_.field.isEmpty()) {
-        fanPlaces_.push_back(triangle);
         const auto vertex = [&](int c) { return hole_.star().link[c].index(); };
-        fanDrawn_.push_back(s_.parts.hasWedges ? hole_.labelsOf(s_, corners).wedges
-                                               : std::array{vertex(i), vertex(j), vertex(m)});
+        joint_.add(triangle, s_.parts.hasWedges ? hole_.labelsOf(s_, corners).wedges
+                                                : std::array{vertex(i), vertex(j), vertex(m)});
       }
       sum += star_[static_cast<std::size_t>(side)].nearest((triangle[0] + triangle[1] + triangle[2]) / 3.0) *
              norm(fan_.normal(fan_.size() - 1)) / 2;

@@ -7,6 +7,7 @@
 #include "engine/mt/hole_limit.h"
 #include "engine/simplify/removal_record.h"
 #include "surface/error/floor_distance.h"
+#include "surface/error/joint_distance.h"
 #include "surface/error/samples.h"
 #include "surface/simplify/fans.h"
 #include "surface/simplify/state.h"
@@ -34,8 +35,7 @@ class SurfaceCost {
   bool isStillValid(VertexId v, const RemovalRecord& record);
 
  private:
-  /// The squared distance of a sample to the fan, and how far its attributes are from what they are at the
-  /// nearest point there.
+  /// The squared distance of a sample to the fan, in place and attributes together where they count.
   double squaredOf(const SurfaceSample& sample);
   /// The integral over the samples; some value above `limit` if it exceeds that.
   double integralOver(int corner, double limit);
@@ -50,11 +50,10 @@ class SurfaceCost {
   const SurfaceState& s_;
   SurfaceHole hole_;
   std::vector<SurfaceSample> samples_;
-  std::array<std::size_t, 2> otherSide_{};              // in samples_: those of side 1 of a line
-  std::vector<std::array<std::uint32_t, 3>> fanDrawn_;  // by triangle of fan_, where attributes count
-  std::vector<SpaceTriangle> fanPlaces_;
-  std::vector<double> wanted_, found_;
+  std::array<std::size_t, 2> otherSide_{};  // in samples_: those of side 1 of a line
+  std::vector<double> wanted_;
   FloorDistance fan_;
+  JointDistance joint_{s_.field};      // to the triangles of fan_, where attributes count
   std::array<FloorDistance, 2> star_;  // by side of a line
 };
 

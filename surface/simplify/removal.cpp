@@ -27,6 +27,7 @@ bool SurfaceRemover::remove(VertexId v, RemovalId removal, std::span<Seam> seams
   while (star.link[corner] != around) ++corner;
   const HoleTriangulation floor = fanAround(corner, star.linkSize);
 
+  for (int f = 0; f < floor.size; ++f) labels_[f] = hole_.labelsOf(s_, floor.triangles[f]);
   dividePieces(floor);
   const std::uint32_t firstLabel = s_.recorder.firstSlot(removal);
   s_.firstStarLabel[v] = firstLabel;
@@ -39,7 +40,6 @@ bool SurfaceRemover::remove(VertexId v, RemovalId removal, std::span<Seam> seams
     s_.starAttributeErrors.copy(star.slot(i).index(), s_.attributeErrors,
                                 firstLabel + static_cast<std::size_t>(i));
   }
-  for (int f = 0; f < floor.size; ++f) labels_[f] = hole_.labelsOf(s_, floor.triangles[f]);
   if (s_.acrossSides.size() > 0) gatherAcross();
 
   for (int f = 0; f < star.triangleCount; ++f)
@@ -58,12 +58,20 @@ void SurfaceRemover::dividePieces(const HoleTriangulation& floor) {
   const Star& star = hole_.star();
   std::array<std::uint32_t, kMaxHoleCorners> link;
   for (int i = 0; i < star.linkSize; ++i) link[i] = star.link[i].index();
+  drawn_.clear();
+  if (!s_.field.isEmpty())
+    for (int f = 0; f < floor.size; ++f) {
+      const auto& corners = floor.triangles[f];
+      drawn_.push_back(s_.parts.hasWedges ? labels_[f].wedges
+                                          : std::array{link[corners[0]], link[corners[1]], link[corners[2]]});
+    }
   const ReplacedStar replaced{star.triangleCount,
                               hole_.vertex().index(),
                               {link.data(), static_cast<std::size_t>(star.linkSize)},
                               hole_.places(),
                               floor,
-                              hole_.line()};
+                              hole_.line(),
+                              drawn_};
   divideStar(division_, replaced, [&](int i, const auto& take) {
     const SlotId slot = star.slot(i);
     // A triangle without pieces is still the whole of its face.
@@ -98,7 +106,7 @@ void SurfaceRemover::gatherAcross() {
 /// After the pieces are divided and stored. The slots of the floor are the first ones of the star.
 void SurfaceRemover::boundAttributes(const HoleTriangulation& floor) {
   const Star& star = hole_.star();
-  attributeErrors_.resize(s_.field.entries().size());
+  attributeErrors_.resize(s_.attributeErrors.perTriangle());
   for (int f = 0; f < floor.size; ++f) {
     AttributeBound::Triangle triangle;
     for (std::size_t c = 0; c < 3; ++c) {

@@ -17,7 +17,9 @@ namespace arete {
 class SurfaceRemover {
  public:
   explicit SurfaceRemover(SurfaceState& state)
-      : s_(state), division_(state.original), attributeBound_(state.original, state.field) {}
+      : s_(state),
+        division_(state.original, state.boundsAttributes ? state.field : kNoField),
+        attributeBound_(state.original, state.field, state.attributeDistances) {}
 
   /// Removes v, whose cost is known exactly: fills the hole with the fan of its record, divides the pieces,
   /// records the modification, rewrites the star, updates the records of its link.
@@ -26,6 +28,8 @@ class SurfaceRemover {
   bool remove(VertexId v, RemovalId removal, std::span<Seam> seams);
 
  private:
+  /// Where attributes are weighed for the order alone, pieces go to what is nearest in space.
+  inline static const AttributeField kNoField;
   void dividePieces(const HoleTriangulation& floor);
   void record(RemovalId removal, int floorSize);
   void gatherAcross();
@@ -40,7 +44,8 @@ class SurfaceRemover {
   std::vector<double> attributeErrors_, wanted_, found_;
   std::vector<SurfaceSample> samples_;
   std::array<double, kMaxHoleCorners> rms_{};
-  std::vector<AcrossSide> rimSides_;  // of the star's rim: what is across, by link corner
+  std::vector<std::array<std::uint32_t, 3>> drawn_;  // by triangle of the floor
+  std::vector<AcrossSide> rimSides_;                 // of the star's rim: what is across, by link corner
   std::array<FloorCodes, kMaxHoleCorners> codes_;
   std::array<RecorderId, kMaxHoleCorners> ceiling_;
   std::array<RemovalId, kMaxHoleCorners> creator_;

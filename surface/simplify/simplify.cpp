@@ -25,7 +25,7 @@ SurfaceRoot labelledRootOf(const SurfaceState& s, std::uint32_t levels) {
   for (std::uint32_t i = 0; i < s.mesh.triangles.size(); ++i) {
     if (s.mesh.triangles[SlotId(i)].isDead()) continue;
     root.labels.push_back(s.labelsOf(SlotId(i)));
-    for (std::size_t a = 0; a < s.boundedAttributes(); ++a)
+    for (std::size_t a = 0; a < s.attributeErrors.perTriangle(); ++a)
       root.attributeErrors.push_back(s.attributeErrors.get(i, a));
   }
   return root;
@@ -120,7 +120,7 @@ Result<SurfaceRoot> simplifySurface(SurfaceState& s, const std::vector<std::uint
   if (s.parts.hasWedges && s.boundsAttributes) s.acrossSides.resize(s.mesh.triangles.size());
   s.attributeErrors.resize(s.mesh.triangles.size());
   for (std::size_t i = 0; i < s.mesh.triangles.size(); ++i)
-    for (std::size_t a = 0; a < s.boundedAttributes(); ++a) s.attributeErrors.set(i, a, 0);
+    for (std::size_t a = 0; a < s.attributeErrors.perTriangle(); ++a) s.attributeErrors.set(i, a, 0);
   s.records.resize(s.mesh.vertexCount());
   forRanges(LoopThreads::all, s.records.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v != end; ++v) {

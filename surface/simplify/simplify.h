@@ -14,7 +14,7 @@ namespace arete {
 /// What the levels leave over, with the labels of its triangles.
 struct SurfaceRoot : SimplifiedRoot {
   std::vector<TriangleLabels> labels;
-  std::vector<float> attributeErrors;  ///< by triangle, by entry of the state's field
+  std::vector<float> attributeErrors;  ///< by triangle, as AttributeBound has them
 };
 
 /// Removes every vertex that can be removed, or until no more than state.fewEnough triangles are left.

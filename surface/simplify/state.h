@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/base/id_array.h"
@@ -39,13 +40,15 @@ struct SurfaceState {
   /// What counts in costs beside distances. Empty: nothing does.
   const AttributeField& field;
   bool boundsAttributes = !field.isEmpty();  ///< what is in the field
+  /// Attributes are bounded within a triangle's error, and within each of these where they are more.
+  std::span<const double> attributeDistances = {};
 
   IdArray<SlotId, std::vector<PieceList>> pieces = {};
   LabelArray labels{parts.hasWedges};  ///< by slot of the mesh
   /// Of the triangles of removed stars: by slot of the recorder (MtRecorder::firstSlot()).
   LabelArray starLabels{parts.hasWedges};
-  /// By slot of the mesh, and of the recorder as starLabels; by entry of the field.
-  AttributeErrorArray attributeErrors{boundedAttributes()}, starAttributeErrors{boundedAttributes()};
+  /// By slot of the mesh, and of the recorder as starLabels; as AttributeBound has them.
+  AttributeErrorArray attributeErrors{boundsPerTriangle()}, starAttributeErrors{boundsPerTriangle()};
   /// By slot of the mesh: its sides that have pieces across them. Empty without wedges or without bounds.
   IdArray<SlotId, std::vector<std::array<AcrossSide, 3>>> acrossSides = {};
   /// The first of those of a removed vertex.
@@ -59,7 +62,9 @@ struct SurfaceState {
   IndependentSet::Records records = {};
   std::atomic<std::size_t> liveTriangles = 0;
 
-  std::size_t boundedAttributes() const { return boundsAttributes ? field.entries().size() : 0; }
+  std::size_t boundsPerTriangle() const {
+    return boundsAttributes ? field.entries().size() * (1 + attributeDistances.size()) : 0;
+  }
   TriangleLabels labelsOf(SlotId slot) const { return labels[slot.index()]; }
   const Vec3& position(VertexId v) const { return original.positions[v.index()]; }
 };

@@ -91,18 +91,18 @@ Result<std::vector<AttributeTolerance>> attributeTolerances(const SurfaceModel& 
   return tolerances;
 }
 
-std::vector<AttributeNumber> statedAttributeErrors(const SurfaceModel& model, const Cut& cut) {
-  std::vector<AttributeNumber> stated;
-  const std::vector<double> largest = attributeErrorsOf(model, cut);
-  for (std::size_t i = 0; i < largest.size(); ++i) {
+std::vector<AttributeNumber> statedAttributeErrors(const SurfaceModel& model,
+                                                   const StatedAttributes& stated) {
+  std::vector<AttributeNumber> named;
+  for (std::size_t i = 0; i < stated.largest.size(); ++i) {
     const AttributeErrors& errors = model.attributeErrors[i];
     const MeshAttributes& a = model.attributes;
     std::string unit;
     for (const Attribute& attribute : errors.ofWedges ? a.wedgeAttributes : a.vertexAttributes)
       if (attribute.name == errors.inFile) unit = AttributeDistance(attribute).unit();
-    stated.push_back({errors.name, largest[i], unit == "units" ? "" : unit});
+    named.push_back({errors.name, stated.largest[i], unit == "units" ? "" : unit});
   }
-  return stated;
+  return named;
 }
 
 }  // namespace arete

@@ -23,6 +23,6 @@ Result<std::vector<AttributeTolerance>> attributeTolerances(const SurfaceModel& 
 
 /// What a cut states of the model's bounded attributes, with the unit of AttributeDistance; infinite: not
 /// bounded. O(front * attributes).
-std::vector<AttributeNumber> statedAttributeErrors(const SurfaceModel& model, const Cut& cut);
+std::vector<AttributeNumber> statedAttributeErrors(const SurfaceModel& model, const StatedAttributes& stated);
 
 }  // namespace arete

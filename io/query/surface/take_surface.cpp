@@ -129,7 +129,9 @@ Result<TakenSurface> takeSurface(const SurfaceModel& model, const CutRequest& re
     ARETE_TRY(auto attributes, attributesAtPlaces(model, taken, before, dropped, context));
     taken.displacedAttributes = std::move(attributes);
   } else {
-    taken.attributeErrors = statedAttributeErrors(model, taken.cut);
+    const StatedAttributes stated = statedAttributes(model, taken.cut, ofBoth);
+    taken.attributeErrors = statedAttributeErrors(model, stated);
+    taken.error = std::max(taken.error, stated.error);
   }
   // Wedges that only creases part are one for every other program.
   if (model.creaseEdges > 0) joinEqualWedges(taken.front.mesh);

@@ -22,6 +22,9 @@ namespace {
 using Json = nlohmann::json;
 using json_fields::Choice;
 
+/// More distances of attribute errors than any version writes.
+constexpr std::size_t kMostDistances = 64;
+
 constexpr std::array<Choice<ScalarType>, 8> kTypes = {{{ScalarType::int8, "int8"},
                                                        {ScalarType::uint8, "uint8"},
                                                        {ScalarType::int16, "int16"},
@@ -131,6 +134,7 @@ std::string toLooksJson(const SurfaceModel& model) {
       visitErrors(w, errors);
       w.field("scale", errors.scale.base());
     }));
+  if (!model.attributeDistances.empty()) looks["attributeDistances"] = model.attributeDistances;
   top.optional("objects", a.objects);
   top.optional("groups", a.groups);
   for (const auto& [key, list] : faceLists(a)) top.flag(key, !list->empty());
@@ -187,6 +191,19 @@ Status fromLooksJson(std::string_view text, std::uint64_t attributeBytes, Surfac
     if (!std::isfinite(errors.scale.decode(OutwardScale::kMaxCode)) && problem.empty())
       problem = fmt::format("the errors of {} have the scale {}", errors.name, base);
   });
+  // Earlier versions have none.
+  if (const auto distances = looks.find("attributeDistances"); distances != looks.end()) {
+    bool isGood = distances->is_array() && distances->size() <= kMostDistances;
+    double last = 0;
+    for (const Json& distance : isGood ? *distances : Json::array()) {
+      isGood = isGood && distance.is_number() && distance.get<double>() > last;
+      if (!isGood) break;
+      model.attributeDistances.push_back(last = distance.get<double>());
+    }
+    if (!isGood)
+      return failure(ErrorCode::corrupt,
+                     "chunk LOOK: attributeDistances is not an array of a few rising numbers");
+  }
   top.optional("objects", a.objects);
   top.optional("groups", a.groups);
   for (const auto& [key, list] : faceLists(a)) {
@@ -227,7 +244,7 @@ std::vector<std::uint16_t> attributeErrorCodesOf(const SurfaceModel& model) {
 }
 
 Status takeAttributeErrorCodes(std::span<const std::uint16_t> codes, SurfaceModel& model) {
-  const std::size_t triangles = model.mt.triangleIdCount();
+  const std::size_t triangles = (1 + model.attributeDistances.size()) * model.mt.triangleIdCount();
   if (codes.size() != model.attributeErrors.size() * triangles)
     return failure(ErrorCode::corrupt, fmt::format("chunk AERR has {} codes instead of {}", codes.size(),
                                                    model.attributeErrors.size() * triangles));

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "surface/families.h"
 
@@ -40,16 +41,43 @@ Star star(std::uint64_t seed, int corners) {
   return s;
 }
 
-TEST(PieceDivision, CoversEveryPointOfTheStarWithinTheBoundOfItsTriangle) {
+/// Coordinates that are about those in the plan, and a number that has nothing to do with places.
+SurfaceMesh painted(const Star& s, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto number = [&] { return double(random() % 2001) / 1000 - 1; };
+  SurfaceMesh mesh(s.mesh);
+  Attribute coords{.name = "texcoord",
+                   .meaning = AttributeMeaning::textureCoords,
+                   .type = ScalarType::float64,
+                   .components = 2},
+      heat{.name = "heat", .type = ScalarType::float64};
+  for (const Vec3& p : mesh.positions) {
+    coords.append(std::array{p.x + 0.3 * number(), p.y + 0.3 * number()});
+    heat.append(std::array{number()});
+  }
+  mesh.vertexAttributes = {coords, heat};
+  return mesh;
+}
+
+/// With and without attributes, which change what belongs where and not what holds there.
+class PieceDivisionOfStars : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Attributes, PieceDivisionOfStars, ::testing::Bool());
+
+TEST_P(PieceDivisionOfStars, CoversEveryPointWithinTheBoundOfItsTriangle) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     const int corners = 4 + int(seed % 5);
     const Star s = star(seed, corners);
     const OriginalSurface original = s.original();
-    PieceDivision division(original);
+    const SurfaceMesh mesh = painted(s, seed);
+    const AttributeField field = GetParam() ? AttributeField(mesh, 2) : AttributeField();
+    PieceDivision division(original, field);
     division.clear();
     for (std::uint32_t f = 0; f < s.mesh.triangles.size(); ++f) division.add(f);
     const HoleTriangulation floor = fan(corners);
-    division.divide(s.link, floor);
+    std::vector<std::array<std::uint32_t, 3>> drawn;
+    for (int t = 0; t < floor.size && GetParam(); ++t)
+      drawn.push_back({floor.triangles[t][0] + 1u, floor.triangles[t][1] + 1u, floor.triangles[t][2] + 1u});
+    division.divide(s.link, floor, (1u << floor.size) - 1, drawn);
     struct Part {
       int triangle;
       std::uint32_t face;
@@ -105,6 +133,32 @@ TEST(PieceDivision, CutsWhatLiesAcrossAnEdgeOfTheFloorWhereThatIsFlat) {
   for (std::uint32_t f = 0; f < 4; ++f) division.add(f);
   division.divide(s.link, fan(4));
   for (int t = 0; t < 2; ++t) EXPECT_LT(division.bound(t), 1e-8);
+}
+
+TEST(PieceDivision, FollowsTheCoordinatesWhereTheyBendAcrossAnEdgeOfTheFloor) {
+  // A flat square whose coordinates are bent: in them the way from corner 0 to corner 2 is not the diagonal.
+  Star s;
+  s.link = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  s.mesh.positions = {{0.5, 0.5, 0}, s.link[0], s.link[1], s.link[2], s.link[3]};
+  s.mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
+  const OriginalSurface original{s.mesh.positions, s.mesh.triangles, 1};
+  SurfaceMesh mesh(s.mesh);
+  Attribute coords{.name = "texcoord",
+                   .meaning = AttributeMeaning::textureCoords,
+                   .type = ScalarType::float64,
+                   .components = 2};
+  for (std::size_t v = 0; v < 5; ++v)
+    coords.append(v == 0 ? std::array{0.6, 0.4} : std::array{mesh.positions[v].x, mesh.positions[v].y});
+  mesh.vertexAttributes = {coords};
+  const AttributeField field(mesh, 1);
+  PieceDivision division(original, field);
+  division.clear();
+  for (std::uint32_t f = 0; f < 4; ++f) division.add(f);
+  const std::vector<std::array<std::uint32_t, 3>> drawn = {{1, 2, 3}, {1, 3, 4}};
+  division.divide(s.link, fan(4), 3, drawn);
+  // The middle lies on the diagonal in place and below it in the picture, half of both counts.
+  EXPECT_GT(division.bound(0), 0.01);
+  EXPECT_LT(division.bound(0), 0.1);
 }
 
 }  // namespace

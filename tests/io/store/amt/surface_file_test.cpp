@@ -220,6 +220,37 @@ TEST_F(SurfaceAmt, PackedGivesBackTheSameTrianglesInAnotherOrder) {
     }
 }
 
+// What an earlier version wrote has the first level alone.
+TEST_F(SurfaceAmt, GivesBackTheErrorsOfAttributesAtEveryDistanceAndReadsThoseOfEarlierVersions) {
+  Result<SurfaceModel> model = buildSurface(everything(true), {.boundsAttributes = true});
+  ASSERT_TRUE(model) << model.error().message;
+  ASSERT_FALSE(model->attributeDistances.empty());
+  for (const bool isEarlier : {false, true}) {
+    if (isEarlier) {
+      model->attributeDistances.clear();
+      for (AttributeErrors& errors : model->attributeErrors) errors.codes.resize(model->mt.triangleIdCount());
+    }
+    ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model));
+    const Result<SurfaceModel> read = loadSurfaceAmt(path("a.amt"));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->attributeDistances, model->attributeDistances);
+    EXPECT_EQ(read->attributeErrors, model->attributeErrors);
+    // Packed, triangles have another order: every level has that.
+    ASSERT_TRUE(writeSurfaceAmt(path("p.amt"), *model, {}, {.isPacked = true}));
+    const Result<SurfaceModel> packed = loadSurfaceAmt(path("p.amt"));
+    ASSERT_TRUE(packed) << packed.error().message;
+    const auto rows = [](const SurfaceModel& m) {
+      std::vector<std::vector<std::uint16_t>> all(m.mt.triangleIdCount());
+      for (const AttributeErrors& errors : m.attributeErrors)
+        for (std::size_t i = 0; i < errors.codes.size(); ++i) all[i % all.size()].push_back(errors.codes[i]);
+      std::ranges::sort(all);
+      return all;
+    };
+    EXPECT_EQ(packed->attributeDistances, model->attributeDistances);
+    EXPECT_EQ(rows(*packed), rows(*model));
+  }
+}
+
 TEST_F(SurfaceAmt, PackedIsTheSameForEveryFamily) {
   for (const shapes::NamedMesh& family : shapes::families(5)) {
     SCOPED_TRACE(family.name);

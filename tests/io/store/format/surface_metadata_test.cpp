@@ -205,5 +205,22 @@ TEST(SurfaceLooks, TakeNoMemoryForFacesWhoseValuesAreNotThere) {
   EXPECT_TRUE(fromLooksJson("{}", 0, model, pictureBytes));
 }
 
+TEST(SurfaceLooks, AreRefusedWhereTheDistancesOfErrorsAreNoRisingNumbers) {
+  std::vector<std::uint64_t> pictureBytes;
+  const auto read = [&](const json& distances) {
+    SurfaceModel model;
+    return fromLooksJson(json{{"attributeDistances", distances}}.dump(), 0, model, pictureBytes);
+  };
+  EXPECT_TRUE(read({0.5, 1, 2.25}));
+  for (const json& bad : {json(1.0), json({"a"}), json({0.0}), json({-1.0, 2.0}), json({2.0, 2.0}),
+                          json({3.0, 2.0}), json(std::vector<double>(65, 1.0))}) {
+    const Status refused = read(bad);
+    ASSERT_FALSE(refused) << bad;
+    EXPECT_EQ(refused.error().code, ErrorCode::corrupt);
+    EXPECT_NE(refused.error().message.find("attributeDistances"), std::string::npos)
+        << refused.error().message;
+  }
+}
+
 }  // namespace
 }  // namespace arete
