@@ -170,6 +170,7 @@ class NearNumbers {
       for (const ComparedNumbers& of : compared_) {
         numbersAt(of, x, numbers);
         if (!of.partOfSource.empty()) hash = mixedInto(hash, of.partOfSource[x.triangle]);
+        if (!of.chartOfSource.empty()) hash = mixedInto(hash, of.chartOfSource[x.triangle]);
         for (const double number : numbers) hash = mixedInto(hash, std::bit_cast<std::uint64_t>(number));
       }
       if (seen.insert(hash).second) points_.push_back(x);
@@ -230,7 +231,7 @@ class NearNumbers {
         for (std::size_t k = 0; k < compared_.size(); ++k) {
           if (partOf(k, point) == ComparedNumbers::kNotCompared) continue;
           numbersAt(compared_[k], point, numbers);
-          best[k] = leastOf(k, partOf(k, point), numbers, x, near, least[k], best[k], isAll);
+          best[k] = leastOf(k, point, numbers, x, near, least[k], best[k], isAll);
           isDone = isDone && best[k].apart <= slack_[k];
         }
         if (isAll || isDone) break;
@@ -255,14 +256,23 @@ class NearNumbers {
     return std::span(compared_[k].ofMesh).subspan(n * triangle, n);
   }
 
-  LeastOnTriangle::Found leastOf(std::size_t k, std::uint32_t part, std::span<const double> numbers,
+  bool mayHold(std::size_t k, const SourcePoint& point, std::uint32_t triangle) const {
+    constexpr std::uint32_t kAny = ComparedNumbers::kNoPart;
+    const ComparedNumbers& of = compared_[k];
+    const std::uint32_t part = partOf(k, point);
+    if (part != kAny && !of.partOfMesh.empty() && of.partOfMesh[triangle] != part) return false;
+    if (of.chartOfSource.empty() || of.chartOfMesh.empty()) return true;
+    const std::uint32_t chart = of.chartOfSource[point.triangle], there = of.chartOfMesh[triangle];
+    return chart == kAny || there == kAny || chart == there;
+  }
+
+  LeastOnTriangle::Found leastOf(std::size_t k, const SourcePoint& point, std::span<const double> numbers,
                                  const Vec3& x, std::span<const TrianglesWithin::Near> near,
                                  LeastOnTriangle& least, LeastOnTriangle::Found best, bool isFine) const {
     const ComparedNumbers& of = compared_[k];
     std::vector<std::pair<double, const TrianglesWithin::Near*>> order;
     for (const TrianglesWithin::Near& n : near) {
-      if (part != ComparedNumbers::kNoPart && !of.partOfMesh.empty() && of.partOfMesh[n.triangle] != part)
-        continue;
+      if (!mayHold(k, point, n.triangle)) continue;
       order.emplace_back(least.atLeast(tree_.at(n.triangle), cornersOf(k, n.triangle), numbers, x, within_),
                          &n);
     }

@@ -52,11 +52,16 @@ std::string attributeReportText(const AttributeReport& report, const std::string
               ? fmt::format(" (without a like value within at {} of {} points)", f.unequal, f.points)
               : "");
   }
+  if (report.charts > 1)
+    text += fmt::format("  {:<20} {} of {} told from their neighbours\n", "charts", report.chartsApart,
+                        report.charts);
   return text;
 }
 
 nlohmann::ordered_json toJson(const AttributeReport& report) {
   nlohmann::ordered_json json = {{"within", finiteJson(report.within)},
+                                 {"charts", report.charts},
+                                 {"chartsApart", report.chartsApart},
                                  {"attributes", nlohmann::ordered_json::object()}};
   for (const AttributeDeviation& a : report.attributes) {
     nlohmann::ordered_json one;
