@@ -31,8 +31,8 @@ struct ComparedNumbers {
   /// By triangle. A point of the source is compared with triangles of its own part alone; with any where it
   /// has kNoPart, and not at all where it has kNotCompared. Empty: all are of one part.
   std::vector<std::uint32_t> partOfSource = {}, partOfMesh = {};
-  /// Within parts: by triangle, a point of the source is compared with triangles of its own chart, and with
-  /// those of kNoPart; with any of its part where it has kNoPart. Empty: all are of one chart.
+  /// Within parts: by triangle, a point of the source is compared with triangles of its own chart and of
+  /// kNoPart; with any of its part where it has kNoPart. Empty: all are of one chart.
   std::vector<std::uint32_t> chartOfSource = {}, chartOfMesh = {};
   /// What is expected of the largest: values above are searched again, finer.
   double expected = std::numeric_limits<double>::infinity();

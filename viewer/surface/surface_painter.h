@@ -23,7 +23,7 @@ struct DrawnSurface {
   };
   GLuint indices = 0;  ///< three drawn vertices a triangle
   GLuint errors = 0;   ///< a float a triangle; 0: none
-  GLuint ids = 0;      ///< the triangle of the MT, as of errors
+  GLuint ids = 0;      ///< a triangle of the MT each; 0: none
   VertexStreams vertices;
   std::span<const Range> ranges = {};
 };

@@ -46,8 +46,8 @@ struct AttributeOptions {
 struct AttributeReport {
   double within = 0;
   std::vector<AttributeDeviation> attributes;  ///< all that the source has, in the order of namedAttributes()
-  /// Of the source's texture coordinates (chartsByPlace()), and those of them whose points are compared with
-  /// no other chart's; 0: one of the meshes has no coordinates.
+  /// Charts of the source's texture coordinates (chartsByPlace()), and how many of them are compared with no
+  /// other chart's; 0: one of the meshes has no coordinates.
   std::uint64_t charts = 0, chartsApart = 0;
   Warnings warnings;
 };

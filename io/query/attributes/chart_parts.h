@@ -34,7 +34,7 @@ struct ChartMatch {
   /// not told from its neighbours.
   std::vector<std::uint32_t> ofSource, ofOther;
   std::size_t charts = 0;  ///< of the source
-  std::size_t apart = 0;   ///< of them, those that are told from all other charts of their part
+  std::size_t apart = 0;   ///< of them, those that share a number with no other
 };
 
 /// Finds that by where the charts lie: points of each mesh, spread evenly over its area, name the chart of
