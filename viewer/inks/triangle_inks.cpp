@@ -165,7 +165,7 @@ Result<TriangleInk> attributeErrorInk(const SurfaceModel& model, std::string_vie
   if (most > 0) {
     for (int octave = 0; octave <= int(kOctaves); octave += 2)
       ink.ticks.emplace_back(low + octave,
-                             fmt::format("{}{:.2g}", octave == 0 ? "0 to " : "", std::exp2(low + octave)));
+                             fmt::format("{}{:.3g}", octave == 0 ? "0 to " : "", std::exp2(low + octave)));
   } else {
     ink.classes.push_back({ink.colors.at(low), "0"});
   }
