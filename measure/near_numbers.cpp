@@ -29,6 +29,8 @@ namespace {
 
 constexpr std::size_t kPointsPerRun = 1024;
 constexpr std::uint64_t kLeastSpread = 100'000, kSpreadPerTriangle = 2;
+/// Of the diagonal, where the search for a chart that is farther begins.
+constexpr double kReachFrom = 1.0 / 1024;
 constexpr int kSteps = 20, kFineSteps = 40;
 constexpr std::size_t kMany = 64;  // triangles within E
 /// Of the largest number, or of 180 degrees: what is nearer is not searched further.
@@ -96,6 +98,7 @@ struct NearTotals {
     }
     found.points += later.found.points;
     found.unequal += later.found.unequal;
+    found.beyond += later.found.beyond;
     sum += later.sum;
     squares += later.squares;
     sumAtNearest += later.sumAtNearest;
@@ -115,6 +118,14 @@ struct NearTotals {
   }
 };
 
+Box3 commonBox(const TriangleMesh& a, const TriangleMesh& b) {
+  Box3 box = Box3::empty();
+  for (const TriangleMesh* mesh : {&a, &b})
+    for (const auto& t : mesh->triangles)
+      for (const std::uint32_t v : t) box.include(mesh->positions[v]);
+  return box;
+}
+
 class NearNumbers {
  public:
   NearNumbers(const TriangleMesh& mesh, const TriangleMesh& source,
@@ -125,6 +136,7 @@ class NearNumbers {
         context_(context),
         within_(options.within + rounding),
         rounding_(rounding),
+        reach_(options.reachesOwn ? 2 * commonBox(mesh, source).diagonal() : 0),
         tree_(mesh),
         nearest_(mesh) {
     for (const ComparedNumbers& of : compared) {
@@ -236,6 +248,12 @@ class NearNumbers {
         }
         if (isAll || isDone) break;
       }
+      for (std::size_t k = 0; k < compared_.size() && reach_ > 0; ++k)
+        if (std::isinf(best[k].apart) && partOf(k, point) != ComparedNumbers::kNotCompared)
+          if (const auto own = nearestOwn(k, point, x, near, least[k])) {
+            best[k] = *own;
+            ++totals[k].found.beyond;
+          }
       for (std::size_t k = 0; k < compared_.size(); ++k) {
         if (partOf(k, point) == ComparedNumbers::kNotCompared) continue;
         numbersAt(compared_[k], point, numbers);
@@ -293,6 +311,28 @@ class NearNumbers {
     return best;
   }
 
+  /// At the nearest point of what it may be compared with; nothing if some of that is within E, or none is at
+  /// all.
+  std::optional<LeastOnTriangle::Found> nearestOwn(std::size_t k, const SourcePoint& point, const Vec3& x,
+                                                   std::vector<TrianglesWithin::Near>& near,
+                                                   LeastOnTriangle& least) const {
+    std::vector<double> numbers;
+    numbersAt(compared_[k], point, numbers);
+    std::vector<TrianglesWithin::Near> own;
+    for (double radius = within_; own.empty() && radius <= reach_;
+         radius = std::max(4 * radius, kReachFrom * reach_)) {
+      tree_.find(x, radius, near);
+      for (const TrianglesWithin::Near& n : near)
+        if (mayHold(k, point, n.triangle)) own.push_back(n);
+      if (!own.empty() && radius == within_) return std::nullopt;
+    }
+    if (own.empty()) return std::nullopt;
+    const auto first = std::ranges::min_element(own, {}, &TrianglesWithin::Near::squaredDistance);
+    const double most = std::sqrt(first->squaredDistance) + rounding_;
+    std::erase_if(own, [&](const auto& n) { return n.squaredDistance > most * most; });
+    return LeastOnTriangle::Found{atNearestOf(k, numbers, own, least), own.front().nearest};
+  }
+
   double atNearestOf(std::size_t k, std::span<const double> numbers,
                      std::span<const TrianglesWithin::Near> nearest, LeastOnTriangle& least) const {
     double apart = std::numeric_limits<double>::infinity();
@@ -306,21 +346,13 @@ class NearNumbers {
   const TriangleMesh& source_;
   const std::vector<ComparedNumbers>& compared_;
   const RunContext& context_;
-  double within_, rounding_;
+  double within_, rounding_, reach_;
   TrianglesWithin tree_;
   NearestOnMesh nearest_;
   std::vector<SourcePoint> points_;
   std::size_t spreadFrom_ = 0;
   std::vector<double> slack_;
 };
-
-Box3 commonBox(const TriangleMesh& a, const TriangleMesh& b) {
-  Box3 box = Box3::empty();
-  for (const TriangleMesh* mesh : {&a, &b})
-    for (const auto& t : mesh->triangles)
-      for (const std::uint32_t v : t) box.include(mesh->positions[v]);
-  return box;
-}
 
 TriangleMesh about(const TriangleMesh& mesh, const Vec3& origin) {
   TriangleMesh moved{mesh.positions, mesh.triangles};

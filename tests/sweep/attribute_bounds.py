@@ -155,14 +155,16 @@ class Sweep:
         dice = random.Random(f"{self.seed} {name}")
         asked = [["--max-error", share] for share in ("0.1%", "0.5%", "2%")] + [self.ask(dice, names, facts) for _ in range(cuts)]
         ratios, checks, refused = [], 0, 0
+        # A glTF has corners, and colours that are rounded to linear ones of 16 bits.
+        output = f"{folder}/cut.ply" if names == ["color"] else f"{folder}/cut.glb"
         for options in asked:
-            cut = self.said("extract", model, "-o", f"{folder}/cut.glb", *options)
+            cut = self.said("extract", model, "-o", output, *options)
             if isinstance(cut, str):
                 refused += 1
                 continue
             cut = cut["exports"][0]
             stated = cut["attributeErrors"]
-            found = self.measured(f"{folder}/cut.glb", source, cut, {n: stated[n] for n in names if stated.get(n) is not None})
+            found = self.measured(output, source, cut, {n: stated[n] for n in names if stated.get(n) is not None})
             for attribute in names:
                 checks += 1
                 of = found["attributes"].get(attribute)

@@ -113,9 +113,12 @@ class Comparison {
     for (const NamedAttribute& named : namedAttributes(source_.mesh)) ARETE_CHECK(add(named));
     if (compared_.empty()) return finish();
     ARETE_TRY(const std::vector<NumbersFound> found,
-              measureNearNumbers(
-                  shapeOf(other_), shapeOf(source_), compared_,
-                  {.within = options_.within, .samples = options_.samples, .seed = options_.seed}, context));
+              measureNearNumbers(shapeOf(other_), shapeOf(source_), compared_,
+                                 {.within = options_.within,
+                                  .reachesOwn = !options_.isStated,
+                                  .samples = options_.samples,
+                                  .seed = options_.seed},
+                                 context));
     for (std::size_t k = 0; k < found.size(); ++k) report_.attributes[ofCompared_[k]].found = found[k];
     return finish();
   }

@@ -37,6 +37,7 @@ struct AttributeDeviation {
 struct AttributeOptions {
   /// E: the largest distance of the other point, in the unit of the shapes.
   double within = 0;
+  bool isStated = true;  ///< E was stated, and is a promise; else NearNumbersOptions::reachesOwn
   /// In pixels where "px" is behind the number.
   std::vector<AttributeNumber> expected = {};
   std::uint64_t samples = 0;  ///< NearNumbersOptions::samples

@@ -123,14 +123,14 @@ TEST_F(MeasureAttributes, MaterialsAreEqualOrNotAndKeepTextureCoordinatesApart) 
 
 /// Two squares side by side, of n x n quadrilaterals each and one material, their coordinates (y / 10, v of
 /// the side): two charts where these differ.
-std::string twoSides(int n, double leftV, double rightV) {
+std::string twoSides(int n, double leftV, double rightV, double seam = 1) {
   std::string text;
   for (const int side : {0, 1})
     for (int r = 0; r <= n; ++r)
       for (int c = 0; c <= n; ++c)
-        text += "v " + std::to_string(side + double(c) / n) + " " + std::to_string(double(r) / n) +
-                " 0\nvt " + std::to_string(0.1 * r / n) + " " + std::to_string(side == 0 ? leftV : rightV) +
-                "\n";
+        text += "v " + std::to_string(side == 0 ? seam * c / n : seam + (2 - seam) * c / n) + " " +
+                std::to_string(double(r) / n) + " 0\nvt " + std::to_string(0.1 * r / n) + " " +
+                std::to_string(side == 0 ? leftV : rightV) + "\n";
   for (const int side : {0, 1})
     for (int r = 0; r < n; ++r)
       for (int c = 0; c < n; ++c) {
@@ -161,6 +161,26 @@ TEST_F(MeasureAttributes, ChartsOfOneMaterialAreComparedEachWithItsOwn) {
       run({"measure", "small.obj", "scan.obj", "--samples", "500", "--expect", "0.1", "--attributes"});
   EXPECT_NE(text.out.find("charts               2 of 2 told from their neighbours"), std::string::npos)
       << text.out;
+}
+
+// Of a mesh whose seam lies elsewhere: a stated E is a promise for each side, and without one nothing is.
+TEST_F(MeasureAttributes, APointWhoseChartIsFartherThanTheDistanceIsComparedWithItsNearestPoint) {
+  write("scan.obj", twoSides(8, 0, 0.5));
+  write("small.obj", twoSides(2, 0, 0.5, 0.9));
+  const auto uvOf = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"measure", "small.obj",    "scan.obj", "--samples",
+                                      "500",     "--attributes", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words).json()["attributes"]["uv"];
+  };
+  const Json near = uvOf({}), stated = uvOf({"--expect", "0.01"}), enough = uvOf({"--expect", "0.11"});
+  EXPECT_NEAR(near["largest"], 0, 1e-6) << near;
+  EXPECT_GT(near["beyond"], 10);
+  EXPECT_EQ(near["unequal"], 0);
+  EXPECT_TRUE(stated["largest"].is_null()) << stated;
+  EXPECT_EQ(stated["unequal"], near["beyond"]);
+  EXPECT_EQ(stated["beyond"], 0);
+  EXPECT_NEAR(enough["largest"], 0, 1e-6) << enough;
 }
 
 // Which chart is whose is not known where they are not much wider than what the meshes may be apart by.
