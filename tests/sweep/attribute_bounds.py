@@ -173,7 +173,7 @@ class Sweep:
                 allowed = math.inf if allowed is None else allowed
                 if largest > allowed * (1 + 1e-6) + SLACK.get(attribute, 0):
                     self.violations.append(f"{name} {' '.join(map(str, options))}: {attribute} off by {largest}, stated {allowed}")
-                elif largest > 0 and math.isfinite(allowed):
+                elif largest > 10 * SLACK.get(attribute, 0) and math.isfinite(allowed):  # what is found is no rounding
                     ratios.append(allowed / largest)
         mean = math.exp(sum(map(math.log, ratios)) / len(ratios)) if ratios else 1.0
         self.table.append((name, len(asked), refused, checks, mean, time.time() - start, ratios))
