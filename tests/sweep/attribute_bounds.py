@@ -110,6 +110,10 @@ class Sweep:
         self.arete, self.seed = arete, seed
         self.violations, self.table = [], []
 
+    def violate(self, sentence):
+        self.violations.append(sentence)
+        print("VIOLATION", sentence, flush=True)
+
     def said(self, *words):
         done = subprocess.run([self.arete, *map(str, words), "--json"], capture_output=True, text=True, check=False)
         return json.loads(done.stdout) if done.returncode == 0 else done.stderr.strip()
@@ -148,7 +152,7 @@ class Sweep:
         model = f"{folder}/{name}.amt"
         built = self.said("build", source, "-o", model, "--attributes")
         if isinstance(built, str):
-            self.violations.append(f"{name}: {built}")
+            self.violate(f"{name}: {built}")
             return
         facts = {"finestTriangles": self.said("extract", model, "-o", f"{folder}/all.ply", "--max-error", 0)["finestTriangles"],
                  "box": box_of(source)}
@@ -172,7 +176,7 @@ class Sweep:
                 allowed = stated.get(attribute, 0)
                 allowed = math.inf if allowed is None else allowed
                 if largest > allowed * (1 + 1e-6) + SLACK.get(attribute, 0):
-                    self.violations.append(f"{name} {' '.join(map(str, options))}: {attribute} off by {largest}, stated {allowed}")
+                    self.violate(f"{name} {' '.join(map(str, options))}: {attribute} off by {largest}, stated {allowed}")
                 elif largest > 10 * SLACK.get(attribute, 0) and math.isfinite(allowed):  # what is found is no rounding
                     ratios.append(allowed / largest)
         mean = math.exp(sum(map(math.log, ratios)) / len(ratios)) if ratios else 1.0
@@ -224,8 +228,6 @@ def main():
         return 77
     ratios = [ratio for row in sweep.table for ratio in row[6]]
     mean = math.exp(sum(map(math.log, ratios)) / len(ratios)) if ratios else 1.0
-    for line in sweep.violations:
-        print("VIOLATION", line)
     print(f"{sum(row[3] for row in sweep.table)} checks, {len(sweep.violations)} violations, stated over found {mean:.3f}")
     return 1 if sweep.violations or mean > MOST_OF_MEAN else 0
 
