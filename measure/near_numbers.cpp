@@ -29,6 +29,8 @@ namespace {
 
 constexpr std::size_t kPointsPerRun = 1024;
 constexpr std::uint64_t kLeastSpread = 100'000, kSpreadPerTriangle = 2;
+/// Of the diagonal, where the search for a chart that is farther begins.
+constexpr double kReachFrom = 1.0 / 1024;
 constexpr int kSteps = 20, kFineSteps = 40;
 constexpr std::size_t kMany = 64;  // triangles within E
 /// Of the largest number, or of 180 degrees: what is nearer is not searched further.
@@ -96,6 +98,7 @@ struct NearTotals {
     }
     found.points += later.found.points;
     found.unequal += later.found.unequal;
+    found.beyond += later.found.beyond;
     sum += later.sum;
     squares += later.squares;
     sumAtNearest += later.sumAtNearest;
@@ -115,6 +118,14 @@ struct NearTotals {
   }
 };
 
+Box3 commonBox(const TriangleMesh& a, const TriangleMesh& b) {
+  Box3 box = Box3::empty();
+  for (const TriangleMesh* mesh : {&a, &b})
+    for (const auto& t : mesh->triangles)
+      for (const std::uint32_t v : t) box.include(mesh->positions[v]);
+  return box;
+}
+
 class NearNumbers {
  public:
   NearNumbers(const TriangleMesh& mesh, const TriangleMesh& source,
@@ -125,6 +136,7 @@ class NearNumbers {
         context_(context),
         within_(options.within + rounding),
         rounding_(rounding),
+        reach_(options.reachesOwn ? 2 * commonBox(mesh, source).diagonal() : 0),
         tree_(mesh),
         nearest_(mesh) {
     for (const ComparedNumbers& of : compared) {
@@ -170,6 +182,7 @@ class NearNumbers {
       for (const ComparedNumbers& of : compared_) {
         numbersAt(of, x, numbers);
         if (!of.partOfSource.empty()) hash = mixedInto(hash, of.partOfSource[x.triangle]);
+        if (!of.chartOfSource.empty()) hash = mixedInto(hash, of.chartOfSource[x.triangle]);
         for (const double number : numbers) hash = mixedInto(hash, std::bit_cast<std::uint64_t>(number));
       }
       if (seen.insert(hash).second) points_.push_back(x);
@@ -230,11 +243,17 @@ class NearNumbers {
         for (std::size_t k = 0; k < compared_.size(); ++k) {
           if (partOf(k, point) == ComparedNumbers::kNotCompared) continue;
           numbersAt(compared_[k], point, numbers);
-          best[k] = leastOf(k, partOf(k, point), numbers, x, near, least[k], best[k], isAll);
+          best[k] = leastOf(k, point, numbers, x, near, least[k], best[k], isAll);
           isDone = isDone && best[k].apart <= slack_[k];
         }
         if (isAll || isDone) break;
       }
+      for (std::size_t k = 0; k < compared_.size() && reach_ > 0; ++k)
+        if (std::isinf(best[k].apart) && partOf(k, point) != ComparedNumbers::kNotCompared)
+          if (const auto own = nearestOwn(k, point, x, near, least[k])) {
+            best[k] = *own;
+            ++totals[k].found.beyond;
+          }
       for (std::size_t k = 0; k < compared_.size(); ++k) {
         if (partOf(k, point) == ComparedNumbers::kNotCompared) continue;
         numbersAt(compared_[k], point, numbers);
@@ -255,14 +274,23 @@ class NearNumbers {
     return std::span(compared_[k].ofMesh).subspan(n * triangle, n);
   }
 
-  LeastOnTriangle::Found leastOf(std::size_t k, std::uint32_t part, std::span<const double> numbers,
+  bool mayHold(std::size_t k, const SourcePoint& point, std::uint32_t triangle) const {
+    constexpr std::uint32_t kAny = ComparedNumbers::kNoPart;
+    const ComparedNumbers& of = compared_[k];
+    const std::uint32_t part = partOf(k, point);
+    if (part != kAny && !of.partOfMesh.empty() && of.partOfMesh[triangle] != part) return false;
+    if (of.chartOfSource.empty() || of.chartOfMesh.empty()) return true;
+    const std::uint32_t chart = of.chartOfSource[point.triangle], there = of.chartOfMesh[triangle];
+    return chart == kAny || there == kAny || chart == there;
+  }
+
+  LeastOnTriangle::Found leastOf(std::size_t k, const SourcePoint& point, std::span<const double> numbers,
                                  const Vec3& x, std::span<const TrianglesWithin::Near> near,
                                  LeastOnTriangle& least, LeastOnTriangle::Found best, bool isFine) const {
     const ComparedNumbers& of = compared_[k];
     std::vector<std::pair<double, const TrianglesWithin::Near*>> order;
     for (const TrianglesWithin::Near& n : near) {
-      if (part != ComparedNumbers::kNoPart && !of.partOfMesh.empty() && of.partOfMesh[n.triangle] != part)
-        continue;
+      if (!mayHold(k, point, n.triangle)) continue;
       order.emplace_back(least.atLeast(tree_.at(n.triangle), cornersOf(k, n.triangle), numbers, x, within_),
                          &n);
     }
@@ -283,6 +311,28 @@ class NearNumbers {
     return best;
   }
 
+  /// At the nearest point of what it may be compared with; nothing if some of that is within E, or none is at
+  /// all.
+  std::optional<LeastOnTriangle::Found> nearestOwn(std::size_t k, const SourcePoint& point, const Vec3& x,
+                                                   std::vector<TrianglesWithin::Near>& near,
+                                                   LeastOnTriangle& least) const {
+    std::vector<double> numbers;
+    numbersAt(compared_[k], point, numbers);
+    std::vector<TrianglesWithin::Near> own;
+    for (double radius = within_; own.empty() && radius <= reach_;
+         radius = std::max(4 * radius, kReachFrom * reach_)) {
+      tree_.find(x, radius, near);
+      for (const TrianglesWithin::Near& n : near)
+        if (mayHold(k, point, n.triangle)) own.push_back(n);
+      if (!own.empty() && radius == within_) return std::nullopt;
+    }
+    if (own.empty()) return std::nullopt;
+    const auto first = std::ranges::min_element(own, {}, &TrianglesWithin::Near::squaredDistance);
+    const double most = std::sqrt(first->squaredDistance) + rounding_;
+    std::erase_if(own, [&](const auto& n) { return n.squaredDistance > most * most; });
+    return LeastOnTriangle::Found{atNearestOf(k, numbers, own, least), own.front().nearest};
+  }
+
   double atNearestOf(std::size_t k, std::span<const double> numbers,
                      std::span<const TrianglesWithin::Near> nearest, LeastOnTriangle& least) const {
     double apart = std::numeric_limits<double>::infinity();
@@ -296,21 +346,13 @@ class NearNumbers {
   const TriangleMesh& source_;
   const std::vector<ComparedNumbers>& compared_;
   const RunContext& context_;
-  double within_, rounding_;
+  double within_, rounding_, reach_;
   TrianglesWithin tree_;
   NearestOnMesh nearest_;
   std::vector<SourcePoint> points_;
   std::size_t spreadFrom_ = 0;
   std::vector<double> slack_;
 };
-
-Box3 commonBox(const TriangleMesh& a, const TriangleMesh& b) {
-  Box3 box = Box3::empty();
-  for (const TriangleMesh* mesh : {&a, &b})
-    for (const auto& t : mesh->triangles)
-      for (const std::uint32_t v : t) box.include(mesh->positions[v]);
-  return box;
-}
 
 TriangleMesh about(const TriangleMesh& mesh, const Vec3& origin) {
   TriangleMesh moved{mesh.positions, mesh.triangles};

@@ -31,6 +31,9 @@ struct ComparedNumbers {
   /// By triangle. A point of the source is compared with triangles of its own part alone; with any where it
   /// has kNoPart, and not at all where it has kNotCompared. Empty: all are of one part.
   std::vector<std::uint32_t> partOfSource = {}, partOfMesh = {};
+  /// Within parts: by triangle, a point of the source is compared with triangles of its own chart and of
+  /// kNoPart; with any of its part where it has kNoPart. Empty: all are of one chart.
+  std::vector<std::uint32_t> chartOfSource = {}, chartOfMesh = {};
   /// What is expected of the largest: values above are searched again, finer.
   double expected = std::numeric_limits<double>::infinity();
 
@@ -42,6 +45,7 @@ struct NumbersFound {
   /// Points of the source that were compared: corners, middles of sides, and points spread over the surface.
   std::uint64_t points = 0;
   std::uint64_t unequal = 0;      ///< of them, those that are infinitely far
+  std::uint64_t beyond = 0;       ///< of them, those that NearNumbersOptions::reachesOwn is for
   double largest = 0;             ///< may be infinite
   double mean = 0, rms = 0;       ///< over the points spread evenly over the area, infinite ones aside
   Vec3 worst;                     ///< the first point of the source with the largest
@@ -52,6 +56,9 @@ struct NumbersFound {
 
 struct NearNumbersOptions {
   double within = 0;  ///< E
+  /// Whether a point with nothing of its part and chart within E is compared with the nearest point that has
+  /// these, as far as it is; else it is infinitely far.
+  bool reachesOwn = false;
   /// Spread over the source: 0: two for each of its triangles, and at least 100 000.
   std::uint64_t samples = 0;
   std::uint64_t seed = 1;

@@ -37,8 +37,11 @@ Status ExtractOutputs::check(bool several) const {
   if (packedBits && format.empty() && isGeoTiffName(output))
     return failure(ErrorCode::usage, "is for glTF (.glb, .gltf), not for a raster", "--packed");
   if (packedBits && !map.empty())
-    return failure(ErrorCode::usage, "tells numbers of the file, whose order --packed makes anew",
-                   fmt::format("--map {}", map));
+    return failure(
+        ErrorCode::usage,
+        "tells numbers of the file, whose order --packed makes anew: write the map of the same cut "
+        "without --packed",
+        fmt::format("--map {}", map));
   return {};
 }
 

@@ -51,10 +51,11 @@ ExtractRequest LevelFiles::redirected(const ExtractRequest& request) {
   return level;
 }
 
-void LevelFiles::describe(double error, std::uint64_t triangles) {
+void LevelFiles::describe(double error, std::uint64_t triangles, double unit) {
   noteRestored(levels_.back().file);  // no file of the user's
   levels_.back().error = error;
   levels_.back().triangles = triangles;
+  levels_.back().unit = unit;
 }
 
 Status LevelFiles::join(const ExtractRequest& like, Session& session) const {

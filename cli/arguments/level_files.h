@@ -26,8 +26,8 @@ class LevelFiles {
 
   /// A request that writes the next level instead of its output.
   ExtractRequest redirected(const ExtractRequest& request);
-  /// What is known of the level that was written.
-  void describe(double error, std::uint64_t triangles);
+  /// What is known of the level that was written. @param unit of the error, in the file's.
+  void describe(double error, std::uint64_t triangles, double unit = 1);
   /// Writes the levels as one file, and says so. Errors: as joinGltfLevels().
   Status join(const ExtractRequest& like, Session& session) const;
 

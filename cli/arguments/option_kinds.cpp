@@ -51,7 +51,10 @@ std::optional<std::string> OptionKinds::statedForOther(ModelKind kind) const {
     const std::string name = declared.option->get_name();
     if (declared.values.empty()) return name;
     for (const std::string& value : declared.option->results())
-      if (std::ranges::find(declared.values, value) != declared.values.end()) return name + " " + value;
+      if (std::ranges::any_of(declared.values, [&](const std::string& known) {
+            return known.ends_with(':') ? value.starts_with(known) : value == known;
+          }))
+        return name + " " + value;
   }
   return std::nullopt;
 }

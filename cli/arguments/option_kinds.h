@@ -28,7 +28,8 @@ class OptionKinds {
   CLI::Option* ofSurfaces(CLI::Option* option) { return declare(option, ModelKind::surface); }
   /// Declares all options of a group of the help, so far, to be for terrain.
   void groupOfTerrain(CLI::App& command, const std::string& group);
-  /// Declares some values of an option to be for one kind. The option's help says which.
+  /// Declares some values of an option to be for one kind; one that ends in ':' is the start of values. The
+  /// option's help says which.
   void valuesOf(ModelKind kind, const CLI::Option* option, std::vector<std::string> values);
 
   /// The first option that was stated and is not for that kind, as "--focus", or as "--fit rms" where its

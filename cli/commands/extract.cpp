@@ -29,6 +29,7 @@
 #include "cli/surface/extract.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/geo/bent/target.h"
+#include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/map_scale.h"
 #include "io/geo/dem/raster_writer.h"
@@ -258,7 +259,9 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   for (const ExtractRequest& request : requests) {
     ARETE_TRY(ExtractedTin tin, extractor.extract(levels ? levels->redirected(request) : request,
                                                   session.context(), std::exchange(part.cut, std::nullopt)));
-    if (levels) levels->describe(tin.promisedError, tin.triangles);
+    // A glTF of terrain is in metres.
+    const double metres = heightUnitOf(outline.georeference).metres;
+    if (levels) levels->describe(tin.promisedError, tin.triangles, metres > 0 ? metres : 1);
     if (wholes) {
       tin.relief = wholes->length;
       tin.finestTriangles = wholes->triangles;

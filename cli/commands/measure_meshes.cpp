@@ -141,6 +141,7 @@ Result<AttributeReport> attributesOf(const MeasureMeshesArguments& arguments, co
                                      const MeshFile& second, const std::optional<MetricMeshes>& metric,
                                      double within, const RunContext& context) {
   AttributeOptions options{.within = within,
+                           .isStated = !arguments.expect.empty(),
                            .samples = static_cast<std::uint64_t>(arguments.samples),
                            .seed = static_cast<std::uint64_t>(arguments.seed)};
   if (!arguments.expectAttribute.empty()) {

@@ -16,6 +16,7 @@
 #include "cli/arguments/criterion.h"
 #include "io/files/text_scan.h"
 #include "viewer/headless/headless.h"
+#include "viewer/inks/triangle_inks.h"
 
 namespace arete {
 namespace {
@@ -177,13 +178,18 @@ void AppearanceArguments::addTo(CLI::App& command, OptionKinds& kinds) {
           .add_option(
               "--color", color,
               "Colour by height (default), slope, aspect, plain or error; a surface by material (default), "
-              "plain, error, charts (of its texture and parts) or stretch (of the texture)")
-          ->check(oneOf({"height", "slope", "aspect", "plain", "error", "material", "charts", "stretch"}))
+              "plain, error, charts (of its texture and parts), stretch (of the texture) or error:ATTRIBUTE "
+              "(what the model states that it is off by: error:uv)")
+          ->check([known = oneOf({"height", "slope", "aspect", "plain", "error", "material", "charts",
+                                  "stretch", "error:ATTRIBUTE"})](const std::string& text) {
+            std::string word = text;
+            return word.size() > kErrorInk.size() && word.starts_with(kErrorInk) ? "" : known(word);
+          })
           ->type_name("NAME")
           ->group(group);
   // Some colours exist for one kind of model alone; with the other kind they are refused.
   kinds.valuesOf(ModelKind::terrain, colors, {"height", "slope", "aspect"});
-  kinds.valuesOf(ModelKind::surface, colors, {"material", "charts", "stretch"});
+  kinds.valuesOf(ModelKind::surface, colors, {"material", "charts", "stretch", std::string(kErrorInk)});
   this->colors.addTo(command, group, kinds);
   CLI::Option* picture = kinds.ofTerrain(
       command
@@ -278,11 +284,19 @@ Result<DrapeOptions> AppearanceArguments::drapeOptions() const {
   return options;
 }
 
+bool AppearanceArguments::hasInk() const {
+  return color == "charts" || color == "stretch" || color.starts_with(kErrorInk);
+}
+
 Result<ViewLook> AppearanceArguments::look(std::span<const Coloring> colorings) const {
   // OptionKinds has refused the colours of the other kind of model.
   const auto stated = std::ranges::find(colorings, color, [](Coloring c) { return toString(c); });
   ViewLook look;
   look.coloring = stated == colorings.end() ? colorings.front() : *stated;
+  if (hasInk()) {
+    look.coloring = Coloring::ink;
+    look.ink = color;
+  }
   look.isShaded = !isUnshaded;
   look.hazeKilometres = hazeKilometres;
   look.hasWireframe = hasWireframe;

@@ -77,8 +77,8 @@ struct AppearanceArguments {
   SurfaceLookArguments surface;
 
   void addTo(CLI::App& command, OptionKinds& kinds);
-  /// Whether the colours are of vertices, and computed (viewer/inks).
-  bool hasComputedColors() const { return color == "charts" || color == "stretch"; }
+  /// Whether the colours are of triangles, and computed (viewer/inks).
+  bool hasInk() const;
   /// Which bands of the drape to show. Errors: usage: not one or three band numbers, which count from 1.
   Result<DrapeOptions> drapeOptions() const;
   /// @param colorings of the model, the usual one first.

@@ -92,7 +92,7 @@ Status refuseForScenes(const ViewArguments& a, const OpenScene& scene) {
     if (!text.empty() && (a.viewpoint.beside.empty() || option == std::string_view("--turn ")))
       return failure(ErrorCode::usage, "is of one surface; a scene states it for each of its objects",
                      option + text);
-  if (a.appearance.hasComputedColors())
+  if (a.appearance.hasInk())
     return failure(ErrorCode::usage, "is of one surface", "--color " + a.appearance.color);
   return scene.terrain ? Status() : refuseOtherKinds(a, ModelKind::surface);
 }
@@ -283,7 +283,7 @@ Status runView(ViewArguments a, Session& session) {
   ARETE_TRY(ViewSettings settings, a.settings(subject.colorings()));
   settings.maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);
   settings.look.colors = viewed.colors;
-  if (a.viewpoint.hasDistances || a.appearance.hasComputedColors()) {
+  if (a.viewpoint.hasDistances) {
     settings.look.coloring = Coloring::material;
     settings.look.surface.hasTextures = settings.look.surface.hasMaterialColors = false;
     settings.look.surface.hasHighlights = false;

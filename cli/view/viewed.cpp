@@ -19,7 +19,6 @@
 #include "io/query/extract/camera_argument.h"
 #include "viewer/gl/terrain_drawable.h"
 #include "viewer/heights/contour_labels.h"
-#include "viewer/inks/chart_colors.h"
 #include "viewer/inks/distance_colors.h"
 #include "viewer/layers/contour_heights.h"
 #include "viewer/scene/scene_subject.h"
@@ -108,21 +107,15 @@ Result<Viewed> viewedSurface(const ViewArguments& a, SurfaceModel opened) {
   Viewed viewed{.subject = subject,
                 .finestTriangles = model->mt.finestTriangleCount(),
                 .files = {a.model},
-                .addModel = [model, subject, color = a.appearance.color,
-                             isComputed = a.appearance.hasComputedColors()](Scene& scene) -> Status {
-                  ComputedColors computed;
-                  if (isComputed) {
-                    auto made = color == "charts" ? chartColors(*model) : stretchColors(*model);
-                    if (!made) made.error().culprit = "--color " + color;
-                    ARETE_TRY(computed, std::move(made));
-                  }
-                  ARETE_TRY(auto assets,
-                            SurfaceAssets::create(*model, subject->upright(), std::move(computed.colors)));
-                  ARETE_CHECK(scene.add(std::make_unique<SurfaceDrawable>(std::move(assets), subject)));
-                  if (isComputed)
-                    scene.layers.put(color, SpaceVertices{}).legend = std::move(computed.legend);
-                  return {};
+                .addModel = [model, subject](Scene& scene) -> Status {
+                  ARETE_TRY(auto assets, SurfaceAssets::create(*model, subject->upright()));
+                  return scene.add(std::make_unique<SurfaceDrawable>(std::move(assets), subject));
                 }};
+  if (a.appearance.hasInk()) {
+    auto ink = subject->ink(a.appearance.color);
+    if (!ink) ink.error().culprit = "--color " + ink.error().culprit;
+    ARETE_CHECK(ink);
+  }
   const Similarity placedThere = placed(subject->placement(), nullptr);
   ARETE_TRY(viewed.camera, statedCamera(a, subject->space(), [&](const Vec3& p) {
               return placedThere(subject->upright().fromFile(p));

@@ -18,10 +18,10 @@ namespace {
 /// Verbs, and how many words follow.
 const std::map<std::string, std::size_t, std::less<>>& verbs() {
   static const std::map<std::string, std::size_t, std::less<>> all = {
-      {"halve", 0},  {"error", 1},    {"triangles", 1},  {"save", 1},  {"box", 1},
-      {"crop", 1},   {"decimate", 3}, {"drag", 1},       {"click", 1}, {"open", 1},
-      {"yes", 0},    {"no", 0},       {"select", 1},     {"key", 0},   {"play", 0},
-      {"around", 0}, {"frames", 1},   {"screenshot", 0}, {"free", 0},  {"press", 1}};
+      {"halve", 0},    {"error", 1}, {"triangles", 1}, {"save", 1},   {"box", 1},    {"crop", 1},
+      {"decimate", 3}, {"drag", 1},  {"click", 1},     {"open", 1},   {"yes", 0},    {"no", 0},
+      {"select", 1},   {"key", 0},   {"play", 0},      {"around", 0}, {"frames", 1}, {"screenshot", 0},
+      {"free", 0},     {"press", 1}, {"color", 1}};
   return all;
 }
 
@@ -122,6 +122,7 @@ void WindowScript::act(const std::string& verb, const std::vector<std::string>& 
   if (verb == "press")
     for (const KeyBinding& key : keyBindings())
       if (key.name == words[1]) s.apply(key.action);
+  if (verb == "color") s.say(s.colorByInk(words[1]));
   if (verb == "frames") wait_ = int(n[0]);
   if (verb == "screenshot") s.apply(Action::screenshot);
 }

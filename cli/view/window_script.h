@@ -24,6 +24,7 @@ namespace arete {
 ///     open FILE                as a file that is dropped on the window
 ///     yes | no                 answers a question
 ///     key, play, around, free  of the flight, and of the camera
+///     color INK                an entry of the menu of colours: charts, stretch, error:uv
 ///     select N                 an object of a scene, from 0
 ///     frames N                 waits
 ///     screenshot

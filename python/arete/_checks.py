@@ -65,6 +65,27 @@ def size_text(name: str, value: Any) -> str:
     return repr(real)
 
 
+def packing_of(path: str, packed: bool, position_bits: Optional[int]) -> Optional[int]:
+    """The bits of each coordinate of a packed glTF; None where it is not packed."""
+    bits = whole("position_bits", position_bits, 8, 16)
+    if not packed:
+        if bits is not None:
+            raise ValueError("position_bits is the grid of a packed file: packed=True")
+        return None
+    if not path.lower().endswith((".glb", ".gltf")):
+        raise ValueError(f"packed is for glTF (.glb, .gltf), not for {path}")
+    return 14 if bits is None else bits
+
+
+def normals_of(normals: str, crease_angle: Optional[float]) -> Tuple[str, float]:
+    """What becomes of normals, and the angle from which an edge is hard."""
+    kind = str(word("normals", str(normals), ("keep", "flat", "smooth")))
+    angle = number("crease_angle", crease_angle, 0, 180)
+    if angle is not None and kind != "smooth":
+        raise ValueError("crease_angle is for normals=\"smooth\"")
+    return kind, 45.0 if angle is None else angle
+
+
 def names_of(names: Any) -> List[str]:
     """One name, or several."""
     return [names] if isinstance(names, str) else [str(name) for name in names]

@@ -92,7 +92,8 @@ class Tin(Mesh):
     def save(self, path: PathLike, progress: Progress = None, *, certificate: Union[bool, PathLike, None] = None,
              error_raster: Optional[PathLike] = None, map: Optional[PathLike] = None,
              drop_attributes: Union[str, Sequence[str]] = (), both_ways: bool = False, to_crs: Any = None,
-             metric: bool = False) -> List[str]:
+             metric: bool = False, packed: bool = False, position_bits: Optional[int] = None, normals: str = "keep",
+             crease_angle: Optional[float] = None) -> List[str]:
         """Writes a mesh in the format that the name says, with its CRS, unit, errors and, of a surface, attributes; of a
         raster also .tif, the TIN sampled on the source's grid.
 
@@ -103,6 +104,10 @@ class Tin(Mesh):
             breaks the promise is raised, behind the files.
         error_raster: of terrain, a GeoTIFF of the TIN minus the DEM. map: of a surface, a CSV of the vertices and faces of
             the source. drop_attributes: of a surface, names to leave out. both_ways: measures a surface that way too.
+
+        packed: a .glb or .gltf as small as it can be, on a grid of position_bits (8 to 16, by default 14); what that moves is
+            counted in the error, and a max_error is kept where it leaves room. normals: of a surface "keep", "flat" or "smooth",
+            across edges below crease_angle degrees (by default 45), made of the faces of the cut.
 
         Terrain is led into another CRS by to_crs (a CRS as build() takes it, or "utm", the zone of its middle), or by metric into
         metres to the east, north and up. Edges are split where bending adds more than a tenth of the error.
@@ -118,11 +123,14 @@ class Tin(Mesh):
             written.append(os.path.abspath(one))
         to_crs = crs_text(to_crs)
         names = _checks.names_of(drop_attributes)
+        bits = _checks.packing_of(name, packed, position_bits)
+        kind, angle = _checks.normals_of(normals, crease_angle)
         is_raster = name.lower().endswith((".tif", ".tiff"))
-        if not (certificate or error_raster or map or names or both_ways or is_raster):
+        if not (certificate or error_raster or map or names or both_ways or is_raster or bits or kind != "keep"):
             return list(self._tin.save(name, to_crs, bool(metric), progress))
         is_surface = len(self.source_vertices) > 0
-        for option, value in (("map", map), ("drop_attributes", names), ("both_ways", both_ways)):
+        for option, value in (("map", map), ("drop_attributes", names), ("both_ways", both_ways),
+                              ("normals", kind != "keep")):
             if value and not is_surface:
                 raise TypeError(f"{option} is for surfaces")
         for option, value in (("error_raster", error_raster), ("to_crs", to_crs), ("metric", metric)):
@@ -138,6 +146,8 @@ class Tin(Mesh):
         files.map = "" if map is None else os.fspath(map)
         files.drop_attributes = names
         files.both_ways = both_ways
+        files.packed_bits = bits
+        files.set_normals(kind, angle)
         files.to_crs = to_crs
         files.metric = metric
         return self._export.write(files, progress)

@@ -70,14 +70,26 @@ class Mesh:
         """Of z, as the source states it; may be empty."""
         return self._tin.file_parts[0]
 
-    def save(self, path: PathLike, progress: Progress = None) -> List[str]:
+    def save(self, path: PathLike, progress: Progress = None, *, packed: bool = False, position_bits: Optional[int] = None,
+             normals: str = "keep", crease_angle: Optional[float] = None) -> List[str]:
         """Writes a mesh in the format that the name says, with its CRS, unit and attributes.
+
+        packed: a .glb or .gltf as small as it can be; position_bits (8 to 16, by default 14) is its grid, which moves a point
+            by up to half of a step. normals: "keep", "flat" or "smooth", across edges below crease_angle degrees (by default 45).
 
         Returns what the format cannot hold: ["the CRS"]. A file that is the source is refused.
         """
         name = os.fspath(path)
         _checks.refuse_source(name, self._files)
-        return list(self._tin.save(name, "", False, progress))
+        bits = _checks.packing_of(name, packed, position_bits)
+        kind, angle = _checks.normals_of(normals, crease_angle)
+        if bits is None and kind == "keep":
+            return list(self._tin.save(name, "", False, progress))
+        files = _arete.ExportFiles()
+        files.output = name
+        files.packed_bits = bits
+        files.set_normals(kind, angle)
+        return list(self._tin.save_as(files, progress))
 
     def slopes(self) -> NDArray[np.float64]:
         """(m,): how steep each triangle is, in degrees from the horizontal, on the ground: degrees and feet are taken as

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/geo/bent/target.h"
+#include "surface/normals/made_normals.h"
 
 namespace arete::python {
 
@@ -18,6 +20,8 @@ struct ExportFiles {
   std::string checkBefore, checkBehind;          ///< the call that checks it, around the promised error
   std::vector<std::string> dropAttributes = {};  ///< of a surface
   bool measuresBothWays = false;                 ///< of a surface
+  std::optional<int> packedBits = {};            ///< MeshPacking::positionBits of a packed glTF
+  NormalsOptions normals = {};                   ///< of a surface
 
   /// Empty where there is no call.
   std::string check(double promised) const {

@@ -230,7 +230,8 @@ std::string measureMeshes(const MeshSource& first, const MeshSource& second, std
       within = most;
     }
     if (wantsAttributes || !expectAttribute.empty()) {
-      AttributeOptions options{.within = within, .samples = samples, .seed = seed};
+      AttributeOptions options{
+          .within = within, .isStated = !expect.empty(), .samples = samples, .seed = seed};
       if (!expectAttribute.empty()) {
         ARETE_TRY(options.expected, parseAttributeNumbers(expectAttribute));
       }

@@ -105,6 +105,8 @@ std::string extractSurfaceTo(const SurfaceModel& model, CutRequest asked,
     request.map = files.map;
     request.dropAttributes = files.dropAttributes;
     request.measuresBothWays = files.measuresBothWays;
+    request.packedBits = files.packedBits;
+    request.normals = files.normals;
     SurfaceExtractor extractor(
         model, files.model,
         [&](const ExtractRequest&, double promised, std::uint64_t) { return files.check(promised); });

@@ -109,6 +109,7 @@ std::string extractTo(const Terrain& terrain, const CutRequest& asked,
     request.place = files.place;
     request.certificate = files.certificate;
     request.errorRaster = files.errorRaster;
+    request.packedBits = files.packedBits;
     ARETE_TRY(request.criterion, placedRequest(terrain, asked, region, camera, true, warnings, context));
     if (request.criterion.camera && !request.criterion.pixelError && !request.criterion.maxTriangles)
       request.criterion.pixelError = 1;

@@ -153,7 +153,14 @@ void defineExportFiles(py::module_& module) {
       .def_readwrite("check_before", &ExportFiles::checkBefore)
       .def_readwrite("check_behind", &ExportFiles::checkBehind)
       .def_readwrite("drop_attributes", &ExportFiles::dropAttributes)
-      .def_readwrite("both_ways", &ExportFiles::measuresBothWays);
+      .def_readwrite("both_ways", &ExportFiles::measuresBothWays)
+      .def_readwrite("packed_bits", &ExportFiles::packedBits)
+      .def("set_normals", [](ExportFiles& files, const std::string& kind, double creaseAngleDegrees) {
+        files.normals.kind = kind == "flat"     ? NormalsKind::flat
+                             : kind == "smooth" ? NormalsKind::smooth
+                                                : NormalsKind::keep;
+        files.normals.creaseAngleDegrees = creaseAngleDegrees;
+      });
 }
 
 }  // namespace
@@ -192,6 +199,19 @@ void defineTin(py::module_& module) {
              const MeshWriteReport report = call(
                  progress, [&](const RunContext& context) { return write(self.tin, path, place, context); });
              return lostOf(self, path, report.lost);
+           })
+      .def("save_as",
+           [](const CutTin& self, const ExportFiles& files, const py::object& progress) {
+             if (const Result<MeshFormat> format = meshFormatOf(files.output); !format)
+               raise({ErrorCode::usage, format.error().message, files.output});
+             const MeshWriteReport report =
+                 call(progress, [&](const RunContext& context) -> Result<MeshWriteReport> {
+                   Tin made = self.tin;
+                   ARETE_CHECK(makeNormals(made.mesh, files.normals));
+                   if (!files.packedBits) return write(made, files.output, context);
+                   return write(made, files.output, MeshPacking{.positionBits = *files.packedBits}, context);
+                 });
+             return lostOf(self, files.output, report.lost);
            })
       .def_property_readonly(
           "vertices",

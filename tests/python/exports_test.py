@@ -103,6 +103,17 @@ class Terrain(Folder):
         self.assertEqual(ours["measured"] if "measured" in ours else ours, theirs["measured"] if "measured" in theirs else theirs)
         self.assertEqual(set(ours), set(theirs))
 
+    def test_a_packed_file_is_that_of_the_command(self):
+        self.model.save(self.path("dem.amt"))
+        tin = arete.open_model(self.path("dem.amt")).cut(max_error=5)
+        for bits, words in ((None, ()), (16, ("--position-bits", 16))):
+            with self.subTest(bits=bits):
+                tin.save(self.path("ours.glb"), packed=True, position_bits=bits)
+                self.said("extract", self.path("dem.amt"), "-o", self.path("theirs.glb"), "--max-error", 5, "--packed", *words)
+                self.assertEqual(self.bytes_of("ours.glb"), self.bytes_of("theirs.glb"))
+        with self.assertRaisesRegex(TypeError, "normals is for surfaces"):
+            tin.save(self.path("ours.glb"), normals="smooth")
+
     def test_a_raster_is_the_tin_on_the_grid(self):
         self.model.cut(max_error=2).save(self.path("tin.tif"))
         again = arete.build(self.path("tin.tif"))
@@ -325,6 +336,43 @@ class Surfaces(Folder):
         super().setUp()
         self.vertices, self.triangles = ball()
         self.surface = arete.build_surface(self.vertices, self.triangles)
+
+    def test_packed_files_and_normals_are_those_of_the_command(self):
+        self.surface.save(self.path("ball.amt"))
+        cut = arete.open_surface(self.path("ball.amt")).cut(max_error=0.01)
+        for options, words in (({"packed": True}, ("--packed",)),
+                               ({"packed": True, "position_bits": 9}, ("--packed", "--position-bits", 9)),
+                               ({"normals": "flat"}, ("--normals", "flat")),
+                               ({"normals": "smooth", "crease_angle": 20}, ("--normals", "smooth", "--crease-angle", 20)),
+                               ({"packed": True, "normals": "smooth"}, ("--packed", "--normals", "smooth"))):
+            with self.subTest(**options):
+                cut.save(self.path("ours.glb"), **options)
+                self.said("extract", self.path("ball.amt"), "-o", self.path("theirs.glb"), "--max-error", 0.01, *words)
+                self.assertEqual(self.bytes_of("ours.glb"), self.bytes_of("theirs.glb"))
+
+    def test_a_mesh_is_packed_and_has_normals_as_by_the_command(self):
+        self.surface.cut(max_error=0).save(self.path("ball.obj"))
+        mended = arete.repair(self.path("ball.obj"))
+        for options, words in (({"packed": True, "position_bits": 10}, ("--packed", "--position-bits", 10)),
+                               ({"normals": "smooth"}, ("--normals", "smooth"))):
+            with self.subTest(**options):
+                mended.save(self.path("ours.glb"), **options)
+                self.said("mesh", "repair", self.path("ball.obj"), "-o", self.path("theirs.glb"), *words)
+                self.assertEqual(self.bytes_of("ours.glb"), self.bytes_of("theirs.glb"))
+
+    def test_packing_that_has_no_meaning_is_refused_by_name(self):
+        cut = self.surface.cut(max_error=0.1)
+        for error, name, options in (("position_bits", "a.glb", {"position_bits": 12}),
+                                     ("position_bits", "a.glb", {"packed": True, "position_bits": 17}),
+                                     ("packed is for glTF", "a.ply", {"packed": True}),
+                                     ("crease_angle", "a.glb", {"crease_angle": 30}),
+                                     ("crease_angle", "a.glb", {"normals": "smooth", "crease_angle": 181}),
+                                     ("normals", "a.glb", {"normals": "round"})):
+            with self.subTest(**options), self.assertRaisesRegex(ValueError, error):
+                cut.save(self.path(name), **options)
+        with self.assertRaisesRegex(ValueError, "without"):
+            cut.save(self.path("a.glb"), packed=True, map=self.path("map.csv"))
+        self.assertFalse(os.path.exists(self.path("a.glb")))
 
     def test_a_certificate_and_a_map_are_those_of_the_command(self):
         self.surface.save(self.path("ball.amt"))

@@ -34,8 +34,8 @@ FUNCTIONS = {
     "validate": [arete.Model.validate, arete.Surface.validate],
     "convert": [arete.build, arete.build_surface, arete.Model.save, arete.Surface.save, arete.Tin.save],
     "mesh info": [arete.mesh_info],
-    "mesh repair": [arete.repair],
-    "mesh decimate": [arete.decimate],
+    "mesh repair": [arete.repair, arete.Mesh.save],
+    "mesh decimate": [arete.decimate, arete.Mesh.save],
 }
 
 # Commands of windows, of pictures and of files alone.
@@ -68,16 +68,9 @@ EXCEPTED = {
     ("measure", "error-raster"): "output; Tin.save() has it", ("measure", "error-mesh"): "output",
     ("mesh decimate", "map"): "output; source_vertices of the result", ("convert", "up"): "of a file written of a file",
     ("convert", "unit"): "of a file written of a file", ("mesh repair", "up"): "of the output",
-    ("mesh repair", "normals"): "of the output", ("mesh repair", "crease-angle"): "of the output",
-    ("mesh decimate", "normals"): "of the output", ("mesh decimate", "crease-angle"): "of the output",
-    ("extract", "normals"): "of the output", ("extract", "crease-angle"): "of the output",
-    ("convert", "normals"): "of the output", 
     ("mesh repair", "unit"): "of the output", ("mesh decimate", "up"): "of the output", ("mesh decimate", "unit"): "of the output",
     ("convert", "flip-v"): "of a file written of a file", ("extract", "flip-v"): "of the output", ("extract", "levels"): "output",
-    ("extract", "packed"): "of the output", ("extract", "position-bits"): "of the output",
-    ("mesh decimate", "flip-v"): "of the output", ("mesh decimate", "packed"): "of the output",
-    ("mesh decimate", "position-bits"): "of the output", ("mesh repair", "flip-v"): "of the output",
-    ("mesh repair", "packed"): "of the output", ("mesh repair", "position-bits"): "of the output",
+    ("mesh decimate", "flip-v"): "of the output", ("mesh repair", "flip-v"): "of the output",
 }
 
 

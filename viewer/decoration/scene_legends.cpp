@@ -50,6 +50,16 @@ ColorLegend legendOf(Coloring coloring, const TerrainColors& colors, const std::
   }
 }
 
+ColorLegend legendOf(const TriangleInk& ink) {
+  ColorLegend legend{.title = ink.title, .unit = ink.unit};
+  if (!ink.ticks.empty())
+    legend.scale = LegendScale{
+        .map = ink.colors, .low = ink.colors.low(), .high = ink.colors.high(), .ticks = ink.ticks};
+  for (const Legend::Entry& entry : ink.classes)
+    legend.classes.push_back({{laidOver(entry.color, {255, 255, 255})}, entry.label, entry.mark});
+  return legend;
+}
+
 std::vector<ColorLegend> SceneLegends::of(const ViewSettings& settings, std::span<const Layer> layers) const {
   std::vector<ColorLegend> legends;
   const TerrainModel* model = subject_->heights() ? &subject_->heights()->model() : nullptr;
@@ -76,6 +86,10 @@ std::vector<ColorLegend> SceneLegends::of(const ViewSettings& settings, std::spa
     }
   }
   const ViewLook& look = settings.look;
+  if (look.coloring == Coloring::ink) {
+    if (const auto ink = subject_->ink(look.ink)) legends.push_back(legendOf(**ink));
+    return legends;
+  }
   if (!look.colors && !usual_) usual_ = model ? usualColors(*model) : TerrainColors();
   ColorLegend ground =
       legendOf(look.coloring, look.colors ? *look.colors : *usual_, unit, look.heatError, settings.pixels);

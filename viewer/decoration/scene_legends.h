@@ -9,6 +9,7 @@
 #include "viewer/decoration/legend.h"
 #include "viewer/scene/layer.h"
 #include "viewer/scene/subject.h"
+#include "viewer/scene/triangle_ink.h"
 
 namespace arete {
 
@@ -27,6 +28,9 @@ class SceneLegends {
   const Subject* subject_;
   mutable std::optional<TerrainColors> usual_;
 };
+
+/// The legend of an ink.
+ColorLegend legendOf(const TriangleInk& ink);
 
 /// The legend of one colouring. @param heatPixels of errors without a stated largest one
 ColorLegend legendOf(Coloring coloring, const TerrainColors& colors, const std::string& unit,

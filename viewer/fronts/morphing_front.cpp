@@ -165,6 +165,7 @@ bool MorphingFront::listOwn() {
     for (std::size_t i = 0; i < 3; ++i) corners[i] = ownVertices_.slotOf(drawn[i], l.vertices[i]);
     own_.corners.push_back(corners);
     own_.errors.push_back(static_cast<float>(mt.error(TriangleId(l.triangle))));
+    own_.triangles.push_back(l.triangle);
     if (!isBlended_[l.material]) continue;
     Vec3 middle;
     for (const std::uint32_t c : corners) {
@@ -188,6 +189,7 @@ void MorphingFront::publish(bool isNew, bool isOwnNew, const FrameFigures& figur
       const bool isDrawn = t != MultiTriangulation::kNone;
       pending_.corners.push_back(isDrawn ? drawnCorners(t) : FrontChanges::Corners{});
       pending_.errors.push_back(isDrawn ? static_cast<float>(mt.error(TriangleId(t))) : 0);
+      pending_.triangles.push_back(isDrawn ? t : 0);
     }
   };
   figures_ = figures;
@@ -198,6 +200,7 @@ void MorphingFront::publish(bool isNew, bool isOwnNew, const FrameFigures& figur
     pending_.runs.clear();
     pending_.corners.clear();
     pending_.errors.clear();
+    pending_.triangles.clear();
     add(0, size);
   }
   const std::span<const std::uint32_t> changed = slots_.changed();

@@ -38,12 +38,14 @@ struct FrontChanges {
   std::vector<Run> runs;         ///< slots that are to be written, in this order
   std::vector<Corners> corners;  ///< of the runs, one behind the other
   std::vector<float> errors;
+  std::vector<std::uint32_t> triangles;      ///< of the MT
   std::optional<std::vector<Range>> ranges;  ///< of the buffer; nothing: as before
 
   struct Own {
     std::vector<OwnVertex> vertices;
     std::vector<Corners> corners;
     std::vector<float> errors;
+    std::vector<std::uint32_t> triangles;
     std::vector<Range> ranges;
     BlendedOrder blended;  ///< those among them that let light through
   };

@@ -62,6 +62,7 @@ ViewSettings Scene::settingsOf(std::size_t model, const ViewSettings& shared) co
   own.look.kept = object.kept;
   if (drawables_.size() == 1) return own;
   const Subject& subject = drawables_[model]->subject();
+  if (own.look.coloring == Coloring::ink && subject.ink(own.look.ink)) return own;
   if (std::ranges::find(subject.colorings(), own.look.coloring) == subject.colorings().end())
     own.look.coloring = subject.colorings().front();
   return own;

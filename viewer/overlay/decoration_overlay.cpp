@@ -19,11 +19,11 @@ Result<DecorationOverlay> DecorationOverlay::create(const Scene& scene) {
 std::string DecorationOverlay::stateOf(const FrameTarget& target, const Camera& c,
                                        const ViewSettings& settings) const {
   const ViewLook& look = settings.look;
-  std::string state =
-      fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {}", target.width(), target.height(), c.xy.x,
-                  c.xy.y, c.height, c.azimuthDegrees, c.pitchDegrees, c.verticalFieldOfViewDegrees,
-                  settings.stretch, settings.isCurved, int(look.coloring), look.heatError,
-                  look.coloring == Coloring::error ? settings.pixels : 0, fmt::ptr(look.colors.get()));
+  std::string state = fmt::format(
+      "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", target.width(), target.height(), c.xy.x, c.xy.y,
+      c.height, c.azimuthDegrees, c.pitchDegrees, c.verticalFieldOfViewDegrees, settings.stretch,
+      settings.isCurved, int(look.coloring), look.heatError,
+      look.coloring == Coloring::error ? settings.pixels : 0, fmt::ptr(look.colors.get()), look.ink);
   for (const Layer& layer : scene_->layers.list())
     if (layer.isVisible) {
       const auto* contours = std::get_if<Contours>(&layer.content);

@@ -10,8 +10,8 @@
 namespace arete {
 
 std::string_view toString(Coloring coloring) {
-  static constexpr std::array<std::string_view, 6> kNames = {"height", "slope", "aspect",
-                                                             "plain",  "error", "material"};
+  static constexpr std::array<std::string_view, 7> kNames = {"height", "slope",    "aspect", "plain",
+                                                             "error",  "material", "ink"};
   return kNames[std::size_t(coloring)];
 }
 
@@ -19,6 +19,10 @@ Box3 Subject::fileBox() const {
   Box3 all = Box3::empty();
   for (const Vec3& corner : box().corners()) all.include(inFile(corner));
   return all;
+}
+
+Result<std::shared_ptr<const TriangleInk>> Subject::ink(const std::string& name) const {
+  return failure(ErrorCode::usage, isTerrain() ? "is for surfaces" : "is for one surface", name);
 }
 
 Status Subject::checkColoring(Coloring coloring) const {

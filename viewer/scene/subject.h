@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,7 @@
 #include "viewer/camera/flight.h"
 #include "viewer/camera/home_view.h"
 #include "viewer/scene/layer.h"
+#include "viewer/scene/triangle_ink.h"
 #include "viewer/scene/view_settings.h"
 
 namespace arete {
@@ -102,6 +104,10 @@ class Subject {
 
   /// What the model can be coloured by, the usual one first.
   virtual std::span<const Coloring> colorings() const = 0;
+  /// The names of the inks that its triangles can have beside: Coloring::ink, ViewLook::ink.
+  virtual std::vector<std::string> inks() const { return {}; }
+  /// One of them. Errors: usage, with the name as the culprit: it has none of that name, or why not.
+  virtual Result<std::shared_ptr<const TriangleInk>> ink(const std::string& name) const;
   /// Errors: what of the settings it cannot show: usage, as "slopes are for terrain"; as CurvedGround.
   virtual Status check(const ViewSettings& settings) const = 0;
   /// Errors: usage: a layer that it cannot show, as "contours are for terrain", with its name as the culprit.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "engine/criteria/view.h"
 #include "viewer/color/terrain_colors.h"
@@ -12,7 +13,7 @@
 namespace arete {
 
 /// What a model's colours stand for. A model offers some of them (Subject::colorings()).
-enum class Coloring { height, slope, aspect, plain, error, material };
+enum class Coloring { height, slope, aspect, plain, error, material, ink };
 
 /// What computes the cut.
 enum class CutPath { device, processor };
@@ -63,6 +64,7 @@ struct ViewLook {
   SurfaceLook surface = {};
   /// The error of the hottest colour, in the unit of heights; 0 = as many pixels as the cut allows.
   double heatError = 0;
+  std::string ink = {};  ///< of Coloring::ink: which of Subject::inks()
   /// The colours of heights, slopes, aspects and errors of a terrain. Null: the table's, for its heights.
   SharedColors colors = {};
   std::optional<KeptBox> kept = {};  ///< what of a surface lies outside is tinted

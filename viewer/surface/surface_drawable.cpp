@@ -82,12 +82,14 @@ void SurfaceDrawable::upload(FrontChanges&& changes) {
   if (changes.newSize) {
     indices_ = makeBuffer(std::size_t{12} * *changes.newSize);
     errors_ = makeBuffer(std::size_t{4} * *changes.newSize);
+    ids_ = makeBuffer(std::size_t{4} * *changes.newSize);
   }
   std::size_t at = 0;
   for (const FrontChanges::Run& run : changes.runs) {
     glNamedBufferSubData(indices_, GLintptr(12) * run.first, GLsizeiptr(12) * run.count,
                          &changes.corners[at]);
     glNamedBufferSubData(errors_, GLintptr(4) * run.first, GLsizeiptr(4) * run.count, &changes.errors[at]);
+    glNamedBufferSubData(ids_, GLintptr(4) * run.first, GLsizeiptr(4) * run.count, &changes.triangles[at]);
     at += run.count;
   }
   if (changes.ranges) ranges_ = std::move(*changes.ranges);
@@ -97,6 +99,7 @@ void SurfaceDrawable::upload(FrontChanges&& changes) {
       own_.vertices = makeBuffer(std::span<const OwnVertex>(changes.own->vertices));
       own_.indices = makeBuffer(std::span<const FrontChanges::Corners>(changes.own->corners));
       own_.errors = makeBuffer(std::span<const float>(changes.own->errors));
+      own_.ids = makeBuffer(std::span<const std::uint32_t>(changes.own->triangles));
     }
     own_.ranges = std::move(changes.own->ranges);
     own_.blended = std::move(changes.own->blended);
@@ -108,6 +111,14 @@ VertexStreams SurfaceDrawable::restingStreams() const {
   VertexStreams streams = assets_->vertices.streams();
   if (displaced_ != 0) streams.positions.buffer = displaced_;
   return streams;
+}
+
+Result<const InkOnGpu*> SurfaceDrawable::inkOf(const ViewLook& look) {
+  if (look.coloring != Coloring::ink) return static_cast<const InkOnGpu*>(nullptr);
+  ARETE_TRY(auto ink, subject_->ink(look.ink));
+  if (ink != ink_) inkOnGpu_ = std::make_unique<InkOnGpu>(*ink);
+  ink_ = std::move(ink);
+  return static_cast<const InkOnGpu*>(inkOnGpu_.get());
 }
 
 // The near planes of all objects are one plane of the scene, so that their depths compare: what is written is
@@ -125,6 +136,7 @@ Result<FrameView> SurfaceDrawable::frameOf(const Camera& camera, const ViewSetti
 
 Status SurfaceDrawable::draw(const Camera& camera, const ViewSettings& settings, std::span<const Layer>) {
   ARETE_TRY(const FrameView frame, frameOf(camera, settings));
+  ARETE_TRY(const InkOnGpu* const ink, inkOf(settings.look));
   const auto solid = [&](const std::vector<FrontChanges::Range>& ranges) {
     std::vector<DrawnSurface::Range> drawn;
     for (const FrontChanges::Range& r : ranges)
@@ -136,13 +148,13 @@ Status SurfaceDrawable::draw(const Camera& camera, const ViewSettings& settings,
   hasDrawnBlended_ = false;
   const Similarity turned(subject_->placement().turn, 1, {});
   glBeginQuery(GL_ANY_SAMPLES_PASSED, anySample_);
-  assets_->painter.draw(assets_->materials, DrawnSurface{indices_, errors_, restingStreams(), resting}, frame,
-                        settings.look, turned);
+  assets_->painter.draw(assets_->materials, DrawnSurface{indices_, errors_, ids_, restingStreams(), resting},
+                        frame, settings.look, turned, false, ink);
   if (!own.empty())
     assets_->painter.draw(
         assets_->materials,
-        DrawnSurface{own_.indices, own_.errors, streamsOf(own_.vertices, assets_->vertices), own}, frame,
-        settings.look, turned);
+        DrawnSurface{own_.indices, own_.errors, own_.ids, streamsOf(own_.vertices, assets_->vertices), own},
+        frame, settings.look, turned, false, ink);
   glEndQuery(GL_ANY_SAMPLES_PASSED);
   return {};
 }
@@ -158,7 +170,7 @@ Status SurfaceDrawable::drawBlended(const Camera& camera, const ViewSettings& se
     runs.push_back({run.material, run.first, run.count});
   glBeginQuery(GL_ANY_SAMPLES_PASSED, anyBlended_);
   assets_->painter.draw(assets_->materials,
-                        DrawnSurface{indices, 0, streamsOf(own_.vertices, assets_->vertices), runs}, frame,
+                        DrawnSurface{indices, 0, 0, streamsOf(own_.vertices, assets_->vertices), runs}, frame,
                         settings.look, Similarity(subject_->placement().turn, 1, {}), true);
   glEndQuery(GL_ANY_SAMPLES_PASSED);
   hasDrawnBlended_ = true;

@@ -63,10 +63,12 @@ class SurfaceDrawable final : public Drawable {
  private:
   /// A front's triangles that have a vertex of the object's own, and those vertices.
   struct OwnOnGpu {
-    GlBuffer vertices, indices, errors;
+    GlBuffer vertices, indices, errors, ids;
     std::vector<FrontChanges::Range> ranges;
     BlendedOrder blended;
   };
+  /// Of the look; null of looks without one. Errors: as Subject::ink().
+  Result<const InkOnGpu*> inkOf(const ViewLook& look);
   /// Sends what changed.
   void upload(FrontChanges&& changes);
   void stopWork();
@@ -78,11 +80,13 @@ class SurfaceDrawable final : public Drawable {
   std::shared_ptr<CutWorker> worker_;  // null: none was needed yet
   bool hasFront_ = false;
   GlQuery anySample_ = makeQuery(GL_ANY_SAMPLES_PASSED), anyBlended_ = makeQuery(GL_ANY_SAMPLES_PASSED);
-  bool hasDrawnBlended_ = false;  // in the last picture
-  double pixels_ = 1;             // of the last cut
-  GlBuffer indices_, errors_;     // of resting triangles
+  bool hasDrawnBlended_ = false;     // in the last picture
+  double pixels_ = 1;                // of the last cut
+  GlBuffer indices_, errors_, ids_;  // of resting triangles
   std::vector<FrontChanges::Range> ranges_;
   OwnOnGpu own_;
+  std::shared_ptr<const TriangleInk> ink_;  // as it lies there; null: none yet
+  std::unique_ptr<InkOnGpu> inkOnGpu_;
   GlBuffer displaced_;  // positions of a displaced model
 };
 

@@ -44,10 +44,16 @@ glm::vec4 fromEye(const Vec3& place, const FrameView& frame, float w) {
 }
 
 float coloringNumber(Coloring coloring) {
-  return coloring == Coloring::material ? 0.0f : coloring == Coloring::plain ? 1.0f : 2.0f;
+  return coloring == Coloring::material ? 0.0f
+         : coloring == Coloring::plain  ? 1.0f
+         : coloring == Coloring::ink    ? 3.0f
+                                        : 2.0f;
 }
 
 }  // namespace
+
+InkOnGpu::InkOnGpu(const TriangleInk& ink)
+    : numbers(makeBuffer(std::span<const float>(ink.numbers))), colors({&ink.colors, 1}) {}
 
 Result<SurfacePainter> SurfacePainter::create() {
   SurfacePainter p;
@@ -125,16 +131,20 @@ void SurfacePainter::drawRange(const DrawnSurface::Range& range, const Look& loo
 }
 
 void SurfacePainter::draw(const MaterialsOnGpu& materials, const DrawnSurface& front, const FrameView& frame,
-                          const ViewLook& look, const Similarity& turned, bool isBlended) {
+                          const ViewLook& look, const Similarity& turned, bool isBlended,
+                          const InkOnGpu* ink) {
   const FrameBlock block = frameBlock(frame, MetricFrame{});
   glNamedBufferSubData(frame_, 0, sizeof block, &block);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, look_);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, front.errors != 0 ? front.errors : nothing_);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 9, front.ids != 0 ? front.ids : nothing_);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 10, ink ? GLuint(ink->numbers) : GLuint(nothing_));
   glUseProgram(surface_);
-  errorColors_.bind();
+  const ColorMapsOnGpu& colors = ink ? ink->colors : errorColors_;
+  colors.bind();
   glBindTextureUnit(GLuint(DrawnPicture::count), reflected_);
-  glProgramUniform1ui(surface_, 0, errorColors_.place(0));
+  glProgramUniform1ui(surface_, 0, colors.place(0));
   const GLuint array = surfaceArray_;
   // An attribute that the surface lacks is disabled, and a constant takes its place: no coordinates, white.
   const auto attribute = [&](GLuint index, const VertexStreams::Stream& stream, GLint size, GLenum type) {

@@ -9,6 +9,7 @@
 #include "viewer/gl/color_maps_on_gpu.h"
 #include "viewer/gl/frame_block.h"
 #include "viewer/gl/gl_objects.h"
+#include "viewer/scene/triangle_ink.h"
 #include "viewer/scene/view_settings.h"
 #include "viewer/surface/materials_on_gpu.h"
 #include "viewer/surface/surface_on_gpu.h"
@@ -22,8 +23,17 @@ struct DrawnSurface {
   };
   GLuint indices = 0;  ///< three drawn vertices a triangle
   GLuint errors = 0;   ///< a float a triangle; 0: none
+  GLuint ids = 0;      ///< a triangle of the MT each; 0: none
   VertexStreams vertices;
   std::span<const Range> ranges = {};
+};
+
+/// An ink in graphics memory.
+struct InkOnGpu {
+  GlBuffer numbers;
+  ColorMapsOnGpu colors;
+
+  explicit InkOnGpu(const TriangleInk& ink);
 };
 
 /// Draws fronts of a surface and what is behind them into the framebuffer that is bound.
@@ -36,8 +46,10 @@ class SurfacePainter {
   /// are drawn in their order over what is there, and leave depths as they are.
   ///
   /// @param turned how the surface is turned out of east, north and up, which the sun stands in.
+  /// @param ink of Coloring::ink, and of fronts with the ids of their triangles; null otherwise.
   void draw(const MaterialsOnGpu& materials, const DrawnSurface& front, const FrameView& frame,
-            const ViewLook& look, const Similarity& turned = {}, bool isBlended = false);
+            const ViewLook& look, const Similarity& turned = {}, bool isBlended = false,
+            const InkOnGpu* ink = nullptr);
   void drawBackground();
 
   /// Whether a material lets light through, by the colours that are shown.

@@ -188,15 +188,29 @@ std::span<const Coloring> SurfaceSubject::colorings() const {
   return kColorings;
 }
 
+Result<std::shared_ptr<const TriangleInk>> SurfaceSubject::ink(const std::string& name) const {
+  if (ink_ && inkName_ == name) return ink_;
+  ARETE_TRY(TriangleInk made, inkNamed(model(), name));
+  ink_ = std::make_shared<const TriangleInk>(std::move(made));
+  inkName_ = name;
+  return ink_;
+}
+
 Status SurfaceSubject::check(const ViewSettings& settings) const {
-  if (scene_) return checkColoring(settings.look.coloring);
+  const ViewLook& look = settings.look;
+  if (look.coloring == Coloring::ink) {
+    ARETE_CHECK(ink(look.ink));
+  } else if (scene_) {
+    return checkColoring(look.coloring);
+  }
+  if (scene_) return {};
   const auto isForTerrain = [](const char* what) {
     return failure(ErrorCode::usage, "is for terrain", what);
   };
   if (settings.isCurved) return isForTerrain("the Earth's curvature");
   if (settings.stretch != 1) return isForTerrain("exaggeration");
-  if (settings.look.hazeKilometres > 0) return isForTerrain("haze");
-  return checkColoring(settings.look.coloring);
+  if (look.hazeKilometres > 0) return isForTerrain("haze");
+  return look.coloring == Coloring::ink ? Status() : checkColoring(look.coloring);
 }
 
 }  // namespace arete

@@ -3,8 +3,10 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "viewer/fronts/z_up_frame.h"
+#include "viewer/inks/triangle_inks.h"
 #include "viewer/scene/placement.h"
 #include "viewer/scene/subject.h"
 #include "viewer/surface/surface_picker.h"
@@ -63,6 +65,9 @@ class SurfaceSubject final : public Subject {
   /// A surface has no usual unit, so the near plane follows its size.
   double nearPlane() const override { return 1e-4 * box_.diagonal(); }
   std::span<const Coloring> colorings() const override;
+  std::vector<std::string> inks() const override { return inkNames(model()); }
+  /// O(n log n) at first, then O(1) until another one is asked for.
+  Result<std::shared_ptr<const TriangleInk>> ink(const std::string& name) const override;
   using Subject::check;
   Status check(const ViewSettings& settings) const override;
 
@@ -87,6 +92,8 @@ class SurfaceSubject final : public Subject {
   bool isPlaced_ = false;
   double largestError_;
   std::string unit_;
+  mutable std::string inkName_;
+  mutable std::shared_ptr<const TriangleInk> ink_;  // that was asked for last
 };
 
 /// A view of placed space in the space of an object.

@@ -133,10 +133,15 @@ void Panel::detailSection(ViewerSession& s) {
 void Panel::lookSection(ViewerSession& s) {
   if (!section("Look", false)) return;
   ViewLook& look = s.settings.look;
-  if (ImGui::BeginCombo("colour by", std::string(toString(look.coloring)).c_str())) {
+  const std::string colored =
+      look.coloring == Coloring::ink ? look.ink : std::string(toString(look.coloring));
+  if (ImGui::BeginCombo("colour by", colored.c_str())) {
     for (const Coloring coloring : s.subject.colorings())
       if (ImGui::Selectable(std::string(toString(coloring)).c_str(), coloring == look.coloring))
         look.coloring = coloring;
+    for (const std::string& ink : s.subject.inks())
+      if (ImGui::Selectable(ink.c_str(), look.coloring == Coloring::ink && look.ink == ink))
+        s.say(s.colorByInk(ink));
     ImGui::EndCombo();
   }
   if (look.coloring == Coloring::error && s.tools) {

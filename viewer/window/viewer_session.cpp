@@ -173,6 +173,13 @@ void ViewerSession::layMarks() {
   laySpaceMarks(layers, shows.marks, subject, rig.camera(), orbit, settings.stretch);
 }
 
+std::string ViewerSession::colorByInk(const std::string& ink) {
+  if (const auto made = subject.ink(ink); !made) return made.error().describe();
+  settings.look.coloring = Coloring::ink;
+  settings.look.ink = ink;
+  return {};
+}
+
 void ViewerSession::apply(Action action) {
   if (!tools && !refusalOf(action).empty()) return say(std::string(refusalOf(action)));
   const auto color = [&](Coloring coloring) { settings.look.coloring = coloring; };

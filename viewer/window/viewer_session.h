@@ -59,6 +59,8 @@ class ViewerSession {
   void answer(bool isYes);
   /// A flight around the model instead of the one at hand.
   void flyAround();
+  /// Colours the model by one of Subject::inks(). @return why not, empty where it does.
+  std::string colorByInk(const std::string& ink);
   /// Shows a message for a few seconds; nothing for an empty one.
   void say(std::string sentence);
   const std::string& message() const { return message_; }

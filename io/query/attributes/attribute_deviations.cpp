@@ -15,6 +15,7 @@
 #include "engine/base/caught_failure.h"
 #include "engine/base/counted.h"
 #include "io/query/attributes/attribute_parts.h"
+#include "io/query/attributes/chart_parts.h"
 #include "io/query/attributes/picture_sizes.h"
 #include "surface/attributes/attribute_distance.h"
 
@@ -108,20 +109,54 @@ class Comparison {
       if (const auto found = findAttributes(source_.mesh, asked.name); !found)
         return failure(found.error().code, found.error().message, "expectAttribute " + found.error().culprit);
     parts_ = partsByName(source_.mesh, other_.mesh);
+    ARETE_CHECK(findCharts(context));
     for (const NamedAttribute& named : namedAttributes(source_.mesh)) ARETE_CHECK(add(named));
     if (compared_.empty()) return finish();
-    const auto shape = [](const AttributeSubject& s) -> const TriangleMesh& {
-      return s.shape ? *s.shape : s.mesh.shape();
-    };
     ARETE_TRY(const std::vector<NumbersFound> found,
-              measureNearNumbers(
-                  shape(other_), shape(source_), compared_,
-                  {.within = options_.within, .samples = options_.samples, .seed = options_.seed}, context));
+              measureNearNumbers(shapeOf(other_), shapeOf(source_), compared_,
+                                 {.within = options_.within,
+                                  .reachesOwn = !options_.isStated,
+                                  .samples = options_.samples,
+                                  .seed = options_.seed},
+                                 context));
     for (std::size_t k = 0; k < found.size(); ++k) report_.attributes[ofCompared_[k]].found = found[k];
     return finish();
   }
 
  private:
+  static const TriangleMesh& shapeOf(const AttributeSubject& s) {
+    return s.shape ? *s.shape : s.mesh.shape();
+  }
+
+  /// Matches charts, where both meshes have texture coordinates.
+  Status findCharts(const RunContext& context) {
+    const NamedAttribute* here = nullptr;
+    const std::vector<NamedAttribute> all = namedAttributes(source_.mesh);
+    for (const NamedAttribute& named : all)
+      if (!isName(named.of) && named.of != Of::triangles &&
+          attributeOf(source_.mesh, named).name == kTexcoordName)
+        here = &named;
+    if (!here || source_.mesh.triangles.empty() || other_.mesh.triangles.empty()) return {};
+    const NamedAttribute* const there = sameNamed(ofOther_, *here);
+    if (!there || attributeOf(source_.mesh, *here).components < 2 ||
+        attributeOf(other_.mesh, *there).components < 2 || there->of == Of::triangles)
+      return {};
+    const auto coordsOf = [](const SurfaceMesh& mesh, const NamedAttribute& named) {
+      const std::size_t components = attributeOf(mesh, named).components;
+      std::vector<double> numbers = cornerNumbers(mesh, named, components, false), coords;
+      for (std::size_t i = 0; i < numbers.size(); i += components)
+        coords.insert(coords.end(), {numbers[i], numbers[i + 1]});
+      return coords;
+    };
+    const std::vector<double> coordsHere = coordsOf(source_.mesh, *here),
+                              coordsThere = coordsOf(other_.mesh, *there);
+    ARETE_TRY(charts_, matchCharts({shapeOf(source_), coordsHere}, {shapeOf(other_), coordsThere}, parts_,
+                                   options_.within, context));
+    report_.charts = charts_.charts;
+    report_.chartsApart = charts_.apart;
+    return {};
+  }
+
   const AttributeNumber* expectedOf(const NamedAttribute& named) const {
     for (const AttributeNumber& asked : options_.expected)
       if (asked.name == named.name || asked.name == named.inFile) return &asked;
@@ -187,6 +222,8 @@ class Comparison {
                                    mixesSpaces && to.colorSpace == ColorSpace::linear);
     numbers.partOfSource = parts_.ofSource;
     numbers.partOfMesh = parts_.ofOther;
+    numbers.chartOfSource = charts_.ofSource;
+    numbers.chartOfMesh = charts_.ofOther;
     return isInPixels ? toPixels(numbers, named) : Status();
   }
 
@@ -257,6 +294,7 @@ class Comparison {
   const AttributeOptions& options_;
   std::vector<NamedAttribute> ofOther_;
   AttributeParts parts_;
+  ChartMatch charts_;
   std::vector<ComparedNumbers> compared_;
   std::vector<std::size_t> ofCompared_;  // its place in the report
   AttributeReport report_;

@@ -37,6 +37,7 @@ struct AttributeDeviation {
 struct AttributeOptions {
   /// E: the largest distance of the other point, in the unit of the shapes.
   double within = 0;
+  bool isStated = true;  ///< E was stated, and is a promise; else NearNumbersOptions::reachesOwn
   /// In pixels where "px" is behind the number.
   std::vector<AttributeNumber> expected = {};
   std::uint64_t samples = 0;  ///< NearNumbersOptions::samples
@@ -46,13 +47,17 @@ struct AttributeOptions {
 struct AttributeReport {
   double within = 0;
   std::vector<AttributeDeviation> attributes;  ///< all that the source has, in the order of namedAttributes()
+  /// Charts of the source's texture coordinates (chartsByPlace()), and how many of them are compared with no
+  /// other chart's; 0: one of the meshes has no coordinates.
+  std::uint64_t charts = 0, chartsApart = 0;
   Warnings warnings;
 };
 
 /// For points x of the source the least distance, over points y of the other mesh with |x - y| <= E, of each
-/// attribute by itself (measure/near_numbers.h). x is compared with what belongs to the same material and
-/// object alone, where the other mesh has triangles of these. Texture coordinates are counted from the same
-/// side of the picture, and linear colours are brought to sRGB where one mesh has the one and one the other.
+/// attribute by itself (measure/near_numbers.h). x is compared with what belongs to the same material, object
+/// and chart alone, where the other mesh has triangles of these (matchCharts()). Texture coordinates are
+/// counted from the same side of the picture, and linear colours are brought to sRGB where one mesh has the
+/// one and one the other.
 ///
 /// Largest distances are at most what is expected, but for the rounding of 32-bit floats: 2^-22 of the
 /// largest number, 0.0001 degrees. Errors: as measureNearNumbers(); usage, with "expectAttribute" and the

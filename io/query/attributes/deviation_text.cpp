@@ -45,6 +45,9 @@ std::string attributeReportText(const AttributeReport& report, const std::string
     }
     text += fmt::format("  {:<20} {:>12.6g} {:>12.6g} {:>12.6g} {:>16.6g}  {}\n", a.name, f.largest, f.mean,
                         f.rms, f.meanAtNearest, a.unit);
+    if (f.beyond > 0)
+      text +=
+          fmt::format("    {} of {} points have their own chart or part farther away\n", f.beyond, f.points);
     if (f.largest > 0)
       text += fmt::format(
           "    {:<18} {:.10g} {:.10g} {:.10g}{}\n", "largest at", f.worst.x, f.worst.y, f.worst.z,
@@ -52,11 +55,16 @@ std::string attributeReportText(const AttributeReport& report, const std::string
               ? fmt::format(" (without a like value within at {} of {} points)", f.unequal, f.points)
               : "");
   }
+  if (report.charts > 1)
+    text += fmt::format("  {:<20} {} of {} told from their neighbours\n", "charts", report.chartsApart,
+                        report.charts);
   return text;
 }
 
 nlohmann::ordered_json toJson(const AttributeReport& report) {
   nlohmann::ordered_json json = {{"within", finiteJson(report.within)},
+                                 {"charts", report.charts},
+                                 {"chartsApart", report.chartsApart},
                                  {"attributes", nlohmann::ordered_json::object()}};
   for (const AttributeDeviation& a : report.attributes) {
     nlohmann::ordered_json one;
@@ -64,7 +72,10 @@ nlohmann::ordered_json toJson(const AttributeReport& report) {
       one["notComparable"] = a.notComparable;
     } else {
       const NumbersFound& f = a.found;
-      one = {{"points", f.points}, {"unequal", f.unequal}, {"largest", finiteJson(f.largest)}};
+      one = {{"points", f.points},
+             {"unequal", f.unequal},
+             {"beyond", f.beyond},
+             {"largest", finiteJson(f.largest)}};
       if (!a.isEquality) {
         one["mean"] = f.mean;
         one["rms"] = f.rms;

@@ -205,7 +205,9 @@ Result<MeshWriteReport> write(const Tin& tin, const std::string& path, const Pla
   return writeMesh(placed.mesh, path, options, context);
 }
 
-Result<MeshWriteReport> write(const Tin& tin, const std::string& path, const RunContext& context) {
+namespace {
+
+MeshWriteOptions writeOptionsOf(const Tin& tin, const std::string& path) {
   MeshWriteOptions options;
   options.crsWkt = tin.crsWkt;
   options.verticalUnit = tin.verticalUnit;
@@ -216,6 +218,19 @@ Result<MeshWriteReport> write(const Tin& tin, const std::string& path, const Run
   options.origin = tin.origin;
   options.up = tin.up;
   if (!tin.note.empty()) options.notes = {tin.note};
+  return options;
+}
+
+}  // namespace
+
+Result<MeshWriteReport> write(const Tin& tin, const std::string& path, const RunContext& context) {
+  return writeMesh(tin.mesh, path, writeOptionsOf(tin, path), context);
+}
+
+Result<MeshWriteReport> write(const Tin& tin, const std::string& path, const MeshPacking& packing,
+                              const RunContext& context) {
+  MeshWriteOptions options = writeOptionsOf(tin, path);
+  options.packing = packing;
   return writeMesh(tin.mesh, path, options, context);
 }
 

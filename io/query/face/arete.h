@@ -92,6 +92,9 @@ Result<MeshWriteReport> write(const Tin& tin, const std::string& path, const Run
 /// Errors: also as placeInTarget() (io/formats/exchange/placed_mesh.h).
 Result<MeshWriteReport> write(const Tin& tin, const std::string& path, const PlaceTarget& place,
                               const RunContext& context = {});
+/// The same as a small glTF: numbers are rounded to a grid, which moves a point by up to half of a step.
+Result<MeshWriteReport> write(const Tin& tin, const std::string& path, const MeshPacking& packing,
+                              const RunContext& context = {});
 /// Writes a model as an .amt file. Errors: as writeAmt() and writeSurfaceAmt().
 Status write(const Model& model, const std::string& path, const RunContext& context = {});
 

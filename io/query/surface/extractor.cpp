@@ -133,7 +133,11 @@ Status SurfaceExtractor::write(const ExtractRequest& request, TakenSurface& take
     return failure(ErrorCode::usage, "cannot be combined with `packed`, which moves points alike everywhere",
                    "importance");
   if (request.packedBits && !request.map.empty())
-    return failure(ErrorCode::usage, "tells numbers of the file, whose order `packed` makes anew", "map");
+    return failure(
+        ErrorCode::usage,
+        "tells numbers of the file, whose order `packed` makes anew: write the map of the same cut without "
+        "`packed`",
+        "map");
   if (request.certificate.empty() && !request.packedBits) {
     ARETE_TRY(MeshWriteReport written, writeMesh(taken.front.mesh, request.output, options, context));
     result.written = std::move(written);

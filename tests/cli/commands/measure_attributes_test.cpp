@@ -121,6 +121,92 @@ TEST_F(MeasureAttributes, MaterialsAreEqualOrNotAndKeepTextureCoordinatesApart) 
   EXPECT_NE(other.err.find("material differs"), std::string::npos) << other.err;
 }
 
+/// Two squares side by side, of n x n quadrilaterals each and one material, their coordinates (y / 10, v of
+/// the side): two charts where these differ.
+std::string twoSides(int n, double leftV, double rightV, double seam = 1) {
+  std::string text;
+  for (const int side : {0, 1})
+    for (int r = 0; r <= n; ++r)
+      for (int c = 0; c <= n; ++c)
+        text += "v " + std::to_string(side == 0 ? seam * c / n : seam + (2 - seam) * c / n) + " " +
+                std::to_string(double(r) / n) + " 0\nvt " + std::to_string(0.1 * r / n) + " " +
+                std::to_string(side == 0 ? leftV : rightV) + "\n";
+  for (const int side : {0, 1})
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) {
+        const auto corner = [&](int dr, int dc) {
+          const std::string i = std::to_string(side * (n + 1) * (n + 1) + (r + dr) * (n + 1) + c + dc + 1);
+          return " " + i + "/" + i;
+        };
+        text += "f" + corner(0, 0) + corner(0, 1) + corner(1, 1) + corner(1, 0) + "\n";
+      }
+  return text;
+}
+
+// What is right on the other side of a seam is no excuse for what is wrong on this one.
+TEST_F(MeasureAttributes, ChartsOfOneMaterialAreComparedEachWithItsOwn) {
+  write("scan.obj", twoSides(8, 0, 0.02));
+  write("small.obj", twoSides(2, 0.5, 0.02));
+  ASSERT_EQ(run({"convert", "small.obj", "-o", "small.glb"}).code, 0);
+  for (const char* small : {"small.obj", "small.glb"}) {
+    const Json json =
+        run({"measure", small, "scan.obj", "--samples", "500", "--expect", "0.1", "--attributes", "--json"})
+            .json();
+    EXPECT_NEAR(json["attributes"]["uv"]["largest"], 0.5, 1e-6) << small;
+    EXPECT_NEAR(json["attributes"]["uv"]["mean"], 0.25, 0.01) << small << ": the right side is right";
+    EXPECT_EQ(json["charts"], 2);
+    EXPECT_EQ(json["chartsApart"], 2);
+  }
+  const Outcome text =
+      run({"measure", "small.obj", "scan.obj", "--samples", "500", "--expect", "0.1", "--attributes"});
+  EXPECT_NE(text.out.find("charts               2 of 2 told from their neighbours"), std::string::npos)
+      << text.out;
+}
+
+// Of a mesh whose seam lies elsewhere: a stated E is a promise for each side, and without one nothing is.
+TEST_F(MeasureAttributes, APointWhoseChartIsFartherThanTheDistanceIsComparedWithItsNearestPoint) {
+  write("scan.obj", twoSides(8, 0, 0.5));
+  write("small.obj", twoSides(2, 0, 0.5, 0.9));
+  const auto uvOf = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"measure", "small.obj",    "scan.obj", "--samples",
+                                      "500",     "--attributes", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words).json()["attributes"]["uv"];
+  };
+  const Json near = uvOf({}), stated = uvOf({"--expect", "0.01"}), enough = uvOf({"--expect", "0.11"});
+  EXPECT_NEAR(near["largest"], 0, 1e-6) << near;
+  EXPECT_GT(near["beyond"], 10);
+  EXPECT_EQ(near["unequal"], 0);
+  EXPECT_TRUE(stated["largest"].is_null()) << stated;
+  EXPECT_GT(stated["unequal"], 10);
+  EXPECT_LE(stated["unequal"], near["beyond"]);
+  EXPECT_EQ(stated["beyond"], 0);
+  EXPECT_NEAR(enough["largest"], 0, 1e-6) << enough;
+}
+
+// Which chart is whose is not known where they are not much wider than what the meshes may be apart by.
+TEST_F(MeasureAttributes, ChartsThatAreNarrowBesideTheDistanceAreNotToldApart) {
+  write("scan.obj", twoSides(8, 0, 0.02));
+  write("small.obj", twoSides(2, 0.5, 0.02));
+  const Json json =
+      run({"measure", "small.obj", "scan.obj", "--samples", "500", "--expect", "3", "--attributes", "--json"})
+          .json();
+  EXPECT_EQ(json["charts"], 2);
+  EXPECT_EQ(json["chartsApart"], 0);
+  EXPECT_NEAR(json["attributes"]["uv"]["largest"], 0.02, 1e-6);
+}
+
+TEST_F(MeasureAttributes, AChartThatIsPartedInTheOtherMeshIsComparedWithAllItsParts) {
+  write("scan.obj", twoSides(8, 0, 0));
+  write("small.obj", twoSides(4, 0, 0.001));
+  for (const auto& [first, second] :
+       {std::pair("small.obj", "scan.obj"), std::pair("scan.obj", "small.obj")}) {
+    const Json json =
+        run({"measure", first, second, "--samples", "500", "--expect", "0", "--attributes", "--json"}).json();
+    EXPECT_NEAR(json["attributes"]["uv"]["largest"], 0.001, 1e-6) << first;
+  }
+}
+
 TEST_F(MeasureAttributes, PixelsAreThoseOfTheMaterialsPicture) {
   // A picture of 4 x 2 pixels, grey.
   const std::string head = "newmtl paint\nmap_Kd paint.bmp\n";

@@ -2,6 +2,7 @@
 // arete view as a user without a screen meets it.
 #include <array>
 #include <set>
+#include <tuple>
 
 #include "cli/cli_fixture.h"
 #include "io/geo/gdal/support.h"
@@ -365,6 +366,46 @@ TEST_F(ViewCommand, OpensADemAMeshAndPointsAsBuildTakesThem) {
   EXPECT_EQ(points.json()["kind"], "terrain");
   EXPECT_FALSE(exists("hill.amt"));
   EXPECT_FALSE(exists("points.amt"));
+}
+
+TEST_F(ViewCommand, ColoursASurfaceByWhatItsAttributesAreOffByOrSaysWhyNot) {
+  std::string obj;
+  for (int y = 0; y <= 8; ++y)
+    for (int x = 0; x <= 8; ++x)
+      obj += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\nvt " + std::to_string(x * x / 64.0) +
+             " " + std::to_string((x * y) % 5 / 5.0) + "\n";
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x) {
+      obj += "f";
+      for (const int i : {y * 9 + x + 1, y * 9 + x + 2, y * 9 + x + 11, y * 9 + x + 10})
+        obj += " " + std::to_string(i) + "/" + std::to_string(i);
+      obj += "\n";
+    }
+  write("sheet.obj", obj);
+  ASSERT_EQ(run({"build", "sheet.obj", "-o", "sheet.amt", "--attributes"}).code, 0);
+  ASSERT_EQ(run({"build", "sheet.obj", "-o", "bare.amt"}).code, 0);
+  const auto shoot = [&](const std::string& file, const std::string& color) {
+    return run(
+        {"view", file, "--screenshot", "a.png", "--size", "120x90", "--pixel-error", "8", "--color", color});
+  };
+  std::set<std::string> pictures;
+  for (const std::string color : {"material", "stretch", "error:uv", "error:texcoord"}) {
+    const Outcome shot = shoot("sheet.amt", color);
+    if (isWithoutOpenGl(shot)) GTEST_SKIP() << shot.err;
+    ASSERT_EQ(shot.code, 0) << color << shot.err;
+    pictures.insert(read("a.png"));
+  }
+  EXPECT_EQ(pictures.size(), 3u) << "uv is what the file calls texcoord";
+  for (const auto& [file, color, said] :
+       {std::tuple{"sheet.amt", "error:color", "the model states no such errors; it has error:uv"},
+        std::tuple{"bare.amt", "error:uv", "build it with its attributes (--attributes)"},
+        std::tuple{"bare.amt", "error:", "must be one of"},
+        std::tuple{"dem.amt", "error:uv", "is for surfaces"},
+        std::tuple{"sheet.amt", "charts", "no seams"}}) {
+    const Outcome refused = shoot(file, color);
+    EXPECT_EQ(refused.code, 2) << file << color;
+    EXPECT_NE(refused.err.find(said), std::string::npos) << refused.err;
+  }
 }
 
 TEST_F(ViewCommand, OfATinThatWasExtractedDrawsItsOwnTriangles) {

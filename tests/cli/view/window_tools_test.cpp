@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A script works in the real window under Xvfb; what it leaves has the bytes of the commands.
+#include <set>
+
 #include "cli/mesh_fixture.h"
 
 namespace arete::cli_test {
@@ -40,6 +42,33 @@ class WindowTools : public Cli {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("said.txt"), {}};
   }
 };
+
+TEST_F(WindowTools, TheMenuOfColoursHasTheInksOfTheSurfaceAndSaysWhatItLacks) {
+  std::string obj;
+  for (int y = 0; y <= 20; ++y)
+    for (int x = 0; x <= 20; ++x)
+      obj += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\nvt " + std::to_string(x * x / 400.0) +
+             " " + std::to_string((x * y) % 7 / 7.0) + "\n";
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 20; ++x) {
+      obj += "f";
+      for (const int i : {y * 21 + x + 1, y * 21 + x + 2, y * 21 + x + 23, y * 21 + x + 22})
+        obj += " " + std::to_string(i) + "/" + std::to_string(i);
+      obj += "\n";
+    }
+  write("painted.obj", obj);
+  ASSERT_EQ(run({"build", "painted.obj", "-o", "painted.amt", "--attributes"}).code, 0);
+  std::set<std::string> pictures;
+  for (const std::string color : {"stretch", "error:uv", "charts"}) {
+    const Outcome window =
+        inWindow("painted.amt", "color " + color + "\nframes 3\n", "--window-screenshot menu.png");
+    ASSERT_EQ(window.code, 0) << window.out;
+    EXPECT_EQ(window.out.find("the surface has no seams") != std::string::npos, color == "charts")
+        << window.out;
+    pictures.insert(read("menu.png"));
+  }
+  EXPECT_EQ(pictures.size(), 3u);
+}
 
 TEST_F(WindowTools, AnObjIsHalvedSavedCroppedAndDecimatedWithTheBytesOfTheCommands) {
   const Outcome window = inWindow("scan.obj",

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "terrain/builder/build.h"
+#include "viewer/color/color_tables.h"
 #include "viewer/scene/terrain_subject.h"
 
 namespace arete {
@@ -52,6 +53,32 @@ TEST(SceneLegends, AreOfWhatTheGroundIsColouredBy) {
   EXPECT_EQ(only().unit, "m");
   settings.look.coloring = Coloring::plain;
   EXPECT_TRUE(legends.of(settings, {}).empty());
+}
+
+TEST(SceneLegends, OfAnInkAreItsScaleAndItsClasses) {
+  const TriangleInk ink{.numbers = {-2, 3},
+                        .colors = colorTable("error").over(-7, 3),
+                        .title = "error of uv",
+                        .unit = "pixels",
+                        .ticks = {{-7, "0 to 0.1"}, {3, "8"}},
+                        .classes = {{{70, 130, 220, 255}, "no bound"}}};
+  const ColorLegend legend = legendOf(ink);
+  EXPECT_EQ(legend.title, "error of uv");
+  EXPECT_EQ(legend.unit, "pixels");
+  ASSERT_TRUE(legend.scale);
+  EXPECT_EQ(legend.scale->low, -7);
+  EXPECT_EQ(legend.scale->high, 3);
+  EXPECT_EQ(legend.scale->ticks, ink.ticks);
+  EXPECT_EQ(legend.scale->map, ink.colors);
+  ASSERT_EQ(legend.classes.size(), 1u);
+  EXPECT_EQ(legend.classes[0].label, "no bound");
+  const TerrainModel model = rampOfHeights();
+  const TerrainSubject subject(model);
+  ViewSettings settings;
+  settings.look.coloring = Coloring::ink;
+  settings.look.ink = "charts";
+  EXPECT_EQ(subject.ink("charts").error().culprit, "charts");
+  EXPECT_TRUE(SceneLegends(subject).of(settings, {}).empty()) << "terrain has no inks";
 }
 
 TEST(SceneLegends, OfLayersComeFirstAndTheHighestIsTheFirst) {

@@ -13,6 +13,7 @@
 
 #include "surface/builder/build.h"
 #include "surface/families.h"
+#include "viewer/color/color_tables.h"
 #include "viewer/drawn_mesh.h"
 #include "viewer/headless/headless.h"
 #include "viewer/surface/surface_drawable.h"
@@ -380,6 +381,26 @@ TEST_F(SurfaceLooks, ASamplerWrapsMirrorsOrClampsAndATransformPlacesThePicture) 
                      R"("extensions":{"KHR_texture_transform":{"scale":[0.3,1]}}})"));
   EXPECT_TRUE(right(R"({"sampler":{"magFilter":9728},)"
                     R"("extensions":{"KHR_texture_transform":{"offset":[0.5,0]}}})"));
+}
+
+// Two charts beside each other, the one white and the other black in the file.
+TEST_F(SurfaceLooks, AnInkColoursTheDrawnTrianglesWhateverTheirMaterials) {
+  ARETE_NEEDS_OPENGL(probe);
+  SurfaceMesh mesh = square(Material{.name = "left"});
+  mesh.materials.push_back(Material{.name = "right"});
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    double x = 0;
+    for (const std::uint32_t v : mesh.triangles[t]) x += mesh.positions[v].x / 3;
+    mesh.materialOf[t] = x > 4 ? 1 : 0;
+  }
+  addPicture(mesh, "baseColor", oneColor({255, 0, 0, 255}));
+  ViewSettings settings = shown(false);
+  settings.look.coloring = Coloring::ink;
+  settings.look.ink = "charts";
+  draw(mesh, settings);
+  const Rgb left = image.at(60, 80), right = image.at(100, 80);
+  const auto table = classColors();
+  EXPECT_TRUE((left == table[0] && right == table[1]) || (left == table[1] && right == table[0]));
 }
 
 TEST_F(SurfaceLooks, AMaskCutsAndTheAlphaOfWhatIsOpaqueDoesNotCount) {

@@ -6,7 +6,7 @@ layout(location = 0) out vec4 color;
 layout(std140, binding = 1) uniform Look {
   vec4 baseColor;  // linear
   vec4 sun;        // direction to it, 1 = shaded
-  vec4 modes;      // 0 materials, 1 plain, 2 errors; unused; alpha 0, 1 masked, 2 blended; cutoff
+  vec4 modes;      // 0 materials, 1 plain, 2 errors, 3 an ink; unused; alpha 0, 1 masked, 2 blended; cutoff
   vec4 more;       // 1 = both sides alike; 1 = flat colour; first triangle; 1 = the triangle's own normal
   vec4 zenith;     // upwards
   vec4 parts;      // of the light, 1 = on: sun, sky, at the eye, highlights
@@ -17,8 +17,10 @@ layout(std140, binding = 1) uniform Look {
 };
 layout(binding = 0) uniform sampler2D pictures[6];  // colour, metal and roughness, normal, occlusion, emission, opacity
 layout(binding = 6) uniform sampler2D reflected;
-layout(location = 0) uniform uint errorColors;  // color_map.glsl
+layout(location = 0) uniform uint numberColors;  // color_map.glsl
 layout(std430, binding = 8) readonly buffer Errors { float error[]; };
+layout(std430, binding = 9) readonly buffer TriangleIds { uint drawnId[]; };
+layout(std430, binding = 10) readonly buffer Ink { float inkNumber[]; };  // by id
 
 bool has(int picture) { return lookups[2 * picture].w > 0.0; }
 vec2 coordsOf(int picture) {
@@ -96,14 +98,16 @@ void main() {
     if (modes.z == 1.0 && base.a < modes.w) discard;
   } else if (mode == 1) {
     base = vec4(0.58, 0.58, 0.56, 1.0);
+  } else if (mode == 3) {
+    base = vec4(linearOf(colorOf(numberColors, inkNumber[drawnId[int(more.z) + gl_PrimitiveID]]).rgb), 1.0);
   } else {
     // As many pixels as the cut allows are the hottest colour.
     float e = error[int(more.z) + gl_PrimitiveID] * morph.z / (reachAt(fromEye) * morph.x);
-    base = vec4(linearOf(colorOf(errorColors, e).rgb), 1.0);
+    base = vec4(linearOf(colorOf(numberColors, e).rgb), 1.0);
   }
   if (modes.z != 2.0) base.a = 1.0;
   // The inside of what has one side only.
-  if (!gl_FrontFacing && more.x == 0.0 && mode != 2) base.rgb = mix(base.rgb, vec3(0.10, 0.14, 0.22), 0.7);
+  if (!gl_FrontFacing && more.x == 0.0 && mode < 2) base.rgb = mix(base.rgb, vec3(0.10, 0.14, 0.22), 0.7);
   if (sun.w > 0.0) {
     const vec3 skyColor = vec3(0.92, 0.97, 1.0);
     float lit = 0.74 * parts.x * max(dot(normal, sun.xyz), 0.0), ahead = 0.09 * parts.z * max(dot(normal, toEye), 0.0);

@@ -6,10 +6,14 @@
 #include "io/formats/glb/levels/join_levels.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 #include <string>
 #include <string_view>
@@ -51,11 +55,48 @@ Result<ReadLevel> readLevel(const std::filesystem::path& path) {
   return level;
 }
 
+/// The diagonal of the box of a level, whose nodes have one scale and translation.
+double diagonalOf(const LevelJson& level) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::array<double, 3> low{kNone, kNone, kNone}, high{-kNone, -kNone, -kNone};
+  for (const LevelJson& node : level["nodes"]) {
+    if (!node.contains("mesh")) continue;
+    for (const LevelJson& primitive : level["meshes"][node["mesh"].get<std::size_t>()]["primitives"]) {
+      const LevelJson& places = level["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double scale = node.contains("scale") ? node["scale"][k].get<double>() : 1;
+        low[k] = std::min(low[k], scale * places["min"][k].get<double>());
+        high[k] = std::max(high[k], scale * places["max"][k].get<double>());
+      }
+    }
+  }
+  const double diagonal = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  return std::isfinite(diagonal) ? diagonal : 0;
+}
+
+/// @param sizes errors as parts of the diagonal of everything
+std::vector<double> coveragesOf(const std::vector<double>& sizes) {
+  constexpr double kPixels = 1920.0 * 1080.0;
+  std::vector<double> coverages;
+  double before = 1;
+  for (std::size_t i = 1; i < sizes.size(); ++i) {
+    // So long is the diagonal where the error of the next level is a pixel.
+    const double pixels = sizes[i] > 0 ? 1 / sizes[i] : std::numeric_limits<double>::infinity();
+    before = std::min(before, std::numbers::pi / 4 * pixels * pixels / kPixels);
+    coverages.push_back(before);
+  }
+  coverages.push_back(0);
+  return coverages;
+}
+
 class Joiner {
  public:
   void add(ReadLevel level, const GltfLevel& about) {
     LevelJson& from = level.document;
-    if (document_.is_null()) document_ = {{"asset", from["asset"]}};
+    if (document_.is_null()) {
+      document_ = {{"asset", from["asset"]}};
+      diagonal_ = diagonalOf(from);
+    }
     for (const char* const key : {"extensionsUsed", "extensionsRequired"})
       if (from.contains(key))
         for (const LevelJson& name : from[key]) extensions_[key].insert(name.get<std::string>());
@@ -86,6 +127,7 @@ class Joiner {
       }
       lists_["meshes"].push_back(std::move(mesh));
     }
+    sizes_.push_back(diagonal_ > 0 ? about.error * about.unit / diagonal_ : 0);
     LevelJson children = LevelJson::array();
     for (LevelJson& node : from["nodes"]) {
       shift(node, "mesh", meshes);
@@ -104,6 +146,7 @@ class Joiner {
     if (levels_.size() > 1) {
       lists_["nodes"][levels_.front()]["extensions"] = {
           {kLod, {{"ids", std::vector<std::size_t>(levels_.begin() + 1, levels_.end())}}}};
+      lists_["nodes"][levels_.front()]["extras"]["MSFT_screencoverage"] = coveragesOf(sizes_);
       extensions_["extensionsUsed"].insert(kLod);
     }
     GltfContent content;
@@ -217,6 +260,8 @@ class Joiner {
   std::map<std::string, std::set<std::string>> extensions_;
   std::map<std::string, std::size_t> placeOf_;
   std::vector<std::size_t> levels_;  // their nodes
+  std::vector<double> sizes_;        // of their errors, as parts of the diagonal
+  double diagonal_ = 0;              // of the finest
   std::size_t materials_ = 0;
   std::string bytes_;
   std::uint64_t decodedSize_ = 0;

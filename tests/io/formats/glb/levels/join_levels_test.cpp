@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/written_glb.h"
 
@@ -48,6 +50,13 @@ TEST(JoinGltfLevels, ShowsTheFinestAndNamesTheOthersFromFineToCoarse) {
     ASSERT_EQ(ids.size(), 2u);
     EXPECT_EQ(json["nodes"][ids[0].get<std::size_t>()]["extras"]["arete"]["triangles"], 10);
     EXPECT_EQ(json["nodes"][ids[1].get<std::size_t>()]["extras"]["arete"]["error"], 0.5);
+    // The box is 9 by 1 by 2: an error of a fifth is a pixel where it covers 5 sqrt(86) pixels.
+    const Json& coverage = shown["extras"]["MSFT_screencoverage"];
+    ASSERT_EQ(coverage.size(), 3u);
+    const double aPixel = std::numbers::pi / 4 * 86 / (1920.0 * 1080.0);
+    EXPECT_NEAR(coverage[0].get<double>(), 25 * aPixel, 1e-3 * 25 * aPixel);
+    EXPECT_NEAR(coverage[1].get<double>(), 4 * aPixel, 1e-3 * 4 * aPixel);
+    EXPECT_EQ(coverage[2], 0);
     EXPECT_EQ(json["materials"].size(), 1u) << "which all levels have";
     EXPECT_FALSE(json.contains("extensionsRequired") &&
                  json["extensionsRequired"].dump().find("MSFT_lod") != std::string::npos);
