@@ -58,7 +58,7 @@ double TerrainCuts::errorOfOverview(int k) const {
 
 Result<TerrainCuts::Whole> TerrainCuts::take(double error) const {
   return runAsGuest([&]() -> Result<Whole> {
-    ARETE_TRY(TerrainModel model, file_.read({.wanted = [error](const Box2&) { return error; }}));
+    ARETE_TRY(TerrainModel model, file_.read({.wanted = [error](const Box3&) { return error; }}));
     ARETE_TRY(Cut cut, takeCut(model.mt, UniformError(error)));
     return Whole{std::move(model), std::move(cut)};
   });

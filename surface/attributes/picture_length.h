@@ -7,7 +7,7 @@ namespace arete {
 
 /// How long a unit of texture coordinates is on a surface: the root of the area that a unit square covers, in
 /// the mean. 0 where no triangle has an area in the picture. O(triangles).
-/// @param ofWedges whose attribute it is; otherwise that of vertices
+/// @param ofWedges whose attribute it is; otherwise vertices'
 double lengthOfPictureUnit(const SurfaceMesh& mesh, const Attribute& coordinates, bool ofWedges);
 
 }  // namespace arete

@@ -82,7 +82,7 @@ std::vector<std::uint32_t> equalPairs(const CornerPairs& corners, const std::vec
   return leader;
 }
 
-/// Pairs of one vertex with equal values become one wedge, that of the first of them.
+/// Pairs of one vertex with equal values become one wedge, the first of them.
 void joinPairs(SurfaceMesh& mesh, const CornerPairs& corners) {
   if (mesh.wedgeAttributes.empty()) {
     mesh.wedges.clear();

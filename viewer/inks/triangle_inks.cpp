@@ -124,7 +124,7 @@ Result<TriangleInk> stretchInk(const SurfaceModel& model) {
   return ink;
 }
 
-// The errors of coarse triangles are many times those of fine ones, and every cut is to show differences.
+// Coarse triangles have many times the errors of fine ones, and every cut is to show differences.
 Result<TriangleInk> attributeErrorInk(const SurfaceModel& model, std::string_view name) {
   const std::string culprit = std::string(kErrorInk) + std::string(name);
   if (!model.displacement.isEmpty())

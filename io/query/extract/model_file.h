@@ -14,7 +14,7 @@ namespace arete {
 /// with the settings of the process); or one of GDAL's other virtual file systems ("/vsizip/..."), which is
 /// read into memory. What it holds, terrain or a surface, AmtContainer::isOfSurface() tells.
 ///
-/// Errors, naming the path: those of AmtContainer::open(), RangedFile::open() and readVirtualFile(). O(1), or
+/// Errors, naming the path: as AmtContainer::open(), RangedFile::open() and readVirtualFile(). O(1), or
 /// O(bytes) where it is read into memory.
 Result<AmtContainer> openModelFile(const std::string& path, const AmtOpenOptions& options = {});
 

@@ -51,7 +51,7 @@ std::uint32_t ownerOf(const MtArrays& a, std::uint32_t slot) {
   return MultiTriangulation::kNone;
 }
 
-/// MtArrays::missing of so many triangles.
+/// MtArrays::missing, of a number of triangles.
 std::vector<std::uint64_t> noneMissing(std::size_t triangles) {
   return std::vector<std::uint64_t>((triangles + 63) / 64, 0);
 }

@@ -67,12 +67,12 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const
                                     const LoadParts& load = {});
 
 /// The same of pages: only the blocks of the directory that may describe a required page are used, and of the
-/// nodes the required pages, each down to its last required segment. Counts of pages are 64-bit; those of the
-/// part have to fit 32-bit ids.
+/// nodes the required pages, each down to its last required segment. Counts of pages are 64-bit; a part
+/// has to fit 32-bit ids.
 ///
 /// @param load for blocks and nodes; the others are in memory
 /// The balls of nodes whose descendants were not read are as large as their page says that they may be, so
-/// that minimal cuts of a part are those of the whole for every bounded criterion. Errors: as above.
+/// that no cut of a part is coarser than its criterion allows. Errors: as above.
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, const packed::PagedMt& paged,
                                     const RequiredError& wanted, const RunContext& context,
                                     const LoadParts& load);
@@ -113,7 +113,7 @@ Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata,
                                            std::span<const std::byte> tables,
                                            std::span<const std::byte> nodes, const RunContext& context = {});
 
-/// The same of pages, of which a part can be required as of terrain's.
+/// The same for pages. A part can be required, as for terrain.
 Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata, const packed::PagedMt& paged,
                                            const RequiredError& wanted, const RunContext& context,
                                            const LoadParts& load);

@@ -49,8 +49,8 @@ struct Streams {
 
 class WriterIo {
  public:
-  /// @param streams  memory for those of a segment
-  /// @param segments  receives those of all, after finish()
+  /// @param streams  memory for the streams of a segment
+  /// @param segments  receives the streams of all segments, after finish()
   WriterIo(Walk& walk, std::uint32_t packet, Streams& streams, std::vector<Streams>& segments)
       : w_(walk),
         mt_(walk.mt),

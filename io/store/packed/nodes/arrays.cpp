@@ -206,7 +206,7 @@ struct Children {
   bool areMissed;  ///< some were not read
 };
 
-/// Finds the children of a node and prefetches their spheres. Replaces marks: that of the dummy record, of a
+/// Finds the children of a node and prefetches their spheres. Replaces marks: the dummy record's, of a
 /// triangle that no node removes, by kNone, any other by kMissing, as the remover was not read.
 void find(const Arrays& a, std::uint32_t n, Children& children) {
   std::uint32_t* const remover = a.remover.get() + a.roots + a.slotBegin[n];

@@ -19,7 +19,7 @@ struct Run {
   std::uint32_t band = 0;
   std::uint32_t nodes = 0, slots = 0;
   std::uint32_t listed = 0;  ///< nodes without a parent in the packet, which come first
-  /// Of a page: the balls of its nodes lie in those of their stars, grown so many times, as a code
+  /// The balls of a page's nodes lie in the balls of their stars, grown by this factor, as a code
   /// (spread.h).
   std::uint8_t spread = 0;
   // Set by Directory::number(): ids of the first node and the first slot.
@@ -32,7 +32,7 @@ struct Segment {
   std::uint32_t runs = 0;
   std::array<std::uint32_t, kParts> streamBytes{};
   std::uint64_t checksum = 0;  ///< of the bytes
-  /// Of a page: those before the streams, which say what runs there are; the band of the first run; the
+  /// A page has bytes before the streams, which say what runs there are; the band of the first run; the
   /// nodes.
   std::uint32_t headerBytes = 0, firstBand = 0, nodes = 0;
   std::uint64_t offset = 0;  ///< of the streams; set by Directory::number(), of a page by its directory

@@ -18,7 +18,7 @@ struct PlanRule {
   double tileSamples = 128;
   /// The width of a tile in reaches: the largest reach of its class.
   double reachesPerTile = 8;
-  /// A segment ends with the run that brings it to so many nodes; 0: a packet is one segment.
+  /// A segment ends with the run that brings it to this number of nodes; 0: a packet is one segment.
   std::uint32_t segmentNodes = 0;
 
   bool isPaged() const { return segmentNodes > 0; }

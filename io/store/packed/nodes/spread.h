@@ -8,7 +8,7 @@
 
 namespace arete::packed {
 
-/// The ball of a node holds those of its descendants. Where descendants are not read, the ball of its star is
+/// The ball of a node holds the balls of its descendants. Where descendants are not read, the ball of its star is
 /// grown to one that holds them too: by a factor that a page states for each of its runs. A code c stands for
 /// the factor 2^(c / 8), the last one for any.
 

@@ -169,7 +169,7 @@ std::vector<Block> leavesOf(std::span<const Packet> pages) {
   return leaves;
 }
 
-/// The blocks above those of a level.
+/// The blocks above a level.
 std::vector<Block> levelAbove(std::span<const Block> level) {
   std::vector<Block> above;
   for (std::size_t first = 0; first < level.size(); first += kPagesPerBlock) {

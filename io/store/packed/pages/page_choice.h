@@ -28,8 +28,8 @@ struct PageChoice {
 /// band of the error that is required of its box, and so are the pages that it depends on.
 ///
 /// @param wanted null requires everything
-/// Errors: corrupt: a damaged block, by its number; those of `load`. O(blocks read + pages in them); blocks
-/// of one level are loaded at once, and then those of the pages that others depend on, a few times.
+/// Errors: corrupt: a damaged block, by its number; errors of `load`. O(blocks read + pages in them); blocks
+/// of one level are loaded at once, and then the blocks of pages that others depend on, a few times.
 Result<PageChoice> choosePages(const PageRoot& root, std::span<const std::byte> blocks,
                                const RequiredError& wanted, const OutwardScale& scale, const LoadParts& load);
 

@@ -15,7 +15,7 @@ std::vector<std::byte> segmentHeader(const Segment& segment, std::span<const Run
 /// Reads the headers of the segments of a page: fills in its runs and the streams of its segments.
 ///
 /// @param nodes of all pages; the segments are loaded (Segment::begin(), Segment::bytes())
-/// @return false if the page is damaged: not so many nodes as its directory says, or more than its bytes can
+/// @return false if the page is damaged: another number of nodes than its directory says, or more than its bytes can
 /// hold
 bool readHeaders(std::span<const std::byte> nodes, Packet& page);
 
