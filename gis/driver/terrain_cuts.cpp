@@ -102,9 +102,9 @@ Result<TriangleBins> TerrainCuts::finestIn(const PixelWindow& window) const {
   GridTriangles all;
   for (const double columns : {0.0, -turn()}) {
     const Box2 moved{box.xMin - columns, box.yMin, box.xMax - columns, box.yMax};
-    ARETE_TRY(TerrainModel model, file_.read({.wanted = [&](const Box2& part) {
+    ARETE_TRY(TerrainModel model, file_.read({.wanted = requiredInPlan([&](const Box2& part) {
       return meet(part, moved) ? 0.0 : std::numeric_limits<double>::infinity();
-    }}));
+    })}));
     // Not a cut of error 0: errors are those at samples, and between them a triangle without error may be far
     // from the finest ones.
     std::vector<std::uint32_t> vertices(model.mt.vertexCount());

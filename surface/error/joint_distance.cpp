@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "engine/base/triangle_shares.h"
+
 namespace arete {
 
 void JointDistance::add(const SpaceTriangle& places, const DrawnCorners& drawn) {
@@ -45,6 +47,23 @@ double JointDistance::squared(std::size_t triangle, const Vec3& p, std::span<con
     const double apart = wanted[i] - (a[i] + atB * (b[i] - a[i]) + atC * (c[i] - a[i]));
     sum += weight * apart * apart;
   });
+  return sum;
+}
+
+double JointDistance::squaredAtNearest(std::size_t triangle, const Vec3& p,
+                                       std::span<const double> wanted) const {
+  const Triangle& t = triangles_[triangle];
+  const auto a = field_->at(t.drawn[0]), b = field_->at(t.drawn[1]), c = field_->at(t.drawn[2]);
+  const auto shares = nearestShares(p, t.places);
+  const Vec3 off = p - (shares[0] * t.places[0] + shares[1] * t.places[1] + shares[2] * t.places[2]);
+  double sum = dot(off, off);
+  for (const AttributeField::Entry& e : field_->entries()) {
+    if (e.length == 0) continue;
+    for (std::size_t i = e.first; i < e.first + e.measured(); ++i) {
+      const double apart = wanted[i] - (shares[0] * a[i] + shares[1] * b[i] + shares[2] * c[i]);
+      if (std::isfinite(apart)) sum += e.weight() * apart * apart;
+    }
+  }
   return sum;
 }
 

@@ -29,6 +29,8 @@ class JointDistance {
   /// The squared distance to a triangle. Attributes that are not finite do not count.
   /// @param wanted the attributes at p, AttributeField::components(). O(components).
   double squared(std::size_t triangle, const Vec3& p, std::span<const double> wanted) const;
+  /// The same of the point of the triangle that is nearest in space.
+  double squaredAtNearest(std::size_t triangle, const Vec3& p, std::span<const double> wanted) const;
 
  private:
   struct Triangle {

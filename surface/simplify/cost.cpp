@@ -56,6 +56,8 @@ double SurfaceCost::squaredOf(const SurfaceSample& sample) {
       std::min_element(squares.begin(), squares.begin() + fan_.size()) - squares.begin());
   wanted_.resize(s_.field.components());
   s_.field.mean(s_.field.cornersOf(sample.face), sample.shares, wanted_);
+  // What is only weighed is compared where it is drawn: at the nearest point.
+  if (!s_.boundsAttributes) return joint_.squaredAtNearest(nearest, sample.place, wanted_);
   double least = joint_.squared(nearest, sample.place, wanted_);
   for (std::size_t t = 0; t < joint_.size(); ++t)
     if (t != nearest && squares[t] < least) least = std::min(least, joint_.squared(t, sample.place, wanted_));

@@ -59,7 +59,7 @@ void SurfaceRemover::dividePieces(const HoleTriangulation& floor) {
   std::array<std::uint32_t, kMaxHoleCorners> link;
   for (int i = 0; i < star.linkSize; ++i) link[i] = star.link[i].index();
   drawn_.clear();
-  if (!s_.field.isEmpty())
+  if (s_.boundsAttributes)
     for (int f = 0; f < floor.size; ++f) {
       const auto& corners = floor.triangles[f];
       drawn_.push_back(s_.parts.hasWedges ? labels_[f].wedges

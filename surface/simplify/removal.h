@@ -18,7 +18,7 @@ class SurfaceRemover {
  public:
   explicit SurfaceRemover(SurfaceState& state)
       : s_(state),
-        division_(state.original, state.boundsAttributes ? state.field : kNoField),
+        division_(state.original, state.field),
         attributeBound_(state.original, state.field, state.attributeDistances) {}
 
   /// Removes v, whose cost is known exactly: fills the hole with the fan of its record, divides the pieces,
@@ -28,8 +28,6 @@ class SurfaceRemover {
   bool remove(VertexId v, RemovalId removal, std::span<Seam> seams);
 
  private:
-  /// Where attributes are weighed for the order alone, pieces go to what is nearest in space.
-  inline static const AttributeField kNoField;
   void dividePieces(const HoleTriangulation& floor);
   void record(RemovalId removal, int floorSize);
   void gatherAcross();

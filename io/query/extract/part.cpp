@@ -8,10 +8,8 @@
 //
 // A camera does not determine the nodes either: the error that it allows a triangle depends on the triangle's
 // corners and bounds. So the nodes that the camera is likely to need are read, and the cut is taken of that
-// part. A walk makes the same steps in a part as in the whole until it meets a triangle that is too coarse
-// and that no node of the part removes. If it meets no such triangle the part is enough. Under a budget it is
-// also enough if every such triangle is better than the worst other triangle, because the walk had not
-// reached them. Otherwise more is read, finally everything.
+// part. The part is enough if the cut misses nothing (Cut::missing). Otherwise more is read, finally
+// everything.
 //
 // The cut that proves a part to be enough is the answer: it is returned with the part. Only the cuts of parts
 // that were not enough are discarded.
@@ -76,18 +74,10 @@ Result<PartAndCut> readAll(const AmtFile& file, const RunContext& context) {
   return PartAndCut{std::move(all), std::nullopt};
 }
 
-/// A criterion for the engine, and the cut of a part by it.
-struct CriterionAndCut {
-  std::shared_ptr<const Criterion> criterion;
-  Cut cut;
-};
-
-Result<CriterionAndCut> takeCutOf(const TerrainModel& part, const CutRequest& requested,
-                                  const RunContext& context) {
-  ARETE_TRY(auto criterion, engineCriterion(requested, std::nullopt, 0, part));
+Result<Cut> takeCutOf(const TerrainModel& part, const CutRequest& requested, const RunContext& context) {
+  ARETE_TRY(const auto criterion, engineCriterion(requested, std::nullopt, 0, part));
   ARETE_TRY(const auto options, engineOptions(requested, part));
-  ARETE_TRY(Cut cut, takeCut(part.mt, *criterion, options, context));
-  return CriterionAndCut{std::move(criterion), std::move(cut)};
+  return takeCut(part.mt, *criterion, options, context);
 }
 
 Result<PartAndCut> readForBudget(const AmtFile& file, const CutRequest& requested,
@@ -99,8 +89,8 @@ Result<PartAndCut> readForBudget(const AmtFile& file, const CutRequest& requeste
     const double error = file.errorBeyond(guess);
     if (!(error > 0)) break;
     ARETE_TRY(TerrainModel part, file.read({.wanted = [error](const Box3&) { return error; }}, context));
-    ARETE_TRY(CriterionAndCut taken, takeCutOf(part, requested, context));
-    if (taken.cut.achievedError > error) return PartAndCut{std::move(part), std::move(taken.cut)};
+    ARETE_TRY(Cut cut, takeCutOf(part, requested, context));
+    if (cut.missing.empty()) return PartAndCut{std::move(part), std::move(cut)};
   }
   return readAll(file, context);
 }
@@ -111,23 +101,6 @@ bool isViewAlone(const ExtractRequest& request) {
   const CutRequest& c = request.criterion;
   const bool isMinimalWorstFirst = c.method == CutMethod::minimal && isWorstFirst(c);
   return c.camera && (!c.maxTriangles || isMinimalWorstFirst) && !c.deadlineMilliseconds;
-}
-
-/// Whether a cut of a part is that of the whole, apart from the effect of spheres (dependsOnSpheres()).
-bool isEnough(const MultiTriangulation& part, const Criterion& criterion, const Cut& cut) {
-  // The severities of the triangles that are too coarse: of those with a remover in the part, of the others.
-  double worst = 0, worstThatStays = 0;
-  for (std::size_t i = 0; i < cut.ids.size(); ++i) {
-    const TriangleId t(cut.ids[i]);
-    const bool stays = !part.remover(t).isValid();
-    if (part.error(t) == 0 || (cut.isComplete && !stays)) continue;
-    Criterion::Corners corners = cut.triangles[i];
-    for (std::uint32_t& corner : corners) corner = cut.vertices[corner];
-    if (isSatisfied(part, criterion, t, corners)) continue;
-    double& largest = stays ? worstThatStays : worst;
-    largest = std::max(largest, criterion.severity(part, t, corners));
-  }
-  return worstThatStays == 0 || worstThatStays < worst;
 }
 
 /// The triangles that the least cut of a part adds to the root's; 0 where there is no such cut.
@@ -147,9 +120,8 @@ Result<PartAndCut> readForView(const AmtFile& file, const CutRequest& requested,
     ARETE_TRY(const auto view, engineCriterion(guess, std::nullopt, 0, outline));
     ARETE_TRY(TerrainModel part,
               file.read({.wanted = requiredInView(static_cast<const ViewError&>(*view), outline)}, context));
-    ARETE_TRY(CriterionAndCut taken, takeCutOf(part, requested, context));
-    if (isEnough(part.mt, *taken.criterion, taken.cut))
-      return PartAndCut{std::move(part), std::move(taken.cut)};
+    ARETE_TRY(Cut cut, takeCutOf(part, requested, context));
+    if (cut.missing.empty()) return PartAndCut{std::move(part), std::move(cut)};
     if (requested.pixelError) break;
     const double aim = kMore * (1.0 + *requested.maxTriangles - part.mt.rootTriangleCount());
     *guess.pixelError *= std::clamp(refinedTriangles(part, *view, context) / aim, kMost, 1 / kMore);

@@ -95,8 +95,8 @@ Tin tinOf(const Result<PartAndCut>& part, const ExtractRequest& request) {
 }
 
 struct Filed {
-  Filed(const TerrainModel& model, const std::string& path, bool isPacked) {
-    const Status written = writeAmt(path, model, {}, {.isPacked = isPacked});
+  Filed(const TerrainModel& model, const std::string& path, bool isPacked, bool isPaged = false) {
+    const Status written = writeAmt(path, model, {}, {.isPacked = isPacked, .isPaged = isPaged});
     if (!written) throw std::runtime_error(written.error().describe());
     file = *openAmt(path);
     whole = built(file->read());
@@ -108,15 +108,15 @@ struct Filed {
   TerrainModel whole;
 };
 
-/// Visits a plain and a packed file of each, with numbers to draw from.
+/// Visits a plain file, a packed one and one in pages of each, with numbers to draw from.
 template <class Visit>
 void forAllFiles(std::uint64_t seed, const Visit& visit) {
   const TemporaryFolder folder;
   Random random(seed);
   for (const TerrainModel& model : modelsOfAllKinds(seed))
-    for (const bool isPacked : {false, true}) {
-      SCOPED_TRACE(fmt::format("{}, {}, seed {}", model.source, isPacked ? "packed" : "plain", seed));
-      visit(Filed(model, folder.file("model.amt"), isPacked), random);
+    for (const std::string form : {"plain", "packed", "in pages"}) {
+      SCOPED_TRACE(fmt::format("{}, {}, seed {}", model.source, form, seed));
+      visit(Filed(model, folder.file("model.amt"), form == "packed", form == "in pages"), random);
     }
 }
 

@@ -57,10 +57,10 @@ class WebModel : public testing::Test {
   }
   /// The error of boxes that meet a window at (x, y), and elsewhere.
   static RequiredError near(double x, double y, double inside) {
-    return [=](const Box2& b) {
+    return requiredInPlan([=](const Box2& b) {
       const bool meets = b.xMin < x + 300 && b.xMax > x && b.yMin < y + 300 && b.yMax > y;
       return meets ? inside : std::numeric_limits<double>::infinity();
-    };
+    });
   }
 
   TemporaryFolder folder_;
@@ -74,7 +74,7 @@ TEST_F(WebModel, GivesThePartsThatThePlainFileGives) {
       std::mt19937 random(seed);
       const double error = std::array{0.0, 0.3, 1.0, 4.0}[random() % 4];
       const RequiredError wanted = seed % 3 == 0
-                                       ? RequiredError([error](const Box2&) { return error; })
+                                       ? RequiredError([error](const Box3&) { return error; })
                                        : near(double(random() % 4000), -double(random() % 3500), error);
       SCOPED_TRACE(fmt::format("seed {}, packed {}", seed, isPacked));
       const TerrainModel local = built(read(path, wanted));
