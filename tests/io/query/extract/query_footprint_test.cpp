@@ -170,7 +170,7 @@ TEST(QueryFootprint, TakeLinesFarBeyondTheTerrain) {
   const FiledTerrain filed(built(build(fieldNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
   QueryFootprint wanted(filed.outline);
   wanted.addLine({-1e12, 20}, {1e12, 20});
-  EXPECT_EQ(wanted.within(1)({10, 19, 12, 21}), 1);
+  EXPECT_EQ(wanted.within(1)(overPlan({10, 19, 12, 21})), 1);
 }
 
 TEST(QueryFootprint, HaveTheHeightsOfTheWholeWhenOnlyTheyAreRead) {
@@ -340,7 +340,7 @@ TEST(QueryFootprint, WantTheRectangleOfAMapAboutTheirDiscs) {
   const auto earth = makePlaneEarth(filed.outline);
   QueryFootprint wanted(filed.outline);
   wanted.addRectangle(0.5);
-  EXPECT_EQ(wanted.within(0)({0, 0, 59, 39}), kNothing) << "about nothing is nothing";
+  EXPECT_EQ(wanted.within(0)(overPlan({0, 0, 59, 39})), kNothing) << "about nothing is nothing";
   const double metres = *earth->distance({0, 0}, {5, 0});
   wanted.addDisc(*earth, {20, 20}, metres);
   wanted.addDisc(*earth, {30, 20}, metres);

@@ -190,6 +190,8 @@ inline Directory tinyDirectory(const TerrainModel& model) {
     run.listed = n == 0 ? 1 : 0;
     directory.packets[0].runs.push_back(run);
   }
+  directory.packets[0].segments.resize(1);
+  directory.packets[0].segments[0].runs = 2;
   directory.number();
   return directory;
 }
