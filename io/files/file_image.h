@@ -32,7 +32,7 @@ class FileImage {
   /// @param context  reports progress where the bytes come from afar, and ends it; the parts cannot be read
   /// then
   /// @return false if one of them cannot be read; problem() says why
-  virtual bool loadParts(std::span<const Part> parts, const RunContext& /*context*/ = {}) const {
+  virtual bool loadParts(std::span<const Part> parts, [[maybe_unused]] const RunContext& context = {}) const {
     return std::ranges::all_of(parts, [this](Part part) { return load(part); });
   }
   /// Why the first part could not be read that could not. Thread-safe.

@@ -224,6 +224,8 @@ void find(const Arrays& a, std::uint32_t n, Children& children) {
     previous = child;
     __builtin_prefetch(&a.sphere[child]);
   }
+  // A child of the first and the last triangle is found twice.
+  if (count > 1 && children.nodes[0] == children.nodes[count - 1]) --count;
   children.count = count;
   children.areMissed = missed != 0;
 }
@@ -236,13 +238,20 @@ const char* complete(const Arrays& a, std::uint32_t n, const Children& children,
   GrowingBall ball{sphere.x, sphere.y, sphere.z, -sphere.radius};
   if (children.areMissed && run.spread > 0) ball.radius *= spreadFactor(run.spread);
   std::uint16_t saturated = std::max(least, a.saturatedError[n]);
-  float unready = 0;
+  float unready = 0, largest = -1;
+  std::uint32_t first = 0;
   for (std::uint32_t i = 0; i < children.count; ++i) {
-    Sphere& child = a.sphere[children.nodes[i]];
-    const float radius = std::atomic_ref(child.radius).load(std::memory_order_acquire);
+    const float radius = std::atomic_ref(a.sphere[children.nodes[i]].radius).load(std::memory_order_acquire);
     unready = std::min(unready, radius);
     saturated = std::max(saturated, a.saturatedError[children.nodes[i]]);
-    ball.enclose({child.x, child.y, child.z, radius});
+    first = radius > largest ? i : first;
+    largest = std::max(largest, radius);
+  }
+  // From the largest child on around the star, so that the ball does not depend on where the link begins,
+  // which depends on what is packed together.
+  for (std::uint32_t i = 0; i < children.count; ++i) {
+    const std::uint32_t at = first + i;
+    ball.enclose(a.sphere[children.nodes[at < children.count ? at : at - children.count]]);
   }
   const Sphere grown = ball.rounded(children.count + 1);
   a.saturatedError[n] = saturated;
