@@ -41,9 +41,9 @@ struct FittedSurface {
 /// degrees. Positions are in one unit; scaled by a power of two, the result is. The result does not depend on
 /// the threads.
 /// @param isHeld by vertex of the cut: it stays (heldVertices())
-/// @param lines  of the cut, whose vertices are not held where they may move; empty: there are none
-/// Errors: invalidData: a mesh that does not validate(), or a source without area; interrupted.
-/// O(steps * (samples log triangles + triangles)); about 100 bytes a sample and 700 a triangle.
+/// @param lines  of the cut, whose vertices are not held where they may move; empty: no vertex moves along
+/// one Errors: invalidData: a mesh that does not validate(), or a source without area; interrupted. O(steps *
+/// (samples log triangles + triangles)); about 100 bytes a sample and 700 a triangle.
 Result<FittedSurface> fitSurface(const TriangleMesh& cut, const std::vector<std::uint8_t>& isHeld,
                                  const TriangleMesh& source, const SurfaceFitOptions& options = {},
                                  const RunContext& context = {}, const FitLines& lines = {});

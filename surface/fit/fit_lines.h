@@ -20,7 +20,7 @@ struct FitLines {
   };
   /// Edges with an end that may move.
   std::vector<Edge> edges;
-  /// By vertex of the cut: it is in the middle of one line, whose ways are known. Empty: there is none.
+  /// By vertex of the cut: it is in the middle of one line, whose ways are known. Empty: no vertex is.
   std::vector<std::uint8_t> mayMove;
 
   bool isEmpty() const { return edges.empty(); }

@@ -16,7 +16,7 @@ namespace arete {
 ///
 /// Smooth: the finest triangles at each vertex, weighted by their angles there, so that a coarse TIN is
 /// shaded as the terrain. Beyond options.creaseAngleDegrees they are hard (isCrease()): a corner of the TIN
-/// has the normal of the side into which it points; 180: there are none. Flat: of the TIN's own
+/// has the normal of the side into which it points; 180: no edge is one. Flat: of the TIN's own
 /// triangles.
 ///
 /// @param tin       positions in source coordinates

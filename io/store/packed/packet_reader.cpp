@@ -235,7 +235,8 @@ Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& c
     if (page.segments.empty()) continue;
     const packed::Segment& last = page.segments.back();
     const std::uint64_t begin = page.segments[0].begin(), end = last.begin() + last.bytes();
-    if (end > paged.nodes.size())
+    // The offset may be any 64-bit number, so that the end wraps around.
+    if (begin > end || end > paged.nodes.size())
       return failure(ErrorCode::corrupt, fmt::format("page {}: lies behind the end", page.number));
     parts.push_back(paged.nodes.subspan(begin, end - begin));
   }

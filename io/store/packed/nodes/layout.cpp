@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "io/store/entropy/number_bytes.h"
+#include "io/store/packed/nodes/dependencies.h"
 
 namespace arete::packed {
 namespace {
@@ -83,15 +84,7 @@ std::vector<std::byte> toBytes(const Directory& directory) {
   for (const std::uint8_t c : directory.bandClass) out.plain(c);
   out.number(directory.packets.size());
   for (const Packet& packet : directory.packets) {
-    // A packet that depends on others depends on the first one too, which is left out; others are
-    // differences.
-    const std::span dependsOn = std::span(packet.dependsOn).subspan(packet.dependsOn.empty() ? 0 : 1);
-    out.number(dependsOn.size());
-    std::uint32_t next = 1;
-    for (const std::uint32_t other : dependsOn) {
-      out.number(other - next);
-      next = other + 1;
-    }
+    writeDependencies(packet, out);
     for (const double d : {packet.xMin, packet.yMin, packet.xMax, packet.yMax}) out.plain(d);
     if (directory.isOfSurface)
       for (const double d : {packet.zMin, packet.zMax}) out.plain(d);
@@ -135,15 +128,9 @@ std::optional<Directory> directoryOf(std::span<const std::byte> bytes, std::stri
   directory.packets.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     Packet& packet = directory.packets[i];
-    if (i > 0) packet.dependsOn.push_back(0);
-    std::uint64_t next = 1;
-    for (std::uint32_t left = in.number(kMaxIds); left > 0; --left) {
-      next += in.number(kMaxIds);
-      if (in.isBad() || next >= i) {
-        problem = fmt::format("packet {} of the packed nodes depends on one that does not come before it", i);
-        return std::nullopt;
-      }
-      packet.dependsOn.push_back(static_cast<std::uint32_t>(next++));
+    if (!readDependencies(i, in, packet)) {
+      problem = fmt::format("packet {} of the packed nodes depends on one that does not come before it", i);
+      return std::nullopt;
     }
     for (double* d : {&packet.xMin, &packet.yMin, &packet.xMax, &packet.yMax}) *d = in.plain<double>();
     if (isOfSurface)

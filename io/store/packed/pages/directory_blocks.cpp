@@ -15,6 +15,7 @@
 #include "engine/mt/hole_limit.h"
 #include "io/store/entropy/number_bytes.h"
 #include "io/store/format/checksum.h"
+#include "io/store/packed/nodes/dependencies.h"
 
 namespace arete::packed {
 namespace {
@@ -108,13 +109,7 @@ std::vector<std::byte> leafBytes(std::span<const Packet> pages, const Box3& box)
   out.number(pages.size());
   out.number(pages[0].segments[0].begin());
   for (const Packet& page : pages) {
-    const std::span dependsOn = std::span(page.dependsOn).subspan(page.dependsOn.empty() ? 0 : 1);
-    out.number(dependsOn.size());
-    std::uint32_t next = 1;
-    for (const std::uint32_t other : dependsOn) {
-      out.number(other - next);
-      next = other + 1;
-    }
+    writeDependencies(page, out);
     for (const auto& [x, low, high] : {std::tuple(page.xMin, box.low.x, box.high.x),
                                        {page.yMin, box.low.y, box.high.y},
                                        {page.zMin, box.low.z, box.high.z}})
@@ -292,13 +287,7 @@ std::optional<std::vector<Packet>> pagesOf(std::span<const std::byte> bytes, con
   for (std::uint32_t i = 0; i < count; ++i) {
     Packet& page = pages[i];
     page.number = first + i;
-    if (page.number > 0) page.dependsOn.push_back(0);
-    std::uint64_t next = 1;
-    for (std::uint32_t left = in.number(in.left()); left > 0; --left) {
-      next += in.number(kMaxIds);
-      if (in.isBad() || next >= page.number) return std::nullopt;
-      page.dependsOn.push_back(static_cast<std::uint32_t>(next++));
-    }
+    if (!readDependencies(page.number, in, page)) return std::nullopt;
     page.xMin = placeOf(in.plain<std::uint16_t>(), box.low.x, box.high.x);
     page.yMin = placeOf(in.plain<std::uint16_t>(), box.low.y, box.high.y);
     page.zMin = placeOf(in.plain<std::uint16_t>(), box.low.z, box.high.z);

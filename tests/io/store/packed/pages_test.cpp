@@ -321,8 +321,33 @@ TEST(Pages, AreRefusedOrSurviveWhateverTheirBytesAre) {
   }
 }
 
-TEST(Pages, OfAPackedFileAreHalfAsManyBytesFromTheBeginning) {
-  // The root of the directory lies within the first 16 KiB, whatever the size.
+TEST(Pages, AreRefusedWhereTheirOffsetWrapsAround) {
+  const Paged original(built(build(hills(24, 22, [](double z) { return std::round(z) + 0.0; }))));
+  std::string ignored;
+  const auto root = packed::pageRootOf(original.bytes.directory, ignored);
+  ASSERT_TRUE(root && root->levels == 1);
+  const packed::BlockEntry& entry = root->entries[0];
+  auto pages = packed::pagesOf(std::span(original.bytes.blocks).first(entry.bytes), entry, 0);
+  ASSERT_TRUE(pages);
+  packed::Directory forged;
+  forged.bandClass = root->bandClass;
+  forged.packets = *pages;
+  for (packed::Packet& page : forged.packets) {
+    page.runs.resize(1);
+    for (packed::Segment& segment : page.segments) segment.offset -= 10;
+  }
+  packed::Run& all = forged.packets[0].runs[0];
+  all.band = forged.packets[0].segments[0].firstBand;
+  all.nodes = static_cast<std::uint32_t>(original.metadata.counts.nodes);
+  all.slots = static_cast<std::uint32_t>(original.metadata.counts.slots);
+  const packed::PageDirectoryBytes bytes = packed::pageDirectoryBytes(forged);
+  const auto mt = unpackMt(
+      original.metadata, {bytes.root, original.bytes.tables, bytes.blocks, original.bytes.nodes}, {}, {}, {});
+  ASSERT_FALSE(mt);
+  EXPECT_EQ(mt.error().message, "page 0: lies behind the end");
+}
+
+TEST(Pages, HaveTheRootOfTheirDirectoryInTheFirstSixteenKibibytes) {
   const TemporaryFolder folder;
   const TerrainModel model = built(build(hills(280, 240, [](double z) { return std::round(z); })));
   ASSERT_TRUE(writeAmt(folder.file("a.amt"), model, {}, {.isPaged = true}));
