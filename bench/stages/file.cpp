@@ -115,7 +115,7 @@ template <class Add>
 void timeQuestions(const DemSource& source, const std::string& model, double tolerance,
                    const Repetition& repetition, const Add& add) {
   AmtLoadOptions enough;
-  enough.wanted = [tolerance](const Box2&) { return tolerance; };
+  enough.wanted = [tolerance](const Box3&) { return tolerance; };
   add("open, check and cut", openAndCutMilliseconds(model, enough, tolerance, repetition), "ms");
   if (!source.isScattered)  // of points all is read
     add("open, check and tell a height", openAndTellHeightMilliseconds(model, repetition), "ms");
