@@ -21,6 +21,7 @@
 #include "cli/surface/why_not_fewer.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/query/extract/extract.h"
+#include "io/query/surface/surface_part.h"
 #include "io/store/amt/surface_file.h"
 
 namespace arete {
@@ -53,7 +54,7 @@ Result<Requests> requestsOf(const SurfaceExtractArguments& arguments, const Surf
   }
   std::vector<std::optional<StatedTriangles>> budgets(1);
   if (!asked.maxTriangles.empty()) {
-    ARETE_TRY(const auto stated, parseTriangleBudgets(asked.maxTriangles, model.mt.finestTriangleCount()));
+    ARETE_TRY(const auto stated, parseTriangleBudgets(asked.maxTriangles, model.finestTriangles()));
     budgets.assign(stated.begin(), stated.end());
   }
   const bool several = tolerances.size() * budgets.size() > 1;
@@ -131,8 +132,8 @@ Error named(Error error, const SurfaceExtractArguments& arguments, const Extract
 }  // namespace
 
 Status extractSurface(const SurfaceExtractArguments& arguments, const AmtContainer& file, Session& session) {
-  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(file, AmtVerify::all, session.context()));
-  ARETE_TRY(const Requests requests, requestsOf(arguments, model, session.context()));
+  ARETE_TRY(SurfaceModel outline, readOutline(file, session.context()));
+  ARETE_TRY(const Requests requests, requestsOf(arguments, outline, session.context()));
   ARETE_CHECK(checkFormats(requests.all));
   std::vector<std::string> inputs = {arguments.model};
   std::error_code ignored;
@@ -143,10 +144,13 @@ Status extractSurface(const SurfaceExtractArguments& arguments, const AmtContain
   if (areLevels) {
     ARETE_TRY(levels, LevelFiles::create());
   }
-  SurfaceExtractor extractor(model, arguments.model,
-                             [&](const ExtractRequest& request, double promised, std::uint64_t samples) {
-                               return surfaceCheckCommand(request, arguments.model, promised, samples);
-                             });
+  ARETE_TRY(const SurfaceModel model, readForExtract(file, requests.all, std::move(outline), session.context()));
+  SurfaceExtractor extractor(
+      model, arguments.model,
+      [&](const ExtractRequest& request, double promised, std::uint64_t samples) {
+        return surfaceCheckCommand(request, arguments.model, promised, samples);
+      },
+      [&] { return loadSurfaceAmt(file, {}, session.context()); });
   Json exports = Json::array();
   Status promise;
   for (std::size_t i = 0; i < requests.all.size(); ++i) {
@@ -173,7 +177,7 @@ Status extractSurface(const SurfaceExtractArguments& arguments, const AmtContain
   session.answer({{"model", arguments.model},
                   {"kind", "surface"},
                   {"diagonal", model.diagonal},
-                  {"finestTriangles", model.mt.finestTriangleCount()},
+                  {"finestTriangles", model.finestTriangles()},
                   {"exports", std::move(exports)}});
   return promise;
 }

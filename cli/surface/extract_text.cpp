@@ -44,7 +44,7 @@ std::string extractText(const ExtractRequest& request, const ExtractedSurface& f
         "  lines      not bounded: an earlier version built the file, whose errors are distances to "
         "anything\n";
   // They keep most of the surface from being coarser.
-  if (2 * model.mt.rootTriangleCount() > model.mt.finestTriangleCount())
+  if (2 * model.mt.rootTriangleCount() > model.finestTriangles())
     if (const std::string seams = seamsOfModel(model); seams.size() > 2)
       text += fmt::format("  seams      {}\n", seams.substr(2));
   if (found.fit)

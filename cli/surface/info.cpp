@@ -61,7 +61,7 @@ Result<std::vector<CurvePoint>> curveOf(const std::string& at, std::size_t mostP
 
 Status sayAboutSurface(const AmtContainer& file, const std::string& at, std::size_t mostPoints,
                        Session& session) {
-  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(file, AmtVerify::all, session.context()));
+  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(file, {}, session.context()));
   ARETE_TRY(Json columns, columnsJson(file));
   ARETE_TRY(const std::vector<CurvePoint> curve, curveOf(at, mostPoints, model, session.context()));
   const MultiTriangulation& mt = model.mt;

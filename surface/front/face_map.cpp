@@ -91,7 +91,8 @@ std::vector<FaceInCut> someFacesOf(const SurfaceModel& model, const Cut& cut, st
   const std::uint32_t step = mt.finestTriangleCount() / std::max(most, 1u) + 1;
   std::uint32_t next = 0;
   for (std::uint32_t finest = 0; finest < mt.triangleIdCount(); ++finest) {
-    if (mt.remover(TriangleId(finest)).isValid()) continue;
+    // Of a part, faces of the source are those alone whose removers are not missing.
+    if (mt.remover(TriangleId(finest)).isValid() || mt.isRemoverMissing(TriangleId(finest))) continue;
     if (next++ % step != 0) continue;
     const SpaceTriangle place = placeOf(mt, TriangleId(finest));
     const Vec3 middle = (place[0] + place[1] + place[2]) / 3.0;

@@ -96,7 +96,7 @@ std::vector<std::uint32_t> chartsOf(const SurfaceModel& model) {
 }
 
 SurfaceParts partsOf(const SurfaceModel& model, std::vector<std::uint32_t>& partOf) {
-  partOf = partsOf(model.attributes, std::size_t{model.sourceFaces});
+  partOf = partsOf(model.attributes, std::size_t{model.faceCount()});
   return {model.hasWedges(), partOf};
 }
 

@@ -38,7 +38,7 @@ Status checkLeftOutFaces(const SurfaceModel& model) {
 }  // namespace
 
 bool SurfaceModel::mayHaveLines() const {
-  return hasWedges() || !partsOf(attributes, std::size_t{sourceFaces}).empty();
+  return hasWedges() || !partsOf(attributes, std::size_t{faceCount()}).empty();
 }
 
 Status SurfaceModel::validate() const {
@@ -64,10 +64,10 @@ Status SurfaceModel::validate() const {
   for (const Attribute& attribute : a.vertexAttributes)
     ARETE_CHECK(checkAttribute(attribute, mt.vertexCount()));
   for (const Attribute& attribute : a.wedgeAttributes) ARETE_CHECK(checkAttribute(attribute, a.wedgeCount));
-  for (const Attribute& attribute : a.triangleAttributes) ARETE_CHECK(checkAttribute(attribute, sourceFaces));
+  for (const Attribute& attribute : a.triangleAttributes) ARETE_CHECK(checkAttribute(attribute, faceCount()));
   const auto isListOf = [&](const std::vector<std::uint32_t>& numbers, std::size_t count) {
     if (numbers.empty()) return true;
-    return numbers.size() == sourceFaces && std::ranges::all_of(numbers, [&](std::uint32_t i) {
+    return numbers.size() == faceCount() && std::ranges::all_of(numbers, [&](std::uint32_t i) {
              return i < count || i == MeshAttributes::kNone;
            });
   };
@@ -76,7 +76,7 @@ Status SurfaceModel::validate() const {
     return refuse("a face has an object, group or material that there is not");
   if (std::ranges::any_of(vertexOf, [&](std::uint32_t v) { return v >= sourceVertices; }))
     return refuse("a vertex has a number that the source does not have");
-  if (std::ranges::any_of(faceOf, [&](std::uint32_t f) { return f >= sourceFaces; }))
+  if (std::ranges::any_of(faceOf, [&](std::uint32_t f) { return f >= faceCount(); }))
     return refuse("a triangle has a face that the source does not have");
   ARETE_CHECK(checkLeftOutFaces(*this));
   for (const auto& wedges : wedgesOf)

@@ -77,6 +77,15 @@ struct SurfaceModel {
     return !attributes.triangleAttributes.empty() || !attributes.objectOf.empty() ||
            !attributes.groupOf.empty() || !attributes.materialOf.empty();
   }
+  /// Of a part of a model (loadSurfaceAmt()) in which faces have values: by face, as faceOf and all lists by
+  /// face count them, its number in the source, rising. Empty: the numbers of the source.
+  std::vector<std::uint32_t> partFaces;
+  /// Of a part: the triangles of the whole model's finest front.
+  std::optional<std::uint64_t> finestOfWhole;
+  /// As many as lists by face have.
+  std::uint64_t faceCount() const { return partFaces.empty() ? sourceFaces : partFaces.size(); }
+  std::uint64_t finestTriangles() const { return finestOfWhole.value_or(mt.finestTriangleCount()); }
+
   /// By triangle of the MT: the wedges of its corners. Empty without wedges.
   std::vector<std::array<std::uint32_t, 3>> wedgesOf;
 

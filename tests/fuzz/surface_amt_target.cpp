@@ -41,9 +41,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const fuzz::MemoryFile memory;
   memory.set({data, size});
   const RunContext context = fuzz::oneThread();
-  if (const auto whole = loadSurfaceAmt(memory.path(), AmtVerify::all, context); !whole)
+  if (const auto whole = loadSurfaceAmt(memory.path(), {}, context); !whole)
     fuzz::requireClear(whole.error());
-  const auto model = loadSurfaceAmt(memory.path(), AmtVerify::indices, context);
+  const auto model = loadSurfaceAmt(memory.path(), {.verify = AmtVerify::indices}, context);
   if (!model) {
     fuzz::requireClear(model.error());
     return 0;

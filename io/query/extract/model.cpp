@@ -12,7 +12,7 @@ namespace arete {
 
 Result<Model> readModel(AmtContainer file, const RunContext& context) try {
   if (file.isOfSurface()) {
-    ARETE_TRY(SurfaceModel model, loadSurfaceAmt(file, AmtVerify::all, context));
+    ARETE_TRY(SurfaceModel model, loadSurfaceAmt(file, {}, context));
     return Model(std::move(model));
   }
   ARETE_TRY(const AmtFile terrain, openAmt(std::move(file)));

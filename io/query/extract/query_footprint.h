@@ -13,11 +13,6 @@
 
 namespace arete {
 
-/// Requires nothing anywhere. Only the root is read, which covers the whole terrain.
-inline RequiredError requiredNowhere() {
-  return [](const Box3&) { return std::numeric_limits<double>::infinity(); };
-}
-
 /// The places, lines and discs that queries will read, so that only this part of a file is read. They are
 /// kept as marked cells of a grid over the terrain, in constant memory. The marked cells cover at least what
 /// the queries read; of a raster also everything within one sample's width, for algorithms that read all four

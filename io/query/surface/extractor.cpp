@@ -44,12 +44,20 @@ MeshWriteOptions writeOptionsOf(const ExtractRequest& request, const SurfaceMode
 }  // namespace
 
 SurfaceExtractor::SurfaceExtractor(const SurfaceModel& model, std::string modelPath,
-                                   CheckCommand checkCommand)
-    : model_(model), modelPath_(std::move(modelPath)), checkCommand_(std::move(checkCommand)) {}
+                                   CheckCommand checkCommand, ReadWhole readWhole)
+    : model_(model),
+      modelPath_(std::move(modelPath)),
+      checkCommand_(std::move(checkCommand)),
+      readWhole_(std::move(readWhole)) {}
 
-const TriangleMesh& SurfaceExtractor::finest() {
+Result<const TriangleMesh*> SurfaceExtractor::finest() {
+  if (!finest_ && model_.finestOfWhole) {
+    if (!readWhole_) return failure(ErrorCode::unsupported, "is a part of a model, and the source is needed");
+    ARETE_TRY(const SurfaceModel whole, readWhole_());
+    finest_ = finestSurfaceOf(whole).mesh.shape();
+  }
   if (!finest_) finest_ = finestSurfaceOf(model_).mesh.shape();
-  return *finest_;
+  return &*finest_;
 }
 
 Status SurfaceExtractor::dropFor(const CutRequest& request) {
@@ -83,7 +91,8 @@ Status SurfaceExtractor::writeMap(const ExtractRequest& request, const TakenSurf
 Status SurfaceExtractor::measure(const ExtractRequest& request, const TakenSurface& taken,
                                  const TriangleMesh& mesh, const MeshFrame& frame, ExtractedSurface& result,
                                  const RunContext& context) {
-  const TriangleMesh source = dropped_ ? finestWithout(model_, dropped()).mesh.shape() : finest();
+  ARETE_TRY(const TriangleMesh* const finest, this->finest());
+  const TriangleMesh source = dropped_ ? finestWithout(model_, dropped()).mesh.shape() : *finest;
   const std::uint64_t samples = certificateSamples(source, mesh);
   ARETE_TRY(SurfaceMeasure measured, measureSurface(source, mesh, model_, request.criterion,
                                                     taken.whole.isComplete, samples, context));
@@ -182,7 +191,7 @@ Result<ExtractedSurface> SurfaceExtractor::extractWithin(const ExtractRequest& r
   if (reserve > 0) *criterion.maxError -= reserve;
   ARETE_TRY(TakenSurface taken, takeSurface(model_, criterion, dropped(), context));
   ExtractedSurface result;
-  result.finestTriangles = model_.mt.finestTriangleCount();
+  result.finestTriangles = model_.finestTriangles();
   result.diagonal = model_.diagonal;
   result.boundsLines = model_.boundsLines;
   result.storedError = taken.cut.achievedError;
@@ -212,7 +221,8 @@ Result<ExtractedSurface> SurfaceExtractor::extractWithin(const ExtractRequest& r
   ARETE_TRY(const std::uint64_t crossings, crossingsOf(taken.front.mesh, context));
   result.crossings = crossings;
   if (crossings > 0 && !sourceCrossings_) {
-    ARETE_TRY(const std::uint64_t ofSource, crossingsOf(finest(), context));
+    ARETE_TRY(const TriangleMesh* const finest, this->finest());
+    ARETE_TRY(const std::uint64_t ofSource, crossingsOf(*finest, context));
     sourceCrossings_ = ofSource;
   }
   result.sourceCrossings = sourceCrossings_;
@@ -232,7 +242,8 @@ Result<ExtractedSurface> SurfaceExtractor::extractWithin(const ExtractRequest& r
     result.droppedDistance = distance;
   }
   if (request.measuresBothWays) {
-    ARETE_TRY(const double distance, distanceFrom(taken.front.mesh, finest(), context));
+    ARETE_TRY(const TriangleMesh* const finest, this->finest());
+    ARETE_TRY(const double distance, distanceFrom(taken.front.mesh, *finest, context));
     result.otherWay = distance + result.movedByGrid;
   }
   return result;

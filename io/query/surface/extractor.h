@@ -55,11 +55,15 @@ class SurfaceExtractor {
   using CheckCommand =
       std::function<std::string(const ExtractRequest&, double promisedError, std::uint64_t samples)>;
 
+  /// The whole model, where the one that cuts are taken of is a part.
+  using ReadWhole = std::function<Result<SurfaceModel>()>;
+
   /// @param modelPath     the file's name, for certificates
   /// @param checkCommand  the `check` of certificates; empty = an empty text
+  /// @param readWhole     is called once where a part does not do: to count what crosses in the source
   /// Precondition: the model outlives this.
   explicit SurfaceExtractor(const SurfaceModel& model, std::string modelPath = {},
-                            CheckCommand checkCommand = {});
+                            CheckCommand checkCommand = {}, ReadWhole readWhole = {});
 
   /// Takes the cut (takeSurface()), writes the mesh and what else is asked for, and measures what is asked to
   /// be measured. With a certificate the file is read back and measured against the source, by code that
@@ -70,7 +74,7 @@ class SurfaceExtractor {
   Result<ExtractedSurface> extract(const ExtractRequest& request, const RunContext& context = {});
 
  private:
-  const TriangleMesh& finest();
+  Result<const TriangleMesh*> finest();
   Status dropFor(const CutRequest& request);
   const DroppedComponents* dropped() const { return dropped_ ? &*dropped_ : nullptr; }
   Status write(const ExtractRequest& request, TakenSurface& taken, ExtractedSurface& result,
@@ -87,6 +91,7 @@ class SurfaceExtractor {
   const SurfaceModel& model_;
   std::string modelPath_;
   CheckCommand checkCommand_;
+  ReadWhole readWhole_;
   double leastDiagonal_ = 0;  // of dropped_
   std::optional<DroppedComponents> dropped_;
   std::optional<TriangleMesh> finest_;

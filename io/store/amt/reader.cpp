@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Files of both kinds. Chunks must have the sizes that follow from the counts in the metadata
-// (model_columns.h). Terrain is opened first and read later, in part where a query needs no more; a surface
-// is read whole.
+// Files of terrain (of surfaces: surface_reader.cpp). Chunks must have the sizes that follow from the counts in
+// the metadata (model_columns.h). A file is opened first and read later, in part where a query needs no more.
 #include <fmt/format.h>
 
 #include <utility>
@@ -11,17 +10,10 @@
 #include "engine/base/caught_failure.h"
 #include "engine/mt/node_blocks.h"
 #include "io/store/amt/file.h"
-#include "io/store/amt/finest_triangles.h"
-#include "io/store/amt/index_check.h"
 #include "io/store/amt/model_columns.h"
 #include "io/store/amt/part.h"
-#include "io/store/amt/surface_file.h"
 #include "io/store/format/metadata.h"
-#include "io/store/format/surface_metadata.h"
 #include "io/store/packed/packed.h"
-#include "io/store/packed/surface/displacement_bytes.h"
-#include "io/store/packed/surface/source_numbers.h"
-#include "surface/model/face_successors.h"
 
 namespace arete {
 
@@ -176,168 +168,6 @@ Result<TerrainModel> loadAmt(const std::string& path, const AmtLoadOptions& opti
   return file.read({options.verify, options.wanted}, context);
 } catch (...) {
   return caughtFailure();
-}
-
-namespace {
-
-/// Reads one file of a surface, whole.
-class SurfaceReading {
- public:
-  SurfaceReading(const AmtContainer& container, const SurfaceMetadata& metadata, AmtVerify verify,
-                 const RunContext& context)
-      : all_(container),
-        metadata_(metadata),
-        facts_(amtFactsOf(metadata)),
-        verify_(verify),
-        context_(context),
-        model_(metadata.model) {}
-
-  Result<SurfaceModel> run() {
-    ARETE_CHECK(checkColumns<SurfaceModel>(all_, facts_));
-    const bool isPacked = facts_.isPacked;
-    if (verify_ == AmtVerify::all) {
-      Status sound = all_.checkSums({}, context_);
-      if (sound) sound = all_.checkZeros();
-      if (!sound) return tl::unexpected(sound.error());
-    }
-    ARETE_CHECK(isPacked ? unpackNodes() : placeNodes());
-    if (verify_ != AmtVerify::none) {
-      std::uint64_t finest = 0;
-      forFinest(model_.mt, [&](std::uint32_t) { ++finest; });
-      if (finest != metadata_.finestTriangles)
-        return all_.corrupt(fmt::format("has {} triangles in its finest front instead of {}", finest,
-                                        metadata_.finestTriangles));
-    }
-    copyModelColumns(all_, facts_, model_);
-    if (!isPacked && !facts_.hasAllFaces) takeFinestFaces();
-    ARETE_CHECK(takeLooks());
-    if (isPacked) {
-      ARETE_CHECK(unpackNumbers());
-      ARETE_CHECK(unpackDisplacement());
-    }
-    if (const Status valid = model_.validate(); !valid) return all_.corrupt(valid.error().message);
-    return std::move(model_);
-  }
-
- private:
-  Status unpackNodes() {
-    const auto bytes = [&](const AmtTag& tag) { return all_.elements<std::byte>(tag); };
-    const auto tables = bytes(amt_tag::kPackedTables), nodes = bytes(amt_tag::kPackedNodes);
-    Result<MultiTriangulation> mt =
-        facts_.isPaged
-            ? unpackSurfaceMt(metadata_,
-                              {bytes(amt_tag::kPageRoot), tables, bytes(amt_tag::kPageBlocks), nodes}, {},
-                              context_, {})
-            : unpackSurfaceMt(metadata_, bytes(amt_tag::kPackedDirectory), tables, nodes, context_);
-    if (!mt) return failure(mt.error().code, mt.error().message, all_.path());
-    model_.mt = std::move(*mt);
-    model_.attributes.wedgeCount = static_cast<std::uint32_t>(metadata_.wedges);
-    return {};
-  }
-  /// After the looks, which say whether coarse triangles have faces of their own.
-  Status unpackNumbers() {
-    const Status taken =
-        packed::unpackSourceNumbers(all_.elements<std::byte>(amt_tag::kPackedNumbers), model_);
-    return taken ? taken : all_.corrupt(taken.error().message);
-  }
-
-  Status unpackDisplacement() {
-    const AmtChunk* const chunk = all_.find(amt_tag::kPackedDisplacement);
-    if (chunk == nullptr) return {};
-    Result<SurfaceDisplacement> read = packed::unpackDisplacement(all_.bytes(*chunk), model_.mt);
-    if (!read) return all_.corrupt(read.error().message);
-    model_.displacement = std::move(*read);
-    return {};
-  }
-  Status placeNodes() {
-    placeArrays();
-    if (verify_ == AmtVerify::none) return {};
-    if (const Status checked = checkMtIndices(model_.mt, 0, context_); !checked)
-      return failure(checked.error().code, checked.error().message, all_.path());
-    return {};
-  }
-
-  void placeArrays() {
-    MtArrays a;
-    a.rootVertices = static_cast<std::uint32_t>(metadata_.counts.rootVertices);
-    placeMtColumns<SurfaceModel>(all_, facts_, a);
-    a.scale = metadata_.scale;
-    a.metric = metadata_.metric;
-    model_.mt = MultiTriangulation(a, all_.owner());
-    model_.attributes.wedgeCount = static_cast<std::uint32_t>(metadata_.wedges);
-  }
-
-  /// Where the file has faces of the finest triangles alone.
-  void takeFinestFaces() {
-    const auto faces = all_.elements<std::uint32_t>(amt_tag::kFaceNumbers);
-    model_.faceOf.assign(model_.mt.triangleIdCount(), 0);
-    std::size_t i = 0;
-    forFinest(model_.mt, [&](std::uint32_t t) {
-      if (i < faces.size()) model_.faceOf[t] = faces[i++];
-    });
-    inheritFaces(model_.mt, model_.faceOf);
-  }
-
-  Status takeLooks() {
-    const auto text = all_.elements<char>(amt_tag::kLooks);
-    std::vector<std::uint64_t> pictureBytes;
-    if (const Status read = fromLooksJson({text.data(), text.size()}, all_.find(amt_tag::kAttributes)->bytes,
-                                          model_, pictureBytes);
-        !read)
-      return all_.corrupt(read.error().message);
-    if (model_.hasFaceAttributes() != metadata_.hasAllFaces)
-      return all_.corrupt("has faces with attributes and no numbers of them, or the other way");
-    if (const Status taken = takeAttributeBytes(all_.elements<std::byte>(amt_tag::kAttributes),
-                                                model_.mt.vertexCount(), model_);
-        !taken)
-      return all_.corrupt(taken.error().message);
-    const AmtChunk* const errors = all_.find(amt_tag::kAttributeErrors);
-    if (const Status taken =
-            takeAttributeErrorCodes(errors ? all_.elements<std::uint16_t>(amt_tag::kAttributeErrors)
-                                           : std::span<const std::uint16_t>(),
-                                    model_);
-        !taken)
-      return all_.corrupt(taken.error().message);
-    const auto bytes = all_.elements<std::byte>(amt_tag::kPictures);
-    std::size_t at = 0;
-    for (std::size_t i = 0; i < pictureBytes.size(); ++i) {
-      if (pictureBytes[i] > bytes.size() - at)
-        return all_.corrupt(fmt::format("has a picture of {} bytes, which are not there", pictureBytes[i]));
-      const auto part = bytes.subspan(at, pictureBytes[i]);
-      model_.attributes.pictures[i].bytes.assign(part.begin(), part.end());
-      at += part.size();
-    }
-    return {};
-  }
-
-  const AmtContainer& all_;
-  const SurfaceMetadata& metadata_;
-  AmtFacts facts_;
-  AmtVerify verify_;
-  const RunContext& context_;
-  SurfaceModel model_;
-};
-
-}  // namespace
-
-Result<SurfaceModel> loadSurfaceAmt(const std::string& path, AmtVerify verify,
-                                    const RunContext& context) try {
-  ARETE_TRY(const AmtContainer container, AmtContainer::open(path));
-  return loadSurfaceAmt(container, verify, context);
-} catch (...) {
-  return caughtFailure(path);
-}
-
-Result<SurfaceModel> loadSurfaceAmt(const AmtContainer& container, AmtVerify verify,
-                                    const RunContext& context) try {
-  if (!container.isOfSurface())
-    return failure(ErrorCode::unsupported, "is of terrain, and a surface is wanted here", container.path());
-  ARETE_CHECK(container.loadAll(context));
-  const Result<SurfaceMetadata> metadata = fromSurfaceJson(container.metadata());
-  if (!metadata) return container.corrupt(fmt::format("chunk META: {}", metadata.error().message));
-  return SurfaceReading(container, *metadata, verify, context).run();
-} catch (...) {
-  return caughtFailure(container.path());
 }
 
 }  // namespace arete

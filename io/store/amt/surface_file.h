@@ -12,7 +12,7 @@ namespace arete {
 
 /// The .amt file of a surface: format version 3 (docs/topics/amt-format.md). As of terrain, a file is written
 /// whole from a model in memory and read by mapping it: the arrays of the multitriangulation lie in the file;
-/// what is beside it is copied. A packed file is unpacked.
+/// what is beside it is copied. A packed file is unpacked, and one in pages is read in part.
 
 /// How writeSurfaceAmt() writes.
 struct SurfaceWriteOptions {
@@ -34,12 +34,17 @@ Status writeSurfaceAmt(const std::string& path, const SurfaceModel& model, const
 Result<SurfaceModel> roundSurface(const SurfaceModel& model, int positionBits,
                                   const RunContext& context = {});
 
-/// Reads a file and checks checksums, indices and sizes as `verify` says. Errors: those of openAmt() and of
-/// the checks; unsupported: the file is of terrain.
-Result<SurfaceModel> loadSurfaceAmt(const std::string& path, AmtVerify verify = AmtVerify::all,
+/// Reads a file and checks checksums, indices and sizes as `verify` says. Of a file in pages a part can be
+/// required, whose boxes are in the coordinates of the model: it has a root and is a model in itself, whose
+/// cuts say what they miss (Cut::missing), and SurfaceModel says what differs; any other file is read whole.
+/// Errors: those of openAmt() and of the checks; unsupported: the file is of terrain.
+Result<SurfaceModel> loadSurfaceAmt(const std::string& path, const AmtReadOptions& options = {},
                                     const RunContext& context = {});
 /// The same of what is open.
-Result<SurfaceModel> loadSurfaceAmt(const AmtContainer& container, AmtVerify verify = AmtVerify::all,
+Result<SurfaceModel> loadSurfaceAmt(const AmtContainer& container, const AmtReadOptions& options = {},
                                     const RunContext& context = {});
+
+/// As AmtFile::errorBeyond(), of a file in pages. Errors: those of openAmt().
+Result<double> surfaceErrorBeyond(const AmtContainer& container, std::uint64_t nodes);
 
 }  // namespace arete

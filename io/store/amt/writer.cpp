@@ -17,6 +17,7 @@
 #include "io/store/format/metadata.h"
 #include "io/store/format/surface_metadata.h"
 #include "io/store/packed/packed.h"
+#include "io/store/packed/surface/carried.h"
 #include "io/store/packed/surface/displacement_bytes.h"
 #include "io/store/packed/surface/source_numbers.h"
 #include "surface/model/renumbered.h"
@@ -91,7 +92,8 @@ class TerrainWriting {
 
 struct PackedModel {
   PackedSurfaceMt packed;
-  SurfaceModel model;  ///< in the order of the packed MT: as a reader has it
+  SurfaceModel model;            ///< in the order of the packed MT: as a reader has it
+  packed::CarriedBytes carried;  ///< of pages, without `ofPage`
 };
 
 /// Packs the MT, and takes the model in the order of the packed MT. Displacements stay as they are.
@@ -101,23 +103,43 @@ Result<PackedModel> packModel(const SurfaceModel& source, const SurfacePackOptio
     if (error.code != ErrorCode::interrupted) error.message = "the model cannot be packed: " + error.message;
     return tl::unexpected(std::move(error));
   };
-  Result<PackedSurfaceMt> packed = packSurfaceMt(source.mt, options, context);
-  if (!packed) return refuse(packed.error());
+  PackedModel both;
   SurfaceMetadata metadata = amtMetadataOf(source, {});
-  metadata.hasDoubles = packed->hasDoubles;
-  metadata.positionStep = packed->step;
-  metadata.scale = packed->scale;
-  metadata.model.positionError += packed->moved;
-  const PackedMt& bytes = packed->bytes;
-  const Result<MultiTriangulation> mt =
-      options.isPaged ? unpackSurfaceMt(metadata, {bytes.directory, bytes.tables, bytes.blocks, bytes.nodes},
-                                        {}, context, {})
-                      : unpackSurfaceMt(metadata, bytes.directory, bytes.tables, bytes.nodes, context);
-  if (!mt) return refuse(mt.error());
-  SurfaceModel model = renumbered(source, *mt, packed->order.vertexOf, packed->order.triangleOf);
-  model.positionError += packed->moved;
+  const auto describe = [&](const PackedSurfaceMt& packed) {
+    metadata.hasDoubles = packed.hasDoubles;
+    metadata.positionStep = packed.step;
+    metadata.scale = packed.scale;
+    metadata.model.positionError = source.positionError + packed.moved;
+  };
+  const auto inOrder = [&](const PackedSurfaceMt& packed, const MultiTriangulation& mt) {
+    both.model = renumbered(source, mt, packed.order.vertexOf, packed.order.triangleOf);
+    both.model.positionError += packed.moved;
+  };
+  const CarryInPages carry = [&](const PackedSurfaceMt& packed) -> Result<CarriedPages> {
+    describe(packed);
+    const PackedMt& bytes = packed.bytes;
+    // The nodes carry nothing yet, which is as good a page.
+    ARETE_TRY(UnpackedPages unpacked,
+              unpackSurfaceMt(metadata, {bytes.directory, bytes.tables, bytes.blocks, bytes.nodes}, {},
+                              context, {}));
+    inOrder(packed, unpacked.mt);
+    both.carried = packed::packCarried(both.model, unpacked.pages);
+    return std::move(both.carried.ofPage);
+  };
+  Result<PackedSurfaceMt> packed =
+      packSurfaceMt(source.mt, options, context, options.isPaged ? carry : CarryInPages());
+  if (!packed) return refuse(packed.error());
+  if (!options.isPaged) {
+    describe(*packed);
+    const PackedMt& bytes = packed->bytes;
+    const Result<MultiTriangulation> mt =
+        unpackSurfaceMt(metadata, bytes.directory, bytes.tables, bytes.nodes, context);
+    if (!mt) return refuse(mt.error());
+    inOrder(*packed, *mt);
+  }
   packed->order = {};
-  return PackedModel{std::move(*packed), std::move(model)};
+  both.packed = std::move(*packed);
+  return both;
 }
 
 /// Writes one file of a surface.
@@ -138,11 +160,13 @@ class SurfaceWriting {
     facts.isPacked = isPacked;
     facts.isPaged = options.isPaged;
     facts.hasDisplacement = !model().displacement.isEmpty();
-    if (isPacked)
+    if (options.isPaged)
+      file_.make(amt_tag::kPackedNumbers, bytesOf(carried_.tables));
+    else if (isPacked)
       makePackedNumbers();
     else if (!facts.hasAllFaces)
       makeFinestFaces();
-    makeLooks();
+    makeLooks(options.isPaged);
     return file_.write(model(), facts);
   }
 
@@ -160,6 +184,7 @@ class SurfaceWriting {
           "has displacements of places that rounding moves: they are found again first");
     packed_ = std::move(both->packed);
     packedModel_ = std::move(both->model);
+    carried_ = std::move(both->carried);
     makePacked(packed_.bytes, file_);
     return {};
   }
@@ -178,14 +203,16 @@ class SurfaceWriting {
     file_.make(amt_tag::kFaceNumbers, bytesOf(finestFaces_));
   }
 
-  void makeLooks() {
+  /// @param isPaged the values of what triangles have are in the pages
+  void makeLooks(bool isPaged) {
     looks_ = toLooksJson(model());
-    values_ = attributeBytesOf(model());
+    values_ = isPaged ? std::move(carried_.rest) : attributeBytesOf(model());
     for (const EmbeddedPicture& picture : model().attributes.pictures)
       pictures_.insert(pictures_.end(), picture.bytes.begin(), picture.bytes.end());
     file_.make(amt_tag::kLooks, bytesOf(looks_));
     file_.make(amt_tag::kAttributes, bytesOf(values_));
     file_.make(amt_tag::kPictures, bytesOf(pictures_));
+    if (isPaged) return;
     attributeErrors_ = attributeErrorCodesOf(model());
     if (!attributeErrors_.empty()) file_.make(amt_tag::kAttributeErrors, bytesOf(attributeErrors_));
   }
@@ -197,6 +224,7 @@ class SurfaceWriting {
   AmtModelWriter<SurfaceModel> file_;
   std::string looks_;  // this and the next: what the chunks point to, beside the model
   PackedSurfaceMt packed_;
+  packed::CarriedBytes carried_;
   std::vector<std::byte> numbers_, displacement_;
   std::vector<std::uint32_t> finestFaces_;
   std::vector<std::byte> values_, pictures_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "engine/base/box3.h"
@@ -18,6 +19,11 @@ namespace arete {
 /// for every criterion that allows each triangle at least the error required of any box that the triangle
 /// meets.
 using RequiredError = std::function<double(const Box3&)>;
+
+/// Requires nothing anywhere. Only the root is read, which covers the whole model.
+inline RequiredError requiredNowhere() {
+  return [](const Box3&) { return std::numeric_limits<double>::infinity(); };
+}
 
 /// A box of the plan, with all heights.
 inline Box3 overPlan(const Box2& box) {

@@ -161,8 +161,8 @@ std::string toLooksJson(const SurfaceModel& model) {
   return looks.dump(1) + "\n";
 }
 
-Status fromLooksJson(std::string_view text, std::uint64_t attributeBytes, SurfaceModel& model,
-                     std::vector<std::uint64_t>& pictureBytes) {
+Status fromLooksJson(std::string_view text, std::uint64_t faces, std::uint64_t attributeBytes,
+                     SurfaceModel& model, std::vector<std::uint64_t>& pictureBytes) {
   const JsonTree tree(Json::parse(text, nullptr, false));
   const Json& looks = *tree;
   if (!looks.is_object()) return failure(ErrorCode::corrupt, "chunk LOOK is not a JSON object");
@@ -211,10 +211,10 @@ Status fromLooksJson(std::string_view text, std::uint64_t attributeBytes, Surfac
     top.flag(key, has);
     if (!has) continue;
     // The number of faces is only stated; that of the values is how many there are.
-    if (model.sourceFaces > attributeBytes / sizeof(std::uint32_t))
+    if (faces > attributeBytes / sizeof(std::uint32_t))
       return failure(ErrorCode::corrupt, fmt::format("chunk ATTR has {} bytes, too few for {} of {} faces",
-                                                     attributeBytes, key, model.sourceFaces));
-    list->resize(model.sourceFaces);
+                                                     attributeBytes, key, faces));
+    list->resize(faces);
   }
   readRow(looks, "materials", problem, [&](json_fields::Reader& r, const Json& object) {
     Material& material = a.materials.emplace_back();

@@ -35,10 +35,11 @@ AmtFacts amtFactsOf(const SurfaceMetadata& metadata);
 /// groups, materials, pictures, as JSON. The values are in chunks of their own.
 std::string toLooksJson(const SurfaceModel& model);
 /// Reads it into model.attributes, without values. Errors: corrupt.
-/// @param attributeBytes the size of the values, which memory for them is held against.
+/// @param faces those that lists of numbers by face get.
+/// @param attributeBytes the size of the values, which memory for these lists is held against.
 /// @param pictureBytes receives the sizes of the pictures.
-Status fromLooksJson(std::string_view text, std::uint64_t attributeBytes, SurfaceModel& model,
-                     std::vector<std::uint64_t>& pictureBytes);
+Status fromLooksJson(std::string_view text, std::uint64_t faces, std::uint64_t attributeBytes,
+                     SurfaceModel& model, std::vector<std::uint64_t>& pictureBytes);
 
 /// The codes of all errors of attributes, one attribute after the other.
 std::vector<std::uint16_t> attributeErrorCodesOf(const SurfaceModel& model);

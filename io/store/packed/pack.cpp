@@ -85,6 +85,35 @@ class Packer {
     return packed;
   }
 
+  /// Puts what the nodes of each segment carry behind its streams. @param packed what run() made
+  void attach(const CarriedPages& carried, PackedMt& packed) {
+    std::vector<std::byte> all;
+    for (std::size_t p = 0; p < plan_.directory.packets.size(); ++p) {
+      Packet& page = plan_.directory.packets[p];
+      std::size_t firstRun = 0;
+      for (std::size_t i = 0; i < page.segments.size(); ++i) {
+        Segment& segment = page.segments[i];
+        const auto streams =
+            std::span(packed.nodes).subspan(segment.offset, segment.bytes() - segment.headerBytes);
+        const std::vector<std::byte>& more = carried[p][i];
+        segment.carriedBytes = static_cast<std::uint32_t>(more.size());
+        const auto header = segmentHeader(segment, std::span(page.runs).subspan(firstRun, segment.runs), true);
+        segment.headerBytes = static_cast<std::uint32_t>(header.size());
+        firstRun += segment.runs;
+        const std::size_t begin = all.size();
+        all.insert(all.end(), header.begin(), header.end());
+        all.insert(all.end(), streams.begin(), streams.end());
+        all.insert(all.end(), more.begin(), more.end());
+        segment.checksum = amtChecksum(std::span(all).subspan(begin));
+      }
+    }
+    packed.nodes = std::move(all);
+    plan_.directory.number();
+    PageDirectoryBytes pages = pageDirectoryBytes(plan_.directory);
+    packed.directory = std::move(pages.root);
+    packed.blocks = std::move(pages.blocks);
+  }
+
   /// The order of the packed MT, after run(). Leaves the packer without it.
   PackedOrder takeOrder() { return std::move(order_); }
 
@@ -166,7 +195,8 @@ class Packer {
       std::vector<std::byte> coded = encode(segment, streams[i], tables, isFirst && i == 0);
       streams[i] = {};
       if (isPaged_) {
-        const auto header = segmentHeader(segment, std::span(packet.runs).subspan(firstRun, segment.runs));
+        const auto header = segmentHeader(segment, std::span(packet.runs).subspan(firstRun, segment.runs),
+                                          plan_.directory.isOfSurface);
         segment.headerBytes = static_cast<std::uint32_t>(header.size());
         coded.insert(coded.begin(), header.begin(), header.end());
       }
@@ -227,7 +257,7 @@ bool hasOneFinestError(const MultiTriangulation& mt) {
 }
 
 Result<PackedSurfaceMt> packSurface(const MultiTriangulation& mt, const SurfacePackOptions& options,
-                                    const RunContext& context) {
+                                    const RunContext& context, const CarryInPages& carry) {
   ARETE_TRY(RoundedSurface rounded, roundedSurface(mt, options.positionBits));
   if (!hasOneFinestError(rounded.mt))
     return failure(ErrorCode::invalidData, "has triangles that stay with different errors");
@@ -238,9 +268,13 @@ Result<PackedSurfaceMt> packSurface(const MultiTriangulation& mt, const SurfaceP
   kind.scale = rounded.mt.scale();
   kind.metric = rounded.mt.metric();
   Packer packer(rounded.mt, kind, options.isPaged, true, context);
-  ARETE_TRY(PackedMt packed, packer.run());
-  return PackedSurfaceMt{std::move(packed), packer.takeOrder(), kind.hasDoubles,
-                         kind.step,         rounded.moved,      kind.scale};
+  ARETE_TRY(PackedMt bytes, packer.run());
+  PackedSurfaceMt packed{std::move(bytes), packer.takeOrder(), kind.hasDoubles,
+                         kind.step,        rounded.moved,      kind.scale};
+  if (!carry) return packed;
+  ARETE_TRY(const CarriedPages carried, carry(packed));
+  packer.attach(carried, packed.bytes);
+  return packed;
 }
 
 }  // namespace
@@ -256,8 +290,8 @@ Result<PackedMt> packMt(const TerrainModel& model, const PackOptions& options,
 }
 
 Result<PackedSurfaceMt> packSurfaceMt(const MultiTriangulation& mt, const SurfacePackOptions& options,
-                                      const RunContext& context) try {
-  return withThreads(context, [&] { return packed::packSurface(mt, options, context); });
+                                      const RunContext& context, const CarryInPages& carry) try {
+  return withThreads(context, [&] { return packed::packSurface(mt, options, context, carry); });
 } catch (...) {
   return caughtFailure();
 }

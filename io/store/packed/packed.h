@@ -12,6 +12,7 @@
 #include "engine/parallel/run_context.h"
 #include "io/store/format/load_parts.h"
 #include "io/store/format/required_error.h"
+#include "io/store/packed/nodes/layout.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {
@@ -101,11 +102,17 @@ struct PackedSurfaceMt {
   OutwardScale scale;       ///< of the errors
 };
 
+/// What the nodes of pages carry, by page and segment (io/store/packed/surface/carried.h).
+using CarriedPages = std::vector<std::vector<std::vector<std::byte>>>;
+/// Finds it for an MT whose pages are packed without it.
+using CarryInPages = std::function<Result<CarriedPages>(const PackedSurfaceMt&)>;
+
 /// Packs the MT of a surface, as packMt() does: vertices (unless positionBits says otherwise), triangles,
 /// errors and root mean squares are restored to the bit. Errors: as packMt(), and invalidData: triangles that
 /// stay with different errors.
+/// @param carry of pages: finds what they carry
 Result<PackedSurfaceMt> packSurfaceMt(const MultiTriangulation& mt, const SurfacePackOptions& options = {},
-                                      const RunContext& context = {});
+                                      const RunContext& context = {}, const CarryInPages& carry = {});
 
 /// Unpacks all of it, as unpackMt() does.
 Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata,
@@ -113,10 +120,16 @@ Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata,
                                            std::span<const std::byte> tables,
                                            std::span<const std::byte> nodes, const RunContext& context = {});
 
+/// An MT of pages, and the pages that it consists of, with their headers read.
+struct UnpackedPages {
+  MultiTriangulation mt;
+  packed::Directory pages;
+};
+
 /// The same for pages. A part can be required, as for terrain.
-Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata, const packed::PagedMt& paged,
-                                           const RequiredError& wanted, const RunContext& context,
-                                           const LoadParts& load);
+Result<UnpackedPages> unpackSurfaceMt(const SurfaceMetadata& metadata, const packed::PagedMt& paged,
+                                      const RequiredError& wanted, const RunContext& context,
+                                      const LoadParts& load);
 
 /// The least error of the highest band that holds, together with the bands above it, at least `nodes` nodes.
 /// @return 0 if that is the last band, or the directory is invalid. O(directory)

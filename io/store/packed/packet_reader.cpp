@@ -65,16 +65,18 @@ class Unpacker {
  public:
   /// @param isPaged the segments were checked, and each page has its number
   Unpacker(Directory directory, std::span<const RansTable> tables, std::span<const std::byte> bytes,
-           const RunContext& context, bool isPart, bool isPaged, const LoadParts& load)
+           const RunContext& context, bool isPart, bool isPaged, LoadParts load)
       : directory_(std::move(directory)),
         bytes_(bytes),
         context_(context),
         isPart_(isPart),
         isPaged_(isPaged),
-        load_(load) {
+        load_(std::move(load)) {
     tables_.resize(kTables * RansTable::kEntries);
     for (std::size_t t = 0; t < kTables; ++t) tables[t].writeEntries(&tables_[t * RansTable::kEntries]);
   }
+
+  Directory takeDirectory() { return std::move(directory_); }
 
   Result<MultiTriangulation> run(const MtKind& kind, AmtCounts counts) {
     ARETE_CHECK(load());
@@ -158,7 +160,7 @@ class Unpacker {
   std::span<const std::byte> bytes_;
   const RunContext& context_;
   bool isPart_, isPaged_;
-  const LoadParts& load_;
+  LoadParts load_;
   std::vector<std::uint32_t> tables_;  ///< entries of all tables
   Arrays* arrays_ = nullptr;
   PerThread<CoderSpace> spaces_;
@@ -207,19 +209,19 @@ Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& c
 /// Checks what was loaded of a page, and reads its headers.
 /// @return what is wrong with it
 std::optional<std::string> openPage(const packed::PagedMt& paged, std::uint32_t lowest, std::uint64_t roots,
-                                    packed::Packet& page) {
+                                    bool isOfSurface, packed::Packet& page) {
   for (const packed::Segment& segment : page.segments)
     if (amtChecksum(paged.nodes.subspan(segment.begin(), segment.bytes())) != segment.checksum)
       return "has been altered: its checksum does not match";
   if (!page.segments.empty() && page.number == 0 &&
       page.segments[0].bytes() < packed::leastBytes(page.segments[0].nodes + roots))
     return "has a root that its bytes cannot hold";
-  if (!packed::readHeaders(paged.nodes, page)) return "has runs that its directory does not state";
+  if (!packed::readHeaders(paged.nodes, isOfSurface, page)) return "has runs that its directory does not state";
   page.isCut |= std::erase_if(page.runs, [&](const packed::Run& run) { return run.band < lowest; }) > 0;
   return std::nullopt;
 }
 
-Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& counts,
+Result<UnpackedPages> unpack(const packed::MtKind& kind, const AmtCounts& counts,
                                   const packed::PagedMt& paged, const RequiredError& wanted,
                                   const RunContext& context, const LoadParts& load) {
   std::string problem;
@@ -242,10 +244,10 @@ Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& c
   }
   if (load) ARETE_CHECK(load(parts));
   const std::uint64_t roots = counts.rootVertices + counts.rootTriangles;
-  return withThreads(context, [&]() -> Result<MultiTriangulation> {
+  return withThreads(context, [&]() -> Result<UnpackedPages> {
     std::vector<std::optional<std::string>> problems(directory.packets.size());
     parallelFor(std::size_t{0}, directory.packets.size(), [&](std::size_t i) {
-      problems[i] = openPage(paged, choice.lowest[i], roots, directory.packets[i]);
+      problems[i] = openPage(paged, choice.lowest[i], roots, directory.isOfSurface, directory.packets[i]);
     });
     std::uint64_t nodes = 0, slots = 0, borders = counts.rootTriangles;
     for (std::size_t i = 0; i < problems.size(); ++i) {
@@ -266,9 +268,10 @@ Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& c
     directory.numberNodes();
     const auto tables = tablesOf(paged.tables, packed::kTables);
     if (!tables) return failure(ErrorCode::corrupt, "the tables of the packed nodes are damaged");
-    return packed::Unpacker(std::move(directory), *tables, paged.nodes, context, wanted && !choice.isEvenly,
-                            true, {})
-        .run(kind, counts);
+    packed::Unpacker unpacker(std::move(directory), *tables, paged.nodes, context,
+                              wanted && !choice.isEvenly, true, {});
+    ARETE_TRY(MultiTriangulation mt, unpacker.run(kind, counts));
+    return UnpackedPages{std::move(mt), unpacker.takeDirectory()};
   });
 }
 
@@ -309,7 +312,9 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, const packed::PagedMt& paged,
                                     const RequiredError& wanted, const RunContext& context,
                                     const LoadParts& load) try {
-  return unpack(kindOf(metadata), metadata.counts, paged, wanted, context, load);
+  ARETE_TRY(UnpackedPages unpacked,
+            unpack(kindOf(metadata), metadata.counts, paged, wanted, context, load));
+  return std::move(unpacked.mt);
 } catch (...) {
   return caughtFailure();
 }
@@ -323,9 +328,9 @@ Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata,
   return caughtFailure();
 }
 
-Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata, const packed::PagedMt& paged,
-                                           const RequiredError& wanted, const RunContext& context,
-                                           const LoadParts& load) try {
+Result<UnpackedPages> unpackSurfaceMt(const SurfaceMetadata& metadata, const packed::PagedMt& paged,
+                                      const RequiredError& wanted, const RunContext& context,
+                                      const LoadParts& load) try {
   return unpack(kindOf(metadata), metadata.counts, paged, wanted, context, load);
 } catch (...) {
   return caughtFailure();

@@ -35,11 +35,12 @@ struct Segment {
   /// A page has bytes before the streams, which say what runs there are; the band of the first run; the
   /// nodes.
   std::uint32_t headerBytes = 0, firstBand = 0, nodes = 0;
+  std::uint32_t carriedBytes = 0;  ///< of a surface's page: behind the streams (io/store/packed/surface/carried.h)
   std::uint64_t offset = 0;  ///< of the streams; set by Directory::number(), of a page by its directory
 
   std::uint64_t begin() const { return offset - headerBytes; }
   std::uint64_t bytes() const {
-    std::uint64_t sum = headerBytes;
+    std::uint64_t sum = std::uint64_t{headerBytes} + carriedBytes;
     for (const std::uint32_t b : streamBytes) sum += b;
     return sum;
   }

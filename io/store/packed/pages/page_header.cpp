@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kMostOfARun = MultiTriangulation::kNone - 1;
 
-bool readHeader(std::span<const std::byte> bytes, Packet& page, Segment& segment) {
+bool readHeader(std::span<const std::byte> bytes, bool isOfSurface, Packet& page, Segment& segment) {
   NumberReader in(bytes);
   segment.runs = in.number(MultiTriangulation::kBands);
   std::uint64_t nodes = 0;
@@ -36,6 +36,8 @@ bool readHeader(std::span<const std::byte> bytes, Packet& page, Segment& segment
   }
   std::uint64_t streams = 0;
   for (std::uint32_t& n : segment.streamBytes) streams += n = in.number(kMostOfARun);
+  segment.carriedBytes = isOfSurface ? in.number(kMostOfARun) : 0;
+  streams += segment.carriedBytes;
   if (in.isBad() || nodes != segment.nodes || streams != in.left() || bytes.size() < leastBytes(nodes))
     return false;
   segment.headerBytes = static_cast<std::uint32_t>(bytes.size() - in.left());
@@ -44,7 +46,7 @@ bool readHeader(std::span<const std::byte> bytes, Packet& page, Segment& segment
 
 }  // namespace
 
-std::vector<std::byte> segmentHeader(const Segment& segment, std::span<const Run> runs) {
+std::vector<std::byte> segmentHeader(const Segment& segment, std::span<const Run> runs, bool isOfSurface) {
   NumberWriter out;
   out.number(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -57,14 +59,15 @@ std::vector<std::byte> segmentHeader(const Segment& segment, std::span<const Run
     out.plain(run.spread);
   }
   for (const std::uint32_t n : segment.streamBytes) out.number(n);
+  if (isOfSurface) out.number(segment.carriedBytes);
   return out.take();
 }
 
-bool readHeaders(std::span<const std::byte> nodes, Packet& page) {
+bool readHeaders(std::span<const std::byte> nodes, bool isOfSurface, Packet& page) {
   page.runs.clear();
   for (Segment& segment : page.segments) {
     const std::uint64_t begin = segment.begin();
-    if (!readHeader(nodes.subspan(begin, segment.bytes()), page, segment)) return false;
+    if (!readHeader(nodes.subspan(begin, segment.bytes()), isOfSurface, page, segment)) return false;
     segment.offset = begin + segment.headerBytes;
   }
   return true;

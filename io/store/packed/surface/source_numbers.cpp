@@ -27,6 +27,7 @@
 
 #include "io/store/entropy/numbers.h"
 #include "io/store/packed/surface/symbol_bytes.h"
+#include "io/store/packed/surface/vertex_numbers.h"
 #include "surface/model/face_successors.h"
 
 namespace arete::packed {
@@ -34,27 +35,19 @@ namespace {
 
 constexpr std::uint32_t kNone = MultiTriangulation::kNone;
 
-constexpr unsigned kSpreads = 33, kLastSymbols = 24, kWedgeCounts = 3;
-enum Table : unsigned {
+constexpr unsigned kSpreads = kVertexSpreads, kLastSymbols = 24, kWedgeCounts = 3;
+enum NumberTable : unsigned {
   kVertexTable = 0,                        // by the spread of the link's numbers
   kFaceTable = kVertexTable + kSpreads,    // by the symbol before
   kHeirTable = kFaceTable + kLastSymbols,  // which triangle of the star has the face
   kOtherFaceTable,                         // any face
   kWedgeTable,                             // by how many wedges the vertex had
   kOtherWedgeTable = kWedgeTable + kWedgeCounts,
-  kTables
+  kNumberTables
 };
 
 /// Symbols of a corner's wedge: below kOtherWedge, how many of the vertex's wedges were in use after it.
 constexpr unsigned kOtherWedge = 254, kNewWedge = 255;
-
-std::uint32_t plus(std::uint32_t x, std::int64_t by) {
-  return static_cast<std::uint32_t>(x + static_cast<std::uint64_t>(by));
-}
-/// How far one number is behind another, modulo 2^32.
-std::int64_t behind(std::uint32_t x, std::uint32_t before) {
-  return static_cast<std::int32_t>(x - before);
-}
 
 /// Calls visit(triangle, creator) for all triangles, from the first to the last or back.
 template <class Visit>
@@ -79,19 +72,10 @@ void codeVertices(SurfaceModel& model, Io& io) {
   std::uint32_t before = 0;
   for (std::uint32_t v = 0; v < mt.rootVertexCount(); ++v)
     before = numbers[v] =
-        plus(before, codeSigned(io, kSymbols, kVertexTable + kSpreads - 1, behind(numbers[v], before)));
-  std::vector<std::uint32_t> around;
-  for (std::uint32_t n = 0; n < mt.nodeCount(); ++n) {
-    around.clear();
-    for (const std::uint32_t v : mt.link(NodeId(n))) around.push_back(numbers[v]);
-    std::ranges::sort(around);
-    const std::size_t size = around.size();
-    const std::uint32_t low = around[(size - 1) / 2], high = around[size / 2],
-                        middle = low + (high - low) / 2;
-    const auto spread = static_cast<unsigned>(std::bit_width(around[size - 1 - size / 4] - around[size / 4]));
-    std::uint32_t& number = numbers[mt.apex(NodeId(n)).index()];
-    number = plus(middle, codeSigned(io, kSymbols, kVertexTable + spread, behind(number, middle)));
-  }
+        moved(before, codeSigned(io, kSymbols, kVertexTable + kSpreads - 1, behind(numbers[v], before)));
+  std::vector<std::uint32_t> space;
+  for (std::uint32_t n = 0; n < mt.nodeCount(); ++n)
+    codeVertexNumber(numbers, mt.link(NodeId(n)), mt.apex(NodeId(n)).index(), kVertexTable, io, space);
 }
 
 /// The finest triangles, by the numbers of their corners in the source, the least (or the largest) first.
@@ -127,7 +111,7 @@ void codeFinestFaces(SurfaceModel& model, bool byLargest, Io& io) {
   std::uint32_t before = 0, last = 0;
   for (const std::uint32_t t : finestInOrder(model, byLargest)) {
     const std::int64_t by = codeSigned(io, kSymbols, kFaceTable + last, behind(model.faceOf[t], before));
-    before = model.faceOf[t] = plus(before, by);
+    before = model.faceOf[t] = moved(before, by);
     last = std::min(bucketOf(zigzag(by)).symbol, kLastSymbols - 1);
   }
 }
@@ -151,7 +135,7 @@ void codeCoarseFaces(SurfaceModel& model, Io& io) {
       return i;
     });
     face = symbol < size ? faceOfSlot(symbol)
-                         : plus(0, codeSigned(io, kSymbols, kOtherFaceTable, behind(face, 0)));
+                         : moved(0, codeSigned(io, kSymbols, kOtherFaceTable, behind(face, 0)));
   });
 }
 
@@ -178,7 +162,7 @@ bool codeWedges(SurfaceModel& model, Io& io) {
         return wedge == next ? kNewWedge : kOtherWedge;
       });
       if (symbol == kOtherWedge) {
-        wedge = plus(0, codeSigned(io, kSymbols, kOtherWedgeTable, behind(wedge, 0)));
+        wedge = moved(0, codeSigned(io, kSymbols, kOtherWedgeTable, behind(wedge, 0)));
         isSound = isSound && wedge < count;
         continue;
       }
@@ -223,13 +207,13 @@ std::vector<std::byte> packSourceNumbers(const SurfaceModel& model) {
   numbers.attributes.wedgeCount = model.attributes.wedgeCount;
   const std::uint64_t byLeast = bitsOf(model, finestInOrder(model, false)),
                       byLargest = bitsOf(model, finestInOrder(model, true));
-  SymbolWriter io(kTables);
+  SymbolWriter io(kNumberTables);
   codeNumbers(numbers, model.hasFaceAttributes(), byLargest < byLeast, io);
   return io.take();
 }
 
 Status unpackSourceNumbers(std::span<const std::byte> bytes, SurfaceModel& model) {
-  std::optional<SymbolReader> io = SymbolReader::of(bytes, kTables);
+  std::optional<SymbolReader> io = SymbolReader::of(bytes, kNumberTables);
   if (!io) return failure(ErrorCode::corrupt, "the packed numbers of its source are cut short or damaged");
   model.vertexOf.assign(model.mt.vertexCount(), 0);
   model.faceOf.assign(model.mt.triangleIdCount(), 0);

@@ -439,7 +439,7 @@ TEST_F(SurfaceAmt, ReadsNoIndexOutOfRangeWhateverTheArraysHold) {
       std::memcpy(&bytes[begin + random() % ((bytes.size() - begin - 4) / 4) * 4], &value, 4);
     }
     std::ofstream(path("b.amt"), std::ios::binary) << bytes;
-    const Result<SurfaceModel> read = loadSurfaceAmt(path("b.amt"), AmtVerify::indices);
+    const Result<SurfaceModel> read = loadSurfaceAmt(path("b.amt"), {.verify = AmtVerify::indices});
     if (!read) continue;
     const SurfaceFront root = surfaceOf(*read, frontOfPrefix(read->mt, read->mt.nodeCount() / 2));
     EXPECT_TRUE(root.mesh.validate());
