@@ -25,7 +25,7 @@
 #include "io/query/scene/scene_file.h"
 #include "io/store/amt/file.h"
 #include "terrain/measure/measure.h"
-#include "terrain/model/error_curve.h"
+#include "engine/cut/error_curve.h"
 #include "terrain/model/relief.h"
 
 namespace arete {

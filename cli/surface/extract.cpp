@@ -144,7 +144,8 @@ Status extractSurface(const SurfaceExtractArguments& arguments, const AmtContain
   if (areLevels) {
     ARETE_TRY(levels, LevelFiles::create());
   }
-  ARETE_TRY(const SurfaceModel model, readForExtract(file, requests.all, std::move(outline), session.context()));
+  ARETE_TRY(const SurfaceModel model,
+            readForExtract(file, requests.all, std::move(outline), session.context()));
   SurfaceExtractor extractor(
       model, arguments.model,
       [&](const ExtractRequest& request, double promised, std::uint64_t samples) {

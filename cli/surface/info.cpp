@@ -15,19 +15,14 @@
 #include "cli/mesh/tolerance.h"
 #include "cli/surface/mending.h"
 #include "engine/base/counted.h"
-#include "engine/criteria/criterion.h"
-#include "engine/cut/cut.h"
+#include "engine/cut/error_curve.h"
 #include "io/geo/crs/names.h"
+#include "io/query/surface/surface_part.h"
 #include "io/store/amt/surface_file.h"
 #include "surface/attributes/attribute_names.h"
 
 namespace arete {
 namespace {
-
-struct CurvePoint {
-  double error;
-  std::uint64_t minimal, saturated;
-};
 
 /// The errors that are stated, or round shares of the diagonal below that of the root, the largest of them.
 Result<std::vector<double>> errorsOf(const std::string& at, std::size_t mostPoints,
@@ -38,32 +33,45 @@ Result<std::vector<double>> errorsOf(const std::string& at, std::size_t mostPoin
     for (const SurfaceTolerance& tolerance : stated) errors.push_back(tolerance.distance);
     return errors;
   }
-  for (const double percent : {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0})
-    if (const double error = percent / 100 * model.diagonal; error < model.mt.largestError())
-      errors.push_back(error);
+  errors = sharesOfDiagonal(model);
   if (errors.size() > mostPoints) errors.erase(errors.begin(), errors.end() - std::ptrdiff_t(mostPoints));
   return errors;
 }
 
-/// Triangles of cuts.
-Result<std::vector<CurvePoint>> curveOf(const std::string& at, std::size_t mostPoints,
-                                        const SurfaceModel& model, const RunContext& context) {
-  ARETE_TRY(const std::vector<double> errors, errorsOf(at, mostPoints, model));
-  std::vector<CurvePoint> curve;
-  for (const double error : errors) {
-    ARETE_TRY(const Cut cut, takeCut(model.mt, UniformError(error), {}, context));
-    curve.push_back({error, cut.triangles.size(), uniformTriangleCount(model.mt, error)});
+/// What a file says of itself, or what is found of its model.
+struct SaidOfSurface {
+  SurfaceModel model;  ///< its root at least
+  std::uint64_t vertices = 0;
+  AmtSummary summary;
+};
+
+Result<SaidOfSurface> factsOf(const AmtContainer& file, const std::string& at, std::size_t mostPoints,
+                              const RunContext& context) {
+  ARETE_TRY(SurfaceFacts facts, surfaceFacts(file));
+  SaidOfSurface said{{}, facts.vertices, std::move(facts.summary)};
+  if (said.summary.isThere() && at.empty()) {
+    ARETE_TRY(said.model, readOutline(file, context));
+    auto& curve = said.summary.curve;
+    if (curve.size() > mostPoints) curve.erase(curve.begin(), curve.end() - std::ptrdiff_t(mostPoints));
+    return said;
   }
-  return curve;
+  ARETE_TRY(said.model, loadSurfaceAmt(file, {}, context));
+  const MultiTriangulation& mt = said.model.mt;
+  said.summary = {mt.triangleCount(), mt.finestTriangleCount(), 0, mt.largestError(), {}};
+  ARETE_TRY(const std::vector<double> errors, errorsOf(at, mostPoints, said.model));
+  ARETE_TRY(const std::vector<CurvePoint> curve, errorCurve(mt, errors, context));
+  for (const CurvePoint& p : curve)
+    said.summary.curve.push_back({p.maxError, double(p.minimalTriangles), double(p.saturatedTriangles)});
+  return said;
 }
 
 }  // namespace
 
 Status sayAboutSurface(const AmtContainer& file, const std::string& at, std::size_t mostPoints,
                        Session& session) {
-  ARETE_TRY(const SurfaceModel model, loadSurfaceAmt(file, {}, session.context()));
+  ARETE_TRY(const SaidOfSurface said, factsOf(file, at, mostPoints, session.context()));
   ARETE_TRY(Json columns, columnsJson(file));
-  ARETE_TRY(const std::vector<CurvePoint> curve, curveOf(at, mostPoints, model, session.context()));
+  const SurfaceModel& model = said.model;
   const MultiTriangulation& mt = model.mt;
   const std::uint64_t bytes = file.bytes().size();
   const MeshAttributes& a = model.attributes;
@@ -81,12 +89,12 @@ Status sayAboutSurface(const AmtContainer& file, const std::string& at, std::siz
   if (model.positionError > 0)
     line("rounded", fmt::format("vertices moved by at most {}, which every error includes twice",
                                 withShare(model.positionError, model.diagonal)));
-  line("triangles", fmt::format("{} at the finest, {} in all", grouped(mt.finestTriangleCount()),
-                                grouped(mt.triangleCount())));
+  line("triangles", fmt::format("{} at the finest, {} in all", grouped(said.summary.finestTriangles),
+                                grouped(said.summary.triangles)));
   line("root",
        fmt::format("{}, {}, error at most {}", grouped(mt.rootTriangleCount(), "triangle", "triangles"),
                    grouped(mt.rootVertexCount(), "vertex", "vertices"),
-                   withShare(mt.largestError(), model.diagonal)));
+                   withShare(said.summary.rootError, model.diagonal)));
   if (!model.displacement.isEmpty()) line("displacement", "coarse cuts are drawn nearer to the source");
   // Older files do not bound lines, which is said only of models that may have any.
   if (model.boundsLines)
@@ -112,15 +120,16 @@ Status sayAboutSurface(const AmtContainer& file, const std::string& at, std::siz
          fmt::format("{}, {} inside", a.materials.size(), counted(a.pictures.size(), "picture", "pictures")));
   text += fmt::format("\n  {:>12}  {:>9}  {:>13}  {:>13}\n", "error", "diagonal", "minimal", "saturated");
   Json points = Json::array();
-  for (const CurvePoint& p : curve) {
-    text += fmt::format("  {:>12.4g}  {:>7.3g} %  {:>13}  {:>13}\n", p.error, 100 * p.error / model.diagonal,
-                        grouped(p.minimal), grouped(p.saturated));
+  for (const auto& [error, minimalCount, saturatedCount] : said.summary.curve) {
+    const auto minimal = static_cast<std::uint64_t>(minimalCount),
+               saturated = static_cast<std::uint64_t>(saturatedCount);
+    text += fmt::format("  {:>12.4g}  {:>7.3g} %  {:>13}  {:>13}\n", error, 100 * error / model.diagonal,
+                        grouped(minimal), grouped(saturated));
     // JSON has no infinity, so an infinite error is null.
-    points.push_back(
-        {{"maxError", std::isfinite(p.error) ? Json(p.error) : Json()},
-         {"maxErrorPercent", std::isfinite(p.error) ? Json(100 * p.error / model.diagonal) : Json()},
-         {"minimal", p.minimal},
-         {"saturated", p.saturated}});
+    points.push_back({{"maxError", std::isfinite(error) ? Json(error) : Json()},
+                      {"maxErrorPercent", std::isfinite(error) ? Json(100 * error / model.diagonal) : Json()},
+                      {"minimal", minimal},
+                      {"saturated", saturated}});
   }
   session.say(text);
   session.answer({{"file", file.path()},
@@ -138,12 +147,12 @@ Status sayAboutSurface(const AmtContainer& file, const std::string& at, std::siz
                   {"sourceFaces", model.fileFaces},
                   {"sourceVertices", model.sourceVertices},
                   {"diagonal", model.diagonal},
-                  {"vertices", mt.vertexCount()},
-                  {"triangles", mt.triangleCount()},
-                  {"finestTriangles", mt.finestTriangleCount()},
+                  {"vertices", said.vertices},
+                  {"triangles", said.summary.triangles},
+                  {"finestTriangles", said.summary.finestTriangles},
                   {"rootTriangles", mt.rootTriangleCount()},
                   {"rootVertices", mt.rootVertexCount()},
-                  {"rootError", mt.largestError()},
+                  {"rootError", said.summary.rootError},
                   {"levels", model.levels},
                   {"attributes", names},
                   {"boundedAttributes", bounded},

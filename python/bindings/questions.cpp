@@ -20,7 +20,7 @@
 #include "surface/laws/validate_surface.h"
 #include "terrain/laws/compare_source.h"
 #include "terrain/laws/validate_model.h"
-#include "terrain/model/error_curve.h"
+#include "engine/cut/error_curve.h"
 
 namespace arete::python {
 namespace {

@@ -85,4 +85,12 @@ Status SurfaceModel::validate() const {
   return {};
 }
 
+std::vector<double> sharesOfDiagonal(const SurfaceModel& model) {
+  std::vector<double> errors;
+  for (const double percent : {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0})
+    if (const double error = percent / 100 * model.diagonal; error < model.mt.largestError())
+      errors.push_back(error);
+  return errors;
+}
+
 }  // namespace arete

@@ -122,4 +122,8 @@ struct SurfaceModel {
   Status validate() const;
 };
 
+/// The errors that a curve of triangles against error has where none are stated: round shares of the diagonal
+/// below the error of the root, rising.
+std::vector<double> sharesOfDiagonal(const SurfaceModel& model);
+
 }  // namespace arete

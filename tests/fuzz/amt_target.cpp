@@ -15,7 +15,7 @@
 #include "io/store/amt/file.h"
 #include "terrain/laws/validate_model.h"
 #include "terrain/locate/ground_height.h"
-#include "terrain/model/error_curve.h"
+#include "engine/cut/error_curve.h"
 
 namespace {
 

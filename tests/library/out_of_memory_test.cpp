@@ -31,7 +31,7 @@
 #include "terrain/fit/fit.h"
 #include "terrain/laws/validate_model.h"
 #include "terrain/measure/measure.h"
-#include "terrain/model/error_curve.h"
+#include "engine/cut/error_curve.h"
 #include "terrain/sight/earth.h"
 #include "terrain/sight/engine.h"
 #include "terrain/sight/paths.h"

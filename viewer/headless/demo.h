@@ -9,7 +9,7 @@
 #include "engine/base/warning.h"
 #include "engine/parallel/run_context.h"
 #include "terrain/model/build_options.h"
-#include "terrain/model/error_curve.h"
+#include "engine/cut/error_curve.h"
 #include "terrain/model/source_reading.h"
 
 namespace arete {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A tolerance, a region or a camera says which error is required of a box. A budget does not: what a number of
-// triangles comes to is known when the cut has been taken. So the nodes down to an error that about four times
-// the triangles would reach are read, and more as long as the cut misses any.
+// A tolerance, a region or a camera says which error is required of a box. A budget does not: what a number
+// of triangles comes to is known when the cut has been taken. So the nodes down to an error that about four
+// times the triangles would reach are read, and more as long as the cut misses any.
 #include "io/query/surface/surface_part.h"
 
 #include <algorithm>
@@ -86,8 +86,9 @@ Result<SurfaceModel> readForExtract(const AmtContainer& file, std::span<const Ex
       ARETE_TRY(everywhere, surfaceErrorBeyond(file, guess));
       if (!(everywhere > 0)) break;
     }
-    ARETE_TRY(SurfaceModel part, loadSurfaceAmt(file, {.wanted = requiredBy(criteria, outline.mt.metric(), everywhere)},
-                                                context));
+    ARETE_TRY(
+        SurfaceModel part,
+        loadSurfaceAmt(file, {.wanted = requiredBy(criteria, outline.mt.metric(), everywhere)}, context));
     if (!part.finestOfWhole || isEnough(part)) return part;
     if (budget == 0) break;
   }

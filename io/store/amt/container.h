@@ -76,8 +76,8 @@ class AmtContainer {
     const AmtChunk& chunk = *find(tag);
     return {reinterpret_cast<const T*>(file_->bytes().data() + chunk.offset), chunk.bytes / sizeof(T)};
   }
-  /// Compares the checksums of all chunks but some, which are named by their tags. Errors: corrupt: names the chunk;
-  /// interrupted. Reads the chunks, in parallel.
+  /// Compares the checksums of all chunks but some, which are named by their tags. Errors: corrupt: names the
+  /// chunk; interrupted. Reads the chunks, in parallel.
   Status checkSums(std::span<const AmtTag> leftOut, const RunContext& context) const;
   /// Checks that the bytes between chunks are zero. Errors: corrupt.
   Status checkZeros() const;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Files of terrain (of surfaces: surface_reader.cpp). Chunks must have the sizes that follow from the counts in
-// the metadata (model_columns.h). A file is opened first and read later, in part where a query needs no more.
+// Files of terrain (of surfaces: surface_reader.cpp). Chunks must have the sizes that follow from the counts
+// in the metadata (model_columns.h). A file is opened first and read later, in part where a query needs no
+// more.
 #include <fmt/format.h>
 
 #include <utility>

@@ -44,6 +44,14 @@ Result<SurfaceModel> loadSurfaceAmt(const std::string& path, const AmtReadOption
 Result<SurfaceModel> loadSurfaceAmt(const AmtContainer& container, const AmtReadOptions& options = {},
                                     const RunContext& context = {});
 
+/// What the metadata of a surface's file says.
+struct SurfaceFacts {
+  std::uint64_t vertices = 0;  ///< of the whole model
+  AmtSummary summary;          ///< of a file in pages
+};
+/// Errors: those of openAmt().
+Result<SurfaceFacts> surfaceFacts(const AmtContainer& container);
+
 /// As AmtFile::errorBeyond(), of a file in pages. Errors: those of openAmt().
 Result<double> surfaceErrorBeyond(const AmtContainer& container, std::uint64_t nodes);
 

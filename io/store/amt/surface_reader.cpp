@@ -108,9 +108,9 @@ class SurfaceReading {
   }
   /// After the looks, which say what there is.
   Status unpackCarried() {
-    const Status taken = packed::unpackCarried(
-        {bytesOf(amt_tag::kPackedNumbers), bytesOf(amt_tag::kAttributes)}, bytesOf(amt_tag::kPackedNodes),
-        *pages_, isPart(), model_);
+    const Status taken =
+        packed::unpackCarried({bytesOf(amt_tag::kPackedNumbers), bytesOf(amt_tag::kAttributes)},
+                              bytesOf(amt_tag::kPackedNodes), *pages_, isPart(), model_);
     return taken ? taken : all_.corrupt(taken.error().message);
   }
 
@@ -172,10 +172,9 @@ class SurfaceReading {
     std::vector<std::uint64_t> pictureBytes;
     // Of pages, the values of faces lie in these, and the faces are known when they are read.
     const std::uint64_t faces = facts_.isPaged ? 1 : model_.sourceFaces;
-    if (const Status read =
-            fromLooksJson({text.data(), text.size()}, faces,
-                          facts_.isPaged ? sizeof faces : all_.find(amt_tag::kAttributes)->bytes, model_,
-                          pictureBytes);
+    if (const Status read = fromLooksJson(
+            {text.data(), text.size()}, faces,
+            facts_.isPaged ? sizeof faces : all_.find(amt_tag::kAttributes)->bytes, model_, pictureBytes);
         !read)
       return all_.corrupt(read.error().message);
     if (model_.hasFaceAttributes() != metadata_.hasAllFaces)
@@ -238,13 +237,29 @@ Result<SurfaceModel> loadSurfaceAmt(const AmtContainer& container, const AmtRead
   return caughtFailure(container.path());
 }
 
+namespace {
+
+Result<SurfaceMetadata> metadataIn(const AmtContainer& container) {
+  Result<SurfaceMetadata> metadata = fromSurfaceJson(container.metadata());
+  if (!metadata) return container.corrupt(fmt::format("chunk META: {}", metadata.error().message));
+  return metadata;
+}
+
+}  // namespace
+
+Result<SurfaceFacts> surfaceFacts(const AmtContainer& container) try {
+  ARETE_TRY(const SurfaceMetadata metadata, metadataIn(container));
+  return SurfaceFacts{metadata.counts.rootVertices + metadata.counts.nodes, metadata.summary};
+} catch (...) {
+  return caughtFailure(container.path());
+}
+
 Result<double> surfaceErrorBeyond(const AmtContainer& container, std::uint64_t nodes) try {
   const AmtChunk* const root = container.find(amt_tag::kPageRoot);
   if (root == nullptr) return 0;
-  const Result<SurfaceMetadata> metadata = fromSurfaceJson(container.metadata());
-  if (!metadata) return container.corrupt(fmt::format("chunk META: {}", metadata.error().message));
+  ARETE_TRY(const SurfaceMetadata metadata, metadataIn(container));
   ARETE_CHECK(container.load(container.bytes(*root)));
-  return pagedErrorBeyond(container.bytes(*root), metadata->scale, nodes);
+  return pagedErrorBeyond(container.bytes(*root), metadata.scale, nodes);
 } catch (...) {
   return caughtFailure(container.path());
 }

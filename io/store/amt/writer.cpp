@@ -5,11 +5,13 @@
 // opened.
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/base/caught_failure.h"
+#include "engine/cut/error_curve.h"
 #include "io/store/amt/file.h"
 #include "io/store/amt/finest_triangles.h"
 #include "io/store/amt/model_writer.h"
@@ -21,11 +23,25 @@
 #include "io/store/packed/surface/displacement_bytes.h"
 #include "io/store/packed/surface/source_numbers.h"
 #include "surface/model/renumbered.h"
-#include "terrain/model/error_curve.h"
+#include "surface/model/surface_model.h"
 #include "terrain/model/relief.h"
 
 namespace arete {
 namespace {
+
+/// What files of both kinds say of their MT.
+Result<AmtSummary> summaryOf(const MultiTriangulation& mt, std::span<const double> tolerances,
+                             const RunContext& context) {
+  AmtSummary summary;
+  summary.triangles = mt.triangleCount();
+  summary.finestTriangles = mt.finestTriangleCount();
+  for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t)
+    summary.rootError = std::max(summary.rootError, mt.error(TriangleId(t)));
+  ARETE_TRY(const auto curve, errorCurve(mt, tolerances, context));
+  for (const CurvePoint& p : curve)
+    summary.curve.push_back({p.maxError, double(p.minimalTriangles), double(p.saturatedTriangles)});
+  return summary;
+}
 
 /// Writes one file of terrain.
 class TerrainWriting {
@@ -36,7 +52,9 @@ class TerrainWriting {
   Status run(const AmtWriteOptions& options) {
     AmtMetadata metadata =
         amtMetadataOf(model_, options.writer.empty() ? "Arete " ARETE_VERSION : options.writer);
-    if (options.isPaged) ARETE_CHECK(summarize(metadata.summary));
+    if (options.isPaged) {
+      ARETE_TRY(metadata.summary, summarized());
+    }
     ARETE_CHECK(file_.describe(metadata));
     const VertexArrays& vertices = model_.mt.vertices();
     if (model_.isRaster != vertices.isLattice() || model_.columns != vertices.columns)
@@ -57,17 +75,10 @@ class TerrainWriting {
   }
 
  private:
-  Status summarize(AmtSummary& summary) const {
-    const MultiTriangulation& mt = model_.mt;
-    summary.triangles = mt.triangleCount();
-    summary.finestTriangles = mt.finestTriangleCount();
+  Result<AmtSummary> summarized() const {
+    ARETE_TRY(AmtSummary summary, summaryOf(model_.mt, toleranceLadder(model_.mt, kSummarySteps), context_));
     summary.relief = reliefOf(model_);
-    for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t)
-      summary.rootError = std::max(summary.rootError, mt.error(TriangleId(t)));
-    ARETE_TRY(const auto curve, errorCurve(mt, toleranceLadder(mt, kSummarySteps), context_));
-    for (const CurvePoint& p : curve)
-      summary.curve.push_back({p.maxError, double(p.minimalTriangles), double(p.saturatedTriangles)});
-    return {};
+    return summary;
   }
 
   Status pack(bool isPaged) {
@@ -155,6 +166,10 @@ class SurfaceWriting {
     SurfaceMetadata metadata =
         amtMetadataOf(model(), options.writer.empty() ? "Arete " ARETE_VERSION : options.writer);
     metadata.positionStep = packed_.step;
+    if (options.isPaged) {
+      ARETE_TRY(metadata.summary, summaryOf(model().mt, sharesOfDiagonal(model()), context_));
+      metadata.summary.rootError = model().mt.largestError();
+    }
     ARETE_CHECK(file_.describe(metadata));
     AmtFacts facts = amtFactsOf(metadata);
     facts.isPacked = isPacked;

@@ -38,9 +38,7 @@ struct Stored {
   std::uint32_t scaleBase = 0;
   double thresholdRatio = 0;
   std::string nodataWord = {};  ///< a stated NODATA value that JSON has no number for: nan, inf or -inf
-  // Of a summary, where there is one.
-  std::optional<std::uint64_t> triangles = {}, finestTriangles = {};
-  std::optional<double> relief = {}, rootError = {};
+  StoredSummary summary = {};
 };
 
 /// Visits the fields of the metadata, in the order of the file.
@@ -92,15 +90,7 @@ void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
     build.field("metricQ", model.metricQ);
     build.field("levels", model.levels);
   });
-  // Of files in pages.
-  top.optionalObject("summary", [&](auto& summary) {
-    auto& s = m.summary;
-    summary.optional("triangles", stored.triangles);
-    summary.optional("finestTriangles", stored.finestTriangles);
-    summary.optional("relief", stored.relief);
-    summary.optional("rootError", stored.rootError);
-    summary.optional("curve", s.curve);
-  });
+  visitSummary(top, m.summary, stored.summary);
   // Absent from the files of earlier writers.
   top.optionalObject("reading", [&](auto& reading) {
     auto& r = model.reading;
@@ -230,13 +220,8 @@ std::string toAmtJson(const AmtMetadata& metadata) {
   json_fields::Writer writer(*object);
   const std::optional<double> nodata = metadata.model.reading.nodata;
   Stored stored{metadata.scale.base(), metadata.model.options.thresholdRatioOrDefault(),
-                nodata && !std::isfinite(*nodata) ? fmt::format("{}", *nodata) : ""};
-  if (const AmtSummary& s = metadata.summary; s.isThere()) {
-    stored.triangles = s.triangles;
-    stored.finestTriangles = s.finestTriangles;
-    stored.relief = s.relief;
-    stored.rootError = s.rootError;
-  }
+                nodata && !std::isfinite(*nodata) ? fmt::format("{}", *nodata) : "",
+                StoredSummary::of(metadata.summary)};
   visitMetadata(writer, metadata, stored);
   return (*object).dump(1) + "\n";
 }
@@ -252,10 +237,7 @@ Result<AmtMetadata> fromAmtJson(std::string_view text) {
   m.model.source = nameWithoutQuery(m.model.source);  // older files may have one
   m.scale = OutwardScale::fromBase(stored.scaleBase);
   m.model.options.thresholdRatio = stored.thresholdRatio;
-  m.summary.triangles = stored.triangles.value_or(0);
-  m.summary.finestTriangles = stored.finestTriangles.value_or(0);
-  m.summary.relief = stored.relief.value_or(0);
-  m.summary.rootError = stored.rootError.value_or(0);
+  stored.summary.giveTo(m.summary);
   if (stored.nodataWord == "nan") m.model.reading.nodata = std::numeric_limits<double>::quiet_NaN();
   if (stored.nodataWord == "inf") m.model.reading.nodata = std::numeric_limits<double>::infinity();
   if (stored.nodataWord == "-inf") m.model.reading.nodata = -std::numeric_limits<double>::infinity();

@@ -19,6 +19,7 @@ struct StoredSurface {
   std::uint32_t scaleBase = 0;
   std::optional<double> positionStep, positionError;
   std::optional<std::uint64_t> fileFaces, splitFaces, creaseEdges;
+  StoredSummary summary = {};
 };
 
 template <class T>
@@ -76,6 +77,7 @@ void visitSurfaceMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
     mending.field("unusedVertices", model.mending.unusedVertices);
     mending.flag("dropsFlatNormals", model.mending.dropsFlatNormals);
   });
+  visitSummary(top, m.summary, stored.summary);
 }
 
 }  // namespace
@@ -152,7 +154,8 @@ std::string toAmtJson(const SurfaceMetadata& metadata) {
   const SurfaceModel& model = metadata.model;
   const StoredSurface stored{metadata.scale.base(),           unlessZero(metadata.positionStep),
                              unlessZero(model.positionError), model.fileFaces,
-                             model.mending.splitFaces,        unlessZero(model.creaseEdges)};
+                             model.mending.splitFaces,        unlessZero(model.creaseEdges),
+                             StoredSummary::of(metadata.summary)};
   visitSurfaceMetadata(writer, metadata, stored);
   return (*object).dump(1) + "\n";
 }
@@ -171,6 +174,7 @@ Result<SurfaceMetadata> fromSurfaceJson(std::string_view text) {
   m.model.positionError = stored.positionError.value_or(0);
   m.model.fileFaces = stored.fileFaces.value_or(m.model.sourceFaces);
   m.model.creaseEdges = stored.creaseEdges.value_or(0);
+  stored.summary.giveTo(m.summary);
   m.model.mending.splitFaces = stored.splitFaces.value_or(splitFacesOf(m));
   if (problem.empty()) problem = findAmtProblem(m).value_or("");
   if (!problem.empty()) return failure(ErrorCode::corrupt, fmt::format("the metadata is wrong: {}", problem));

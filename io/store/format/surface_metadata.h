@@ -10,6 +10,7 @@
 
 #include "engine/base/result.h"
 #include "io/store/format/metadata_head.h"
+#include "io/store/format/summary.h"
 #include "surface/model/surface_model.h"
 
 namespace arete {
@@ -20,6 +21,7 @@ struct SurfaceMetadata : AmtHead {
   bool hasDoubles = false;   ///< places are doubles, not floats
   bool hasAllFaces = false;  ///< every triangle has a face number, not only those of the finest front
   std::uint64_t finestTriangles = 0;
+  AmtSummary summary;       ///< of a file in pages
   double positionStep = 0;  ///< of a packed file: see io/store/packed/packed.h
   SurfaceModel model;       ///< without mt, arrays and attributes
 };

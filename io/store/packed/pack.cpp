@@ -97,7 +97,8 @@ class Packer {
             std::span(packed.nodes).subspan(segment.offset, segment.bytes() - segment.headerBytes);
         const std::vector<std::byte>& more = carried[p][i];
         segment.carriedBytes = static_cast<std::uint32_t>(more.size());
-        const auto header = segmentHeader(segment, std::span(page.runs).subspan(firstRun, segment.runs), true);
+        const auto header =
+            segmentHeader(segment, std::span(page.runs).subspan(firstRun, segment.runs), true);
         segment.headerBytes = static_cast<std::uint32_t>(header.size());
         firstRun += segment.runs;
         const std::size_t begin = all.size();

@@ -216,14 +216,15 @@ std::optional<std::string> openPage(const packed::PagedMt& paged, std::uint32_t 
   if (!page.segments.empty() && page.number == 0 &&
       page.segments[0].bytes() < packed::leastBytes(page.segments[0].nodes + roots))
     return "has a root that its bytes cannot hold";
-  if (!packed::readHeaders(paged.nodes, isOfSurface, page)) return "has runs that its directory does not state";
+  if (!packed::readHeaders(paged.nodes, isOfSurface, page))
+    return "has runs that its directory does not state";
   page.isCut |= std::erase_if(page.runs, [&](const packed::Run& run) { return run.band < lowest; }) > 0;
   return std::nullopt;
 }
 
 Result<UnpackedPages> unpack(const packed::MtKind& kind, const AmtCounts& counts,
-                                  const packed::PagedMt& paged, const RequiredError& wanted,
-                                  const RunContext& context, const LoadParts& load) {
+                             const packed::PagedMt& paged, const RequiredError& wanted,
+                             const RunContext& context, const LoadParts& load) {
   std::string problem;
   const auto root = packed::pageRootOf(paged.root, problem);
   if (!root) return failure(ErrorCode::corrupt, "the directory of its pages " + problem);
@@ -268,8 +269,8 @@ Result<UnpackedPages> unpack(const packed::MtKind& kind, const AmtCounts& counts
     directory.numberNodes();
     const auto tables = tablesOf(paged.tables, packed::kTables);
     if (!tables) return failure(ErrorCode::corrupt, "the tables of the packed nodes are damaged");
-    packed::Unpacker unpacker(std::move(directory), *tables, paged.nodes, context,
-                              wanted && !choice.isEvenly, true, {});
+    packed::Unpacker unpacker(std::move(directory), *tables, paged.nodes, context, wanted && !choice.isEvenly,
+                              true, {});
     ARETE_TRY(MultiTriangulation mt, unpacker.run(kind, counts));
     return UnpackedPages{std::move(mt), unpacker.takeDirectory()};
   });
@@ -312,8 +313,7 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, const packed::PagedMt& paged,
                                     const RequiredError& wanted, const RunContext& context,
                                     const LoadParts& load) try {
-  ARETE_TRY(UnpackedPages unpacked,
-            unpack(kindOf(metadata), metadata.counts, paged, wanted, context, load));
+  ARETE_TRY(UnpackedPages unpacked, unpack(kindOf(metadata), metadata.counts, paged, wanted, context, load));
   return std::move(unpacked.mt);
 } catch (...) {
   return caughtFailure();

@@ -134,7 +134,8 @@ class ReaderIo {
 
  private:
   void open(const Segment& segment) {
-    const auto streams = nodes_.subspan(segment.offset, segment.bytes() - segment.headerBytes - segment.carriedBytes);
+    const auto streams =
+        nodes_.subspan(segment.offset, segment.bytes() - segment.headerBytes - segment.carriedBytes);
     bytes_.assign(streams.begin(), streams.end());
     bytes_.resize(bytes_.size() + std::max(RansDecoder::kReadable, BoundReader::kReadable));
     std::size_t at = 0;

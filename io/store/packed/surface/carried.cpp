@@ -18,6 +18,7 @@
 #include "io/store/entropy/number_bytes.h"
 #include "io/store/packed/surface/carried_coder.h"
 #include "io/store/packed/surface/carried_io.h"
+#include "surface/model/face_successors.h"
 
 namespace arete::packed {
 namespace {
@@ -104,8 +105,8 @@ void resizeRows(std::vector<Attribute>& attributes, std::size_t rows) {
 /// Reads what the segments carry.
 class Unpacking {
  public:
-  Unpacking(const CarriedChunks& chunks, std::span<const std::byte> nodes, const Directory& pages, bool isPart,
-            SurfaceModel& model)
+  Unpacking(const CarriedChunks& chunks, std::span<const std::byte> nodes, const Directory& pages,
+            bool isPart, SurfaceModel& model)
       : chunks_(chunks), nodes_(nodes), pages_(pages), isPart_(isPart), model_(model) {}
 
   Status run() {
@@ -123,7 +124,8 @@ class Unpacking {
 
  private:
   static tl::unexpected<Error> damaged(const char* what) {
-    return failure(ErrorCode::corrupt, fmt::format("{} damaged: what the triangles of its pages carry", what));
+    return failure(ErrorCode::corrupt,
+                   fmt::format("{} damaged: what the triangles of its pages carry", what));
   }
 
   bool readTables() {
@@ -162,8 +164,8 @@ class Unpacking {
   bool readPage(const Packet& page) {
     std::size_t next = 0;
     for (const Segment& segment : page.segments) {
-      const auto bytes = nodes_.subspan(segment.begin() + segment.bytes() - segment.carriedBytes,
-                                        segment.carriedBytes);
+      const auto bytes =
+          nodes_.subspan(segment.begin() + segment.bytes() - segment.carriedBytes, segment.carriedBytes);
       auto io = CarriedReaderIo::of(bytes, tables_, faces_, wedges_);
       if (!io) return false;
       CarriedCoder<CarriedReaderIo> coder(model_, rule_, *io);
@@ -271,6 +273,8 @@ CarriedBytes packCarried(SurfaceModel& model, const Directory& pages) {
   rule.hasDisplacement = !model.displacement.isEmpty();
   rule.facesPerVertex = facesPerVertexOf(model);
   rule.ordersByLargest = followsLargest(model, rule.facesPerVertex);
+  // Which triangle follows another depends on where a star begins, which packing changes.
+  if (!rule.hasCoarseFaces) inheritFaces(model.mt, model.faceOf);
   const std::uint32_t named = model.hasWedges() ? numberWedges(model, pages) : 0;
 
   std::vector<std::vector<CarriedWriterIo>> written(pages.packets.size());

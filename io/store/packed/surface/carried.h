@@ -21,7 +21,8 @@ struct CarriedBytes {
 };
 
 /// @param model  in the order of the MT that the pages unpack to; its wedges are numbered as the pages name
-///               them first, those of no corner last
+///               them first, those of no corner last, and coarse triangles without faces of their own inherit
+///               them (inheritFaces())
 /// @param pages  all of them, with their runs and segments; numbered
 /// Precondition: model.validate(). O(size), one thread.
 CarriedBytes packCarried(SurfaceModel& model, const Directory& pages);
@@ -35,7 +36,8 @@ struct CarriedChunks {
 ///
 /// @param nodes  the bytes of all pages, of which those of `pages` are loaded
 /// @param pages  those that were unpacked, with their headers read
-/// @param isPart some of the whole model's pages, or nodes of a page, were not unpacked: faces with values are
+/// @param isPart some of the whole model's pages, or nodes of a page, were not unpacked: faces with values
+/// are
 ///               numbered anew (SurfaceModel::partFaces), and wedges
 /// @param model  everything else; attributes and errors are declared and have no values; faces that have
 ///               objects, groups, materials or numbers have one of each

@@ -10,7 +10,8 @@
 //    of a run are sorted by the source's numbers of their corners, and each is predicted from the one before.
 // 4. The wedges of a star's corners: at the link those of the floor and of the star before, at the apex those
 //    of the star before; or the next new wedge of the file; or any.
-// 5. Reaches, errors of attributes, and values: of the vertices, and of the faces and wedges that are new here.
+// 5. Reaches, errors of attributes, and values: of the vertices, and of the faces and wedges that are new
+// here.
 
 #include <algorithm>
 #include <array>
@@ -34,14 +35,14 @@ namespace arete::packed {
 inline constexpr unsigned kCarriedSpreads = kVertexSpreads, kCarriedFaceClasses = 24,
                           kCarriedWedgeClasses = 3, kCarriedLengths = 9, kCarriedReaches = 4;
 enum CarriedTable : unsigned {
-  kCarriedVertexTable = 0,                                           // by the spread of the link's numbers
-  kCarriedFaceTable = kCarriedVertexTable + kCarriedSpreads,         // by the symbol before
-  kCarriedHeirTable = kCarriedFaceTable + kCarriedFaceClasses,       // by whether a face is expected
-  kCarriedLinkWedgeTable = kCarriedHeirTable + 2,                    // by how many wedges may be meant
+  kCarriedVertexTable = 0,                                      // by the spread of the link's numbers
+  kCarriedFaceTable = kCarriedVertexTable + kCarriedSpreads,    // by the symbol before
+  kCarriedHeirTable = kCarriedFaceTable + kCarriedFaceClasses,  // by whether a face is expected
+  kCarriedLinkWedgeTable = kCarriedHeirTable + 2,               // by how many wedges may be meant
   kCarriedApexWedgeTable = kCarriedLinkWedgeTable + kCarriedWedgeClasses,
   kCarriedOtherWedgeTable = kCarriedApexWedgeTable + kCarriedWedgeClasses,
-  kCarriedDirectionTable,                                            // by the bits of the link's mean length
-  kCarriedReachTable = kCarriedDirectionTable + kCarriedLengths,     // by the reach before
+  kCarriedDirectionTable,                                         // by the bits of the link's mean length
+  kCarriedReachTable = kCarriedDirectionTable + kCarriedLengths,  // by the reach before
   kCarriedTables = kCarriedReachTable + kCarriedReaches
 };
 
@@ -134,9 +135,9 @@ class CarriedCoder {
         length += std::abs(model_.displacement.directions[u][axis]);
       }
       const int count = static_cast<int>(link.size()), predicted = count > 0 ? sum / count : 0;
-      const unsigned bits =
-          count > 0 ? static_cast<unsigned>(std::bit_width(static_cast<unsigned>(length / count)))
-                    : kCarriedLengths - 1;
+      const unsigned bits = count > 0
+                                ? static_cast<unsigned>(std::bit_width(static_cast<unsigned>(length / count)))
+                                : kCarriedLengths - 1;
       std::int8_t& value = model_.displacement.directions[v][axis];
       // Modulo 256, so that damaged bytes are numbers as well.
       value = static_cast<std::int8_t>(predicted + codeSigned(io_, kSymbols, kCarriedDirectionTable + bits,
@@ -144,8 +145,8 @@ class CarriedCoder {
     }
   }
 
-  /// What is known of the face of a triangle while a run's are coded: its number, or, of one that is new in the
-  /// run, the triangle that has it first.
+  /// What is known of the face of a triangle while a run's are coded: its number, or, of one that is new in
+  /// the run, the triangle that has it first.
   using FaceLabel = std::uint64_t;
   static constexpr FaceLabel kNoLabel = ~FaceLabel{0}, kFirstOf = FaceLabel{1} << 32;
   FaceLabel labelOf(std::uint32_t t) const {
@@ -202,9 +203,11 @@ class CarriedCoder {
       predicted += std::llround(rule_.facesPerVertex * (double(key) - double(keyBefore)));
       keyBefore = key;
       std::uint32_t& face = model_.faceOf[t];
-      const std::int64_t by = codeSigned(io_, kSymbols, kCarriedFaceTable + last,
-                                         static_cast<std::int64_t>(std::uint64_t{face} - static_cast<std::uint64_t>(predicted)));
-      face = static_cast<std::uint32_t>(static_cast<std::uint64_t>(predicted) + static_cast<std::uint64_t>(by));
+      const std::int64_t by =
+          codeSigned(io_, kSymbols, kCarriedFaceTable + last,
+                     static_cast<std::int64_t>(std::uint64_t{face} - static_cast<std::uint64_t>(predicted)));
+      face =
+          static_cast<std::uint32_t>(static_cast<std::uint64_t>(predicted) + static_cast<std::uint64_t>(by));
       if (face >= model_.sourceFaces) return false;
       predicted = face;
       last = std::min(bucketOf(zigzag(by)).symbol, kCarriedFaceClasses - 1);

@@ -21,6 +21,7 @@
 #include "surface/displacement/find_displacement.h"
 #include "surface/families.h"
 #include "surface/front/front.h"
+#include "surface/mesh_with_everything.h"
 #include "surface/laws/validate_surface.h"
 
 namespace arete {
@@ -50,38 +51,6 @@ Result<SurfaceModel> displaced(const SurfaceMesh& mesh) {
   Result<SurfaceModel> model = buildSurface(mesh);
   if (model) model->displacement = *findDisplacement(*model);
   return model;
-}
-
-/// A surface with everything that a mesh can have.
-SurfaceMesh everything(bool hasDoubles) {
-  SurfaceMesh mesh(shapes::hills(16, 3));
-  if (!hasDoubles)
-    for (Vec3& p : mesh.positions) p = {float(p.x), float(p.y), float(p.z)};
-  Attribute quality{.name = "quality", .type = ScalarType::float64};
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-    quality.append(std::vector<double>{1.0 / double(v + 1)});
-  mesh.vertexAttributes = {quality};
-  Attribute label{.name = "label", .type = ScalarType::int16, .components = 2};
-  Attribute texcoord{.name = "texcoord", .meaning = AttributeMeaning::textureCoords, .components = 2};
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    label.append(std::vector<double>{double(t / 128) - 100, 7});  // lines between blocks
-    mesh.wedges.push_back(mesh.triangles[t]);
-    mesh.objectOf.push_back(t % 2 == 0 ? 0 : MeshAttributes::kNone);
-    mesh.materialOf.push_back(mesh.positions[mesh.triangles[t][0]].x < 8 ? 0 : 1);
-    mesh.groupOf.push_back(static_cast<std::uint32_t>(t % 3));
-    mesh.faceOf.push_back(static_cast<std::uint32_t>(t / 2));
-  }
-  std::ranges::fill(mesh.objectOf, 0u);
-  mesh.wedgeCount = static_cast<std::uint32_t>(mesh.positions.size());
-  for (std::size_t w = 0; w < mesh.wedgeCount; ++w) texcoord.append(std::vector<double>{double(w) / 7, 0.25});
-  mesh.wedgeAttributes = {texcoord};
-  mesh.triangleAttributes = {label};
-  mesh.objects = {"a \"quoted\" one"};
-  mesh.groups = {"g0", "g1", std::string("\xff\xfe not UTF-8")};
-  mesh.materials = {{.name = "stone", .textures = {{"baseColor", "#0", 0}}, .verbatim = {{"mtl", "Ns 10\n"}}},
-                    {.name = "grass", .baseColor = {0.1, 0.2, 1.0 / 3, 0.5}, .alphaMode = "BLEND"}};
-  mesh.pictures = {{"stone.png", "image/png", {std::byte{1}, std::byte{2}, std::byte{0}}}};
-  return mesh;
 }
 
 void expectEqual(const SurfaceModel& a, const SurfaceModel& b) {
@@ -123,7 +92,7 @@ void expectEqual(const SurfaceModel& a, const SurfaceModel& b) {
 TEST_F(SurfaceAmt, GivesBackEveryBitOfAModel) {
   for (const bool hasDoubles : {false, true})
     for (const bool isPlain : {false, true}) {
-      const SurfaceMesh mesh = isPlain ? SurfaceMesh(everything(hasDoubles).shape()) : everything(hasDoubles);
+      const SurfaceMesh mesh = isPlain ? SurfaceMesh(shapes::everything(hasDoubles).shape()) : shapes::everything(hasDoubles);
       Result<SurfaceModel> model = isPlain ? buildSurface(mesh) : displaced(mesh);
       ASSERT_TRUE(model) << model.error().message;
       model->source = "a scan.ply";
@@ -194,7 +163,7 @@ TEST_F(SurfaceAmt, PackedGivesBackTheSameTrianglesInAnotherOrder) {
   oneThread.threads = 1;
   for (const bool hasDoubles : {false, true})
     for (const bool isPlain : {false, true}) {
-      const SurfaceMesh mesh = isPlain ? SurfaceMesh(everything(hasDoubles).shape()) : everything(hasDoubles);
+      const SurfaceMesh mesh = isPlain ? SurfaceMesh(shapes::everything(hasDoubles).shape()) : shapes::everything(hasDoubles);
       Result<SurfaceModel> model = isPlain ? buildSurface(mesh) : displaced(mesh);
       ASSERT_TRUE(model) << model.error().message;
       ASSERT_TRUE(writeSurfaceAmt(path("plain.amt"), *model));
@@ -222,7 +191,7 @@ TEST_F(SurfaceAmt, PackedGivesBackTheSameTrianglesInAnotherOrder) {
 
 // What an earlier version wrote has the first level alone.
 TEST_F(SurfaceAmt, GivesBackTheErrorsOfAttributesAtEveryDistanceAndReadsThoseOfEarlierVersions) {
-  Result<SurfaceModel> model = buildSurface(everything(true), {.boundsAttributes = true});
+  Result<SurfaceModel> model = buildSurface(shapes::everything(true), {.boundsAttributes = true});
   ASSERT_TRUE(model) << model.error().message;
   ASSERT_FALSE(model->attributeDistances.empty());
   for (const bool isEarlier : {false, true}) {
@@ -367,7 +336,7 @@ TEST_F(SurfaceAmt, IsRefusedWhereFacesThatWereLeftOutAreThereOrLieNowhere) {
 }
 
 TEST_F(SurfaceAmt, IsRefusedWhereItStatesFacesThatNothingInItCanHold) {
-  const Result<SurfaceModel> model = buildSurface(everything(false));
+  const Result<SurfaceModel> model = buildSurface(shapes::everything(false));
   ASSERT_TRUE(model);
   ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model));
   test::AmtBytes bytes = test::AmtBytes::of(path("a.amt"));
@@ -405,7 +374,7 @@ TEST_F(SurfaceAmt, IsRefusedWhereTerrainIsWantedAndTheOtherWay) {
 }
 
 TEST_F(SurfaceAmt, SaysSoWhateverByteIsChangedOrCutOff) {
-  const Result<SurfaceModel> model = displaced(everything(false));
+  const Result<SurfaceModel> model = displaced(shapes::everything(false));
   ASSERT_TRUE(model);
   for (const bool isPacked : {false, true}) {
     ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model, {}, {.isPacked = isPacked}));
@@ -426,7 +395,7 @@ TEST_F(SurfaceAmt, SaysSoWhateverByteIsChangedOrCutOff) {
 
 TEST_F(SurfaceAmt, ReadsNoIndexOutOfRangeWhateverTheArraysHold) {
   // Without checksums the checks of indices alone have to hold.
-  const Result<SurfaceModel> model = buildSurface(everything(false));
+  const Result<SurfaceModel> model = buildSurface(shapes::everything(false));
   ASSERT_TRUE(model);
   ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model));
   const std::string whole = contentOf(path("a.amt"));

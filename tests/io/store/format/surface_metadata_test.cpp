@@ -197,19 +197,19 @@ TEST(SurfaceLooks, TakeNoMemoryForFacesWhoseValuesAreNotThere) {
   model.sourceFaces = 0xFFFFFFFE;  // 17 gigabytes of numbers
   std::vector<std::uint64_t> pictureBytes;
   for (const char* key : {"hasObjects", "hasGroups", "hasMaterials", "hasFaces"}) {
-    const Status read = fromLooksJson(json{{key, true}}.dump(), 4000, model, pictureBytes);
+    const Status read = fromLooksJson(json{{key, true}}.dump(), model.sourceFaces, 4000, model, pictureBytes);
     ASSERT_FALSE(read) << key;
     EXPECT_EQ(read.error().code, ErrorCode::corrupt);
     EXPECT_NE(read.error().message.find("too few"), std::string::npos) << read.error().message;
   }
-  EXPECT_TRUE(fromLooksJson("{}", 0, model, pictureBytes));
+  EXPECT_TRUE(fromLooksJson("{}", model.sourceFaces, 0, model, pictureBytes));
 }
 
 TEST(SurfaceLooks, AreRefusedWhereTheDistancesOfErrorsAreNoRisingNumbers) {
   std::vector<std::uint64_t> pictureBytes;
   const auto read = [&](const json& distances) {
     SurfaceModel model;
-    return fromLooksJson(json{{"attributeDistances", distances}}.dump(), 0, model, pictureBytes);
+    return fromLooksJson(json{{"attributeDistances", distances}}.dump(), 0, 0, model, pictureBytes);
   };
   EXPECT_TRUE(read({0.5, 1, 2.25}));
   for (const json& bad : {json(1.0), json({"a"}), json({0.0}), json({-1.0, 2.0}), json({2.0, 2.0}),

@@ -42,7 +42,7 @@ Directory pagesInARow(std::uint32_t count) {
       segment.streamBytes = {10, 20, 0, 0, 3, 0, 1 + i % 4};
       segment.checksum = 0x1234567890abcdef + i;
       segment.headerBytes =
-          static_cast<std::uint32_t>(segmentHeader(segment, std::span(&page.runs.back(), 1)).size());
+          static_cast<std::uint32_t>(segmentHeader(segment, std::span(&page.runs.back(), 1), false).size());
       page.segments.push_back(segment);
     }
     directory.packets.push_back(std::move(page));

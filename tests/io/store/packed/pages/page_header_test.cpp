@@ -31,7 +31,7 @@ struct HeadedPage {
       segment.firstBand = of[0].band;
       for (const Run& run : of) segment.nodes += run.nodes;
       segment.streamBytes = {8, 12, 0, 0, 4, 9, 1};
-      const auto header = segmentHeader(segment, of);
+      const auto header = segmentHeader(segment, of, false);
       segment.headerBytes = static_cast<std::uint32_t>(header.size());
       bytes.insert(bytes.end(), header.begin(), header.end());
       segment.offset = bytes.size();
@@ -48,7 +48,7 @@ struct HeadedPage {
 
 TEST(PageHeader, ReadsBackRunsAndStreams) {
   HeadedPage headed;
-  ASSERT_TRUE(readHeaders(headed.bytes, headed.page));
+  ASSERT_TRUE(readHeaders(headed.bytes, false, headed.page));
   const auto& runs = headed.page.runs;
   ASSERT_EQ(runs.size(), 3u);
   EXPECT_EQ(runs[1].band, 19u);
@@ -65,7 +65,7 @@ TEST(PageHeader, RefusesWhatTheDirectoryDoesNotState) {
   const auto isRead = [&](const auto& change) {
     HeadedPage page = good;
     change(page);
-    return readHeaders(page.bytes, page.page);
+    return readHeaders(page.bytes, false, page.page);
   };
   EXPECT_TRUE(isRead([](HeadedPage&) {}));
   EXPECT_FALSE(isRead([](HeadedPage& p) { ++p.page.segments[0].nodes; }));

@@ -14,7 +14,7 @@ namespace arete {
 
 /// The numbers of triangles of the minimal and the saturated cut at one uniform tolerance.
 struct CurvePoint {
-  double maxError = 0;  ///< in the unit of the heights
+  double maxError = 0;  ///< in the unit of the errors
   std::uint32_t minimalTriangles = 0;
   std::uint32_t saturatedTriangles = 0;
 };

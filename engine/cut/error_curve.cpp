@@ -2,7 +2,7 @@
 //
 // Including a node adds one triangle to a front on a border and two elsewhere, so the nodes of a cut are
 // counted without building its front.
-#include "terrain/model/error_curve.h"
+#include "engine/cut/error_curve.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The curve against cuts, and the series of its tolerances.
-#include "terrain/model/error_curve.h"
+#include "engine/cut/error_curve.h"
 
 #include <gtest/gtest.h>
 
