@@ -80,7 +80,7 @@ struct SurfaceModel {
   /// Of a part of a model (loadSurfaceAmt()) in which faces have values: by face, as faceOf and all lists by
   /// face count them, its number in the source, rising. Empty: the numbers of the source.
   std::vector<std::uint32_t> partFaces;
-  /// Of a part: the triangles of the whole model's finest front.
+  /// Known of a part: the triangles of the whole model's finest front.
   std::optional<std::uint64_t> finestOfWhole;
   /// As many as lists by face have.
   std::uint64_t faceCount() const { return partFaces.empty() ? sourceFaces : partFaces.size(); }

@@ -49,6 +49,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   takeCuts(*model, context);
+  // Of pages a part.
+  const RequiredError some = [](const Box3& box) { return box.low.x < 0 ? 0 : HUGE_VAL; };
+  for (const RequiredError& wanted : {requiredNowhere(), some}) {
+    const auto part =
+        loadSurfaceAmt(memory.path(), {.verify = AmtVerify::indices, .wanted = wanted}, context);
+    if (part)
+      takeCuts(*part, context);
+    else
+      fuzz::requireClear(part.error());
+  }
   const Status valid = validateSurface(*model, {}, context);
   fuzz::require(valid || !valid.error().message.empty(), "a broken law is named");
   return 0;

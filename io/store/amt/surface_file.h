@@ -37,7 +37,7 @@ Result<SurfaceModel> roundSurface(const SurfaceModel& model, int positionBits,
 /// Reads a file and checks checksums, indices and sizes as `verify` says. Of a file in pages a part can be
 /// required, whose boxes are in the coordinates of the model: it has a root and is a model in itself, whose
 /// cuts say what they miss (Cut::missing), and SurfaceModel says what differs; any other file is read whole.
-/// Errors: those of openAmt() and of the checks; unsupported: the file is of terrain.
+/// Errors: as openAmt(), and what the checks find; unsupported: the file is of terrain.
 Result<SurfaceModel> loadSurfaceAmt(const std::string& path, const AmtReadOptions& options = {},
                                     const RunContext& context = {});
 /// The same of what is open.
@@ -49,10 +49,10 @@ struct SurfaceFacts {
   std::uint64_t vertices = 0;  ///< of the whole model
   AmtSummary summary;          ///< of a file in pages
 };
-/// Errors: those of openAmt().
+/// Errors: as openAmt().
 Result<SurfaceFacts> surfaceFacts(const AmtContainer& container);
 
-/// As AmtFile::errorBeyond(), of a file in pages. Errors: those of openAmt().
+/// As AmtFile::errorBeyond(), of a file in pages. Errors: as openAmt().
 Result<double> surfaceErrorBeyond(const AmtContainer& container, std::uint64_t nodes);
 
 }  // namespace arete

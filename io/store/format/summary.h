@@ -21,7 +21,7 @@ struct AmtSummary {
   bool isThere() const { return triangles > 0; }
 };
 
-/// Its numbers as the metadata stores them: absent where there is no summary.
+/// Its numbers as the metadata stores them: absent without a summary.
 struct StoredSummary {
   std::optional<std::uint64_t> triangles = {}, finestTriangles = {};
   std::optional<double> relief = {}, rootError = {};

@@ -13,7 +13,7 @@ namespace arete::packed {
 
 /// What vertices and triangles of a surface in pages carry (docs/topics/amt-format.md, "Surfaces in pages"):
 /// the numbers of the source, wedges, displacements, errors of attributes, and all values. Each segment of a
-/// page carries that of its nodes, behind their streams, so that a part is a model in itself.
+/// page has it for its nodes, behind their streams, so that a part is a model in itself.
 struct CarriedBytes {
   std::vector<std::byte> tables;                            ///< the chunk PNUM
   std::vector<std::vector<std::vector<std::byte>>> ofPage;  ///< by page, by segment
@@ -34,15 +34,15 @@ struct CarriedChunks {
 
 /// Fills vertexOf, faceOf, wedgesOf, displacement, and the values of attributes and of their errors.
 ///
-/// @param nodes  the bytes of all pages, of which those of `pages` are loaded
+/// @param nodes  the bytes of all pages, of which `pages` are loaded
 /// @param pages  those that were unpacked, with their headers read
 /// @param isPart some of the whole model's pages, or nodes of a page, were not unpacked: faces with values
 /// are
 ///               numbered anew (SurfaceModel::partFaces), and wedges
 /// @param model  everything else; attributes and errors are declared and have no values; faces that have
 ///               objects, groups, materials or numbers have one of each
-/// Errors, without a culprit: corrupt. The numbers are below the counts of the metadata, except in a part's
-/// those of wedges and faces, which are rows. O(size), one thread.
+/// Errors, without a culprit: corrupt. Numbers are below the counts of the metadata; a part's wedges and
+/// faces are numbers of rows. O(size), one thread.
 Status unpackCarried(const CarriedChunks& chunks, std::span<const std::byte> nodes, const Directory& pages,
                      bool isPart, SurfaceModel& model);
 

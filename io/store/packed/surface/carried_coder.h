@@ -8,8 +8,8 @@
 // 3. The faces of a star. A triangle that follows one of the floor (successorSlotOf()) has its face; where
 //    coarse triangles have faces of their own, a symbol says which of the floor's, or a new one. The new ones
 //    of a run are sorted by the source's numbers of their corners, and each is predicted from the one before.
-// 4. The wedges of a star's corners: at the link those of the floor and of the star before, at the apex those
-//    of the star before; or the next new wedge of the file; or any.
+// 4. The wedges of a star's corners: at the link what the floor and the star have there, at the apex what the
+//    star has so far; or the next new wedge of the file; or any.
 // 5. Reaches, errors of attributes, and values: of the vertices, and of the faces and wedges that are new
 // here.
 
@@ -230,7 +230,7 @@ class CarriedCoder {
     return true;
   }
 
-  /// The floor's wedges at a vertex, those of the triangle at the edge of the link first.
+  /// The floor's wedges at a vertex, the triangle at the edge of the link first.
   void addFloorWedges(NodeId n, std::uint32_t vertex, std::uint32_t across) {
     for (const bool atEdge : {true, false})
       for (std::size_t f = 0; f < floorCorners_.size(); ++f) {

@@ -16,7 +16,7 @@
 
 namespace arete::packed {
 
-/// The values of faces and wedges, in the order of the file: those of their attributes, and for faces the
+/// The values of faces and wedges, in the order of the file: of their attributes, and for faces the
 /// numbers of object, group, material and of the file's face, as far as there are.
 
 /// The lists of numbers by face.

@@ -26,7 +26,7 @@ inline std::int64_t behind(std::uint32_t x, std::uint32_t before) {
 /// Codes the number that a node's vertex has in the source, against the middle one of its link's: vertices
 /// that are near have near numbers in most files, and in a grid exactly this one.
 ///
-/// @param numbers by vertex; those of the link are known
+/// @param numbers by vertex; the link has its numbers
 /// @param table   the first of kVertexSpreads, by the spread of the link's numbers
 /// @param space   is overwritten
 template <class Io>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What is read of a surface in pages for a request, and that the mesh is that of the whole file.
+// What is read of a surface in pages for a request, and that the mesh does not differ from what the whole
+// file gives.
 #include "io/query/surface/surface_part.h"
 
 #include <gtest/gtest.h>
