@@ -110,7 +110,8 @@ class Unpacking {
       : chunks_(chunks), nodes_(nodes), pages_(pages), isPart_(isPart), model_(model) {}
 
   Status run() {
-    if (!readTables()) return damaged("its tables are");
+    if (!readTables()) return damaged("the tables are");
+    if (leastCarried() > carriedBytes()) return damaged("the looks, or the pages, are");
     allocate();
     for (const Packet& page : pages_.packets)
       if (!readPage(page))
@@ -118,7 +119,7 @@ class Unpacking {
                        fmt::format("page {}: what its triangles carry is damaged", page.number));
     ARETE_CHECK(takeWedges());
     ARETE_CHECK(takeFaces());
-    if (rest_.size() != 0) return damaged("its chunk ATTR is too long, or they are");
+    if (!rest_.empty()) return damaged("the chunk ATTR is");
     return {};
   }
 
@@ -142,6 +143,23 @@ class Unpacking {
     for (std::size_t t = 0; t < kCarriedTables; ++t)
       (*read)[t].writeEntries(&tables_[t * RansTable::kEntries]);
     return true;
+  }
+
+  /// The plain values that vertices and triangles have at least, so that memory is held against the bytes.
+  std::uint64_t leastCarried() const {
+    std::uint64_t triangles = model_.mt.rootTriangleCount(), ofVertex = 0;
+    for (std::uint32_t n = 0; n < model_.mt.nodeCount(); ++n) triangles += model_.mt.ceilingSize(NodeId(n));
+    for (const Attribute& attribute : model_.attributes.vertexAttributes)
+      ofVertex += attribute.elementBytes();
+    const std::uint64_t ofTriangle =
+        sizeof(std::uint16_t) * model_.attributeErrors.size() * (1 + model_.attributeDistances.size());
+    return triangles * ofTriangle + model_.mt.vertexCount() * ofVertex;
+  }
+  std::uint64_t carriedBytes() const {
+    std::uint64_t sum = 0;
+    for (const Packet& page : pages_.packets)
+      for (const Segment& segment : page.segments) sum += segment.carriedBytes;
+    return sum;
   }
 
   void allocate() {
@@ -208,10 +226,10 @@ class Unpacking {
     }
     // The numbers of those that have corners come first.
     const std::uint64_t missing = a.wedgeCount - std::min<std::uint64_t>(a.wedgeCount, order.size());
-    if (missing > rest_.size() / wedges_.valueBytes) return damaged("its wedges are");
+    if (missing > rest_.size() / wedges_.valueBytes) return damaged("the wedges are");
     resizeRows(a.wedgeAttributes, a.wedgeCount);
     for (std::size_t row = 0; row < order.size(); ++row) {
-      if (wedges_.numbers[order[row]] != row) return damaged("its wedges are");
+      if (wedges_.numbers[order[row]] != row) return damaged("the wedges are");
       setWedgeValues(a, row, valuesOf(order[row]));
     }
     for (std::size_t row = order.size(); row < a.wedgeCount; ++row)
@@ -229,7 +247,7 @@ class Unpacking {
     };
     const std::uint64_t rows = isPart_ ? order.size() : model_.sourceFaces;
     if (!isPart_ && (rows < order.size() || rows - order.size() != rest_.size() / faces_.valueBytes))
-      return damaged("its faces are");
+      return damaged("the faces are");
     resizeRows(a.triangleAttributes, rows);
     for (auto* list : faceListsOf(a))
       if (!list->empty()) list->assign(rows, 0);
