@@ -64,6 +64,7 @@ Result<FrameFigures> HeadlessView::draw(const Camera& stated, const RunContext& 
   camera.heightPixels = target_.height();
   ViewSettings settings = settings_;
   settings.waits = true;
+  ARETE_CHECK(scene_.advance(camera, settings, context));
   Result<FrameFigures> figures = scene_.cut(camera, settings, context);
   if (!figures) return figures;
   // The device's cut knows its number of triangles beforehand, but not which tolerance has fewer: doubled
