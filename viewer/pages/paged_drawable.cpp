@@ -163,13 +163,9 @@ Result<FrameFigures> PagedDrawable::cut(const Camera& camera, const ViewSettings
               missingInView(s.shown.model(),
                             {.view = frame.view, .pixels = frame.pixels, .stretch = frame.stretch}, context));
     s.figures.missingTriangles = drawn.missing;
-    if (drawn.missing > 0) {
-      figures.pixels = std::max(figures.pixels, drawn.pixels + frame.morphPixels);
-      figures.isComplete = false;
-    }
-  } else if (s.coarseness > 1) {
+    if (drawn.missing > 0) figures.pixels = std::max(figures.pixels, drawn.pixels + frame.morphPixels);
+  } else {
     figures.pixels *= s.coarseness;
-    figures.isComplete = false;
   }
   figures.pages = s.figures;
   return figures;

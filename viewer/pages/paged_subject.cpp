@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viewer/pages/paged_subject.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <string>
 #include <utility>
+
+#include "engine/mt/multitriangulation.h"
 
 namespace arete {
 
@@ -49,8 +54,15 @@ SubjectFacts PagedSubject::facts() const {
   return outline_->facts();
 }
 
+// The ground is nowhere farther above the outline than the largest error of a triangle that it does not refine.
 Result<FlightPlan> PagedSubject::round(const Camera& from) const {
-  return outline_->round(from);
+  ARETE_TRY(FlightPlan plan, outline_->round(from));
+  const MultiTriangulation& mt = outline_->model().mt;
+  double above = 0;
+  for (std::uint32_t t = 0; t < mt.triangleIdCount(); ++t)
+    if (mt.isRemoverMissing(TriangleId(t))) above = std::max(above, mt.decoded(kAbove, TriangleId(t)));
+  for (Camera& key : plan.keys) key.height += above;
+  return plan;
 }
 
 std::span<const Coloring> PagedSubject::colorings() const {
@@ -61,7 +73,10 @@ std::span<const Coloring> PagedSubject::colorings() const {
 Status PagedSubject::check(const ViewSettings& settings) const {
   if (settings.isCurved)
     return failure(ErrorCode::usage, "the curved Earth is for a model that is read whole", "curvature");
-  ARETE_CHECK(checkColoring(settings.look.coloring));
+  const Coloring coloring = settings.look.coloring;
+  if (coloring == Coloring::slope || coloring == Coloring::aspect)
+    return failure(ErrorCode::usage, "is for a model that is read whole",
+                   "colour by " + std::string(toString(coloring)));
   return outline_->check(settings);
 }
 
