@@ -85,7 +85,9 @@ void ViewerSession::step(const InputState& input) {
   if (!isFrozen)
     settings.pixels = control_.next(
         wantedNow(input),
-        {.milliseconds = history.lastWork(), .triangles = figures.asked, .pixels = figures.pages ? cutSettings.pixels : figures.pixels});
+        {.milliseconds = history.lastWork(),
+         .triangles = figures.asked,
+         .pixels = figures.pages ? cutSettings.pixels : figures.pixels});
 }
 
 // While the camera is at rest a frame may take longer and longer, and the picture becomes as fine as it can;

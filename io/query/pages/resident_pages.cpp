@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "io/files/file_image.h"
 
 namespace arete {
 namespace {
