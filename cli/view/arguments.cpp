@@ -157,9 +157,10 @@ void DetailArguments::addTo(CLI::App& command, OptionKinds& kinds) {
           ->group(group));
   kinds.ofTerrain(
       command
-          .add_option("--page-budget", pageKibibytes,
-                      "Of a file in pages: KiB of pages that are read before a frame of --frames or --film at "
-                      "most (default: as many as the frame needs)")
+          .add_option(
+              "--page-budget", pageKibibytes,
+              "Of a file in pages: KiB of pages that are read before a frame of --frames or --film at "
+              "most (default: as many as the frame needs)")
           ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 30))
           ->type_name("KIB")
           ->group(group));

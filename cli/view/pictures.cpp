@@ -192,7 +192,8 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, HeadlessView& view
   double worst = 0;  // error in pixels of frames whose pages were late
   for (const FilmFrame& frame : frames) {
     // Of a model in pages the ground below the camera may not have been read.
-    const auto ground = subject.heights() && !frame.figures.pages ? subject.heights()->at(frame.camera.xy) : std::nullopt;
+    const auto ground =
+        subject.heights() && !frame.figures.pages ? subject.heights()->at(frame.camera.xy) : std::nullopt;
     buried += ground && frame.camera.height < ground->height ? 1 : 0;
     if (lacksPages(frame.figures)) {
       ++late;
@@ -219,9 +220,9 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, HeadlessView& view
   if (unfinished > 0)
     session.warn(fmt::format("the {} ended the cut of {} of {}", a.detail.whatEndsTheCut(), unfinished, all));
   if (late > 0)
-    session.warn(fmt::format("pages were missing in {} of {}, which {} up to {} coarse", late, all,
-                             late == 1 ? "is" : "are",
-                             std::isfinite(worst) ? fmt::format("{:.3g} pixels", worst) : "any number of pixels"));
+    session.warn(fmt::format(
+        "pages were missing in {} of {}, which {} up to {} coarse", late, all, late == 1 ? "is" : "are",
+        std::isfinite(worst) ? fmt::format("{:.3g} pixels", worst) : "any number of pixels"));
   if (large > 0)
     session.warn(fmt::format("--max-triangles {}: the coarsest {} of {} of {} more", a.detail.maxTriangles,
                              agreeing(frames.size(), "cut", "cuts"), large,

@@ -328,7 +328,8 @@ Status runView(ViewArguments a, Session& session) {
   if (a.viewpoint.parallelHeight > 0) camera.parallelHeight = a.viewpoint.parallelHeight;
   if (const Result<View> seen = subject.viewOf(camera, settings); !seen) return tl::unexpected(seen.error());
   // A camera below the ground may be meant, so it is allowed.
-  if (const auto ground = subject.heights() && !viewed.isOfPages ? subject.heights()->at(camera.xy) : std::nullopt;
+  if (const auto ground =
+          subject.heights() && !viewed.isOfPages ? subject.heights()->at(camera.xy) : std::nullopt;
       ground && camera.height < ground->height)
     session.warn(fmt::format("the camera stands {} under the ground",
                              withUnit(ground->height - camera.height, viewed.georeference.verticalUnit)));

@@ -94,14 +94,13 @@ Result<Camera> cameraOverPages(const ViewArguments& a, const ResidentPages& page
   ARETE_TRY(const Vec2 place, readCameraPlace("--camera", a.viewpoint.camera, toDem));
   QueryFootprint below(outline);
   below.add(outline.toPlan(place));
-  ARETE_TRY(const TerrainModel ground,
-            pages.file().read({.wanted = below.within(0)}, session.context()));
+  ARETE_TRY(const TerrainModel ground, pages.file().read({.wanted = below.within(0)}, session.context()));
   const GroundHeights heights(ground);
-  ARETE_TRY(const CameraArgument stated,
-            readCameraArgument("--camera", a.viewpoint.camera, toDem, heights));
+  ARETE_TRY(const CameraArgument stated, readCameraArgument("--camera", a.viewpoint.camera, toDem, heights));
   if (const auto there = heights.at(stated.camera.xy); there && stated.camera.height < there->height)
-    session.warn(fmt::format("the camera stands {} under the ground",
-                             withUnit(there->height - stated.camera.height, outline.georeference.verticalUnit)));
+    session.warn(
+        fmt::format("the camera stands {} under the ground",
+                    withUnit(there->height - stated.camera.height, outline.georeference.verticalUnit)));
   return stated.camera;
 }
 

@@ -40,8 +40,7 @@ void MappedFile::forget(Part part) const {
   constexpr std::size_t kPage = 4096;
   const auto begin = static_cast<std::size_t>(part.data() - bytes_.data());
   const std::size_t first = (begin + kPage - 1) / kPage * kPage, end = (begin + part.size()) / kPage * kPage;
-  if (first < end)
-    ::madvise(const_cast<std::byte*>(bytes_.data()) + first, end - first, MADV_DONTNEED);
+  if (first < end) ::madvise(const_cast<std::byte*>(bytes_.data()) + first, end - first, MADV_DONTNEED);
 }
 
 }  // namespace arete

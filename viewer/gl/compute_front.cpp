@@ -97,8 +97,8 @@ void ComputeFront::fit(const TerrainOnGpu& t, std::uint32_t mostTriangles) {
     ids_ = makeBuffer(std::size_t(8) * capacity_);
   }
   moving_ = makeBuffer(std::size_t(16) * state.movingCapacity);
-  // A cut that has no room leaves the front before it, which is never empty: the root's triangles are written into
-  // the half that is drawn first, and their ids are 0, 1, 2 ...
+  // A cut that has no room leaves the front before it, which is never empty: the root's triangles are written
+  // into the half that is drawn first, and their ids are 0, 1, 2 ...
   if (t.rootTriangles > 0) {
     std::vector<std::uint32_t> ids(t.rootTriangles);
     std::iota(ids.begin(), ids.end(), 0u);

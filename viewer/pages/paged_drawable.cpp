@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The thread that reads has the pages to itself while it makes a step; the thread that draws touches them only
-// when it waits for its picture, and then no step is under way. A step is handed over behind a lock. The next
-// one is posted when the last was taken in and was not the end of its demand, or the camera has moved.
+// The thread that reads has the pages to itself while it makes a step; the thread that draws touches them
+// only when it waits for its picture, and then no step is under way. A step is handed over behind a lock. The
+// next one is posted when the last was taken in and was not the end of its demand, or the camera has moved.
 #include "viewer/pages/paged_drawable.h"
 
 #include <algorithm>

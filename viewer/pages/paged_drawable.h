@@ -13,14 +13,14 @@
 
 namespace arete {
 
-/// Draws a terrain of which the pages are read that the camera needs. What is drawn is always a cut of a part that covers
-/// the whole plan, so that a page that is late makes the picture coarser in its place, and leaves neither a
-/// hole nor a crack. A part takes the place of another between two pictures; vertices that were on the move
-/// are at rest or move anew after it.
+/// Draws a terrain of which the pages are read that the camera needs. What is drawn is always a cut of a part
+/// that covers the whole plan, so that a page that is late makes the picture coarser in its place, and leaves
+/// neither a hole nor a crack. A part takes the place of another between two pictures; vertices that were on
+/// the move are at rest or move anew after it.
 ///
-/// Where a picture waits for its cut (ViewSettings::waits), advance() reads at most ViewSettings::pageBytes, and
-/// pictures depend on the cameras before them alone. Else a thread of its own reads and unpacks, and advance()
-/// takes what is done. In an OpenGL context that is current, for one camera at a time.
+/// Where a picture waits for its cut (ViewSettings::waits), advance() reads at most ViewSettings::pageBytes,
+/// and pictures depend on the cameras before them alone. Else a thread of its own reads and unpacks, and
+/// advance() takes what is done. In an OpenGL context that is current, for one camera at a time.
 class PagedDrawable final : public Drawable {
  public:
   /// Errors: as TerrainDrawable::create().

@@ -54,7 +54,8 @@ SubjectFacts PagedSubject::facts() const {
   return outline_->facts();
 }
 
-// The ground is nowhere farther above the outline than the largest error of a triangle that it does not refine.
+// The ground is nowhere farther above the outline than the largest error of a triangle that it does not
+// refine.
 Result<FlightPlan> PagedSubject::round(const Camera& from) const {
   ARETE_TRY(FlightPlan plan, outline_->round(from));
   const MultiTriangulation& mt = outline_->model().mt;

@@ -231,8 +231,7 @@ double TerrainSubject::boundAt(const Pick& pick, double allowed) const {
           std::max({bound, model_.mt.decoded(kAbove, t->triangle), model_.mt.decoded(kBelow, t->triangle)});
   // Of a part of a model the finest triangle there may stand for finer ones.
   if (t && model_.mt.isRemoverMissing(t->triangle))
-    bound =
-        std::max({bound, model_.mt.decoded(kAbove, t->triangle), model_.mt.decoded(kBelow, t->triangle)});
+    bound = std::max({bound, model_.mt.decoded(kAbove, t->triangle), model_.mt.decoded(kBelow, t->triangle)});
   return bound;
 }
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A demand is a ladder of choices: around the picture, as needed, and then with errors that grow by the root of
-// two from rung to rung, down to the root alone. The pages of a rung hold those of the next one. A step takes the
-// finest rung whose pages fit into the budget and of which no more is to be read than the step may; it is found
-// by bisection, as both fall from rung to rung. What the step may still read is spent on the rung above, in the
-// order of the file, which has the pages that others depend on before them; so a step that may read little
-// goes on all the same. Only when the rung is as fine as the budget allows are the pages of places
-// ahead read, into room that nothing else needs.
+// A demand is a ladder of choices: around the picture, as needed, and then with errors that grow by the root
+// of two from rung to rung, down to the root alone. The pages of a rung hold those of the next one. A step
+// takes the finest rung whose pages fit into the budget and of which no more is to be read than the step may;
+// it is found by bisection, as both fall from rung to rung. What the step may still read is spent on the rung
+// above, in the order of the file, which has the pages that others depend on before them; so a step that may
+// read little goes on all the same. Only when the rung is as fine as the budget allows are the pages of
+// places ahead read, into room that nothing else needs.
 //
-// A page in memory is the beginning of it, down to some segment. Pages of the rung that is taken are marked as
-// used before others are given back, so that what is drawn is never dropped for what is not.
+// A page in memory is the beginning of it, down to some segment. Pages of the rung that is taken are marked
+// as used before others are given back, so that what is drawn is never dropped for what is not.
 #include "io/query/pages/resident_pages.h"
 
 #include <algorithm>
@@ -70,7 +70,8 @@ class ResidentPages::Stepping {
       ARETE_TRY(choice, chosen([](const Box3&) { return kNothing; }, kNothing));
     } else {
       const double factor = std::exp2(0.5 * static_cast<double>(i - 1));
-      ARETE_TRY(choice, chosen([factor, required](const Box3& box) { return factor * required(box); }, factor));
+      ARETE_TRY(choice,
+                chosen([factor, required](const Box3& box) { return factor * required(box); }, factor));
     }
     return &*choice;
   }
@@ -162,7 +163,8 @@ class ResidentPages::Stepping {
     return p_.file_.container().loadParts(parts, context_);
   }
 
-  /// Reads of pages, in their order, what this step may still read and what there is room for. @param one at least
+  /// Reads of pages, in their order, what this step may still read and what there is room for. @param one at
+  /// least
   Status readSome(const std::vector<PageNeed>& pages, bool one) {
     use(pages);
     std::vector<PageNeed> some;

@@ -23,17 +23,19 @@ struct PageDemand {
   RequiredError ahead = {};   ///< by pictures that are expected; it may lie elsewhere
 };
 
-/// The pages of a file in pages that are in memory, packed, within a budget of bytes; and a part of the model that is
-/// made of them. Each step reads some pages that a demand needs and gives back those that were used longest ago.
+/// The pages of a file in pages that are in memory, packed, within a budget of bytes; and a part of the model
+/// that is made of them. Each step reads some pages that a demand needs and gives back those that were used
+/// longest ago.
 ///
-/// The part is always a multitriangulation in itself, with every ancestor of its nodes, so that each cut of it covers
-/// the whole plan: a page that is not there yet makes the cut coarser (Cut::missing) and never leaves a hole. Where
-/// the budget or the bytes of a step do not allow the errors that are needed, the part allows the least multiple of
-/// them, the same everywhere. Steps with one demand lead to a part that depends neither on the demands before nor
-/// on the bytes of a step, and then read nothing. No result depends on threads.
+/// The part is always a multitriangulation in itself, with every ancestor of its nodes, so that each cut of
+/// it covers the whole plan: a page that is not there yet makes the cut coarser (Cut::missing) and never
+/// leaves a hole. Where the budget or the bytes of a step do not allow the errors that are needed, the part
+/// allows the least multiple of them, the same everywhere. Steps with one demand lead to a part that depends
+/// neither on the demands before nor on the bytes of a step, and then read nothing. No result depends on
+/// threads.
 ///
-/// Not thread-safe: one thread at a time, and no other reads pages of the same open file meanwhile. The parts are
-/// models of their own and stay valid.
+/// Not thread-safe: one thread at a time, and no other reads pages of the same open file meanwhile. The parts
+/// are models of their own and stay valid.
 class ResidentPages {
  public:
   static constexpr std::uint64_t kUsualBytes = std::uint64_t{64} << 20;
@@ -64,8 +66,9 @@ class ResidentPages {
     bool isDone = false;              ///< a further step for the same demand changes nothing
   };
   /// @param mostBytes that are read; where a single page has more, that page.
-  /// Errors: those of AmtFile::pagesFor() and AmtFile::read(). O(pages of the directory that the demand meets, times
-  /// the logarithm of how much coarser the part has to be) and, where the part changes, O(part), parallel.
+  /// Errors: those of AmtFile::pagesFor() and AmtFile::read(). O(pages of the directory that the demand
+  /// meets, times the logarithm of how much coarser the part has to be) and, where the part changes, O(part),
+  /// parallel.
   Result<Step> step(const PageDemand& demand, std::uint64_t mostBytes, const RunContext& context = {});
 
  private:

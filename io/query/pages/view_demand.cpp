@@ -74,8 +74,7 @@ std::optional<View> viewAhead(const View& before, const View& now, double times)
 
 Result<DrawnOfPart> missingInView(const TerrainModel& part, const ViewDemand& demand,
                                   const RunContext& context) {
-  const MultiTriangulation mt =
-      demand.stretch == 1 ? part.mt : exaggerated(part.mt, demand.stretch);
+  const MultiTriangulation mt = demand.stretch == 1 ? part.mt : exaggerated(part.mt, demand.stretch);
   const ViewError error({.view = demand.view, .pixels = demand.pixels}, mt.metric());
   ARETE_TRY(const Cut cut, takeCut(mt, error, {.method = CutMethod::saturated}, context));
   DrawnOfPart drawn{.missing = static_cast<std::uint32_t>(cut.missing.size())};

@@ -17,8 +17,8 @@ class ViewOfPages : public Cli {
     ASSERT_EQ(run({"build", "dem.tif", "-o", "paged.amt", "--paged", "-q"}).code, 0);
   }
   Outcome shoot(std::vector<std::string> more) const {
-    std::vector<std::string> words = {"view", "paged.amt", "--screenshot", "view.png",
-                                      "--size", "200x120", "--json"};
+    std::vector<std::string> words = {"view",   "paged.amt", "--screenshot", "view.png",
+                                      "--size", "200x120",   "--json"};
     words.insert(words.end(), more.begin(), more.end());
     return run(words);
   }
@@ -77,7 +77,8 @@ TEST_F(ViewOfPages, FliesWithABudgetAFrameAndGivesTheFiguresOfEach) {
 }
 
 TEST_F(ViewOfPages, SaysSoWhereTheBudgetOfMemoryIsTooSmallForItsTolerance) {
-  const Outcome shot = shoot({"--page-memory", "1", "--pixel-error", "0.001", "--camera", "130,130,20,0,-20"});
+  const Outcome shot =
+      shoot({"--page-memory", "1", "--pixel-error", "0.001", "--camera", "130,130,20,0,-20"});
   if (isWithoutOpenGl(shot)) GTEST_SKIP() << shot.err;
   ASSERT_EQ(shot.code, 0) << shot.err;
   const auto figures = shot.json()["screenshot"]["figures"];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Pictures of a terrain whose pages come late: no hole, no crack, and within the tolerance when the camera stands
-// still.
+// Pictures of a terrain whose pages come late: no hole, no crack, and within the tolerance when the camera
+// stands still.
 #include "viewer/pages/paged_drawable.h"
 
 #include <gtest/gtest.h>

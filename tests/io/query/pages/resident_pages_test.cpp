@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a camera has of a model in pages, against what went wrong in other programs: holes where pages are late or
-// were given back for others, budgets that are exceeded, pages that are read and dropped in turn without end,
-// readers that stand still before their budget is used, and pictures that depend on where the camera was before.
+// What a camera has of a model in pages, against what went wrong in other programs: holes where pages are
+// late or were given back for others, budgets that are exceeded, pages that are read and dropped in turn
+// without end, readers that stand still before their budget is used, and pictures that depend on where the
+// camera was before.
 #include "io/query/pages/resident_pages.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +70,8 @@ View viewFrom(double x, double y, double above, double pitch = -0.5) {
   const Vec3 ground = model.mt.metric().toMetric({x * model.columns, y * model.rows, 0});
   const double side = std::abs(model.mt.metric().scale.x) * model.columns;
   View view;
-  view.eye = {ground.x, ground.y, model.mt.largestError() * std::abs(model.mt.metric().scale.z) + above * side};
+  view.eye = {ground.x, ground.y,
+              model.mt.largestError() * std::abs(model.mt.metric().scale.z) + above * side};
   view.forward = {0.3, 1, pitch};
   view.widthPixels = 640;
   view.heightPixels = 400;
@@ -245,7 +247,8 @@ TEST(ResidentPages, OfAStepAreNoMoreBytesThanItMayReadOrOnePage) {
   Random random(8);
   for (int i = 0; i < 40; ++i) {
     const View view = viewFrom(random.between(0, 1), random.between(0, 1), random.between(0.001, 0.3));
-    EXPECT_LE(got(pages.step(demandFor(view, pages), 10'000)).bytes, std::max<std::uint64_t>(largest, 10'000));
+    EXPECT_LE(got(pages.step(demandFor(view, pages), 10'000)).bytes,
+              std::max<std::uint64_t>(largest, 10'000));
   }
 }
 
