@@ -29,7 +29,8 @@ using test::mountains;
 struct Paged {
   Paged() : path(fs::temp_directory_path() / ("arete-pages-" + std::to_string(::getpid()) + ".amt")) {
     EXPECT_TRUE(writeAmt(path.string(), mountains(), {}, {.isPaged = true}));
-    for (const PageNeed& need : *openAmt(path.string())->pagesFor({})) bytes += need.bytes.size();
+    const auto pages = openAmt(path.string())->pagesFor({});
+    for (const PageNeed& need : *pages) bytes += need.bytes.size();
   }
   ~Paged() { fs::remove(path); }
   Result<PagedDrawable> drawable(std::uint64_t mostBytes, CutPath cut = CutPath::device) const {

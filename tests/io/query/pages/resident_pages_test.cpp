@@ -48,7 +48,7 @@ struct Filed {
     whole = built(build(fractal->make(420, 380, 5)));
     const Status written = writeAmt(folder.file("model.amt"), whole, {}, {.isPaged = true});
     if (!written) throw std::runtime_error(written.error().describe());
-    for (const PageNeed& need : *file().pagesFor({})) bytes += need.bytes.size();
+    for (const PageNeed& need : got(file().pagesFor({}))) bytes += need.bytes.size();
   }
   AmtFile file() const { return *openAmt(folder.file("model.amt")); }
   ResidentPages open(std::uint64_t mostBytes = ResidentPages::kUsualBytes) const {
@@ -230,8 +230,8 @@ TEST(ResidentPages, AreTheSameForAnyNumberOfThreads) {
   Random random(7);
   for (int i = 0; i < 12; ++i) {
     const View view = viewFrom(random.between(0, 1), random.between(0, 1), random.between(0.001, 0.3));
-    const auto a = got(one.step(demandFor(view, one), 40'000, {.threads = 1}));
-    const auto b = got(four.step(demandFor(view, four), 40'000, {.threads = 4}));
+    const auto a = got(one.step(demandFor(view, one), 40'000, {.progress = {}, .threads = 1}));
+    const auto b = got(four.step(demandFor(view, four), 40'000, {.progress = {}, .threads = 4}));
     EXPECT_EQ(a.bytes, b.bytes);
     EXPECT_EQ(a.residentBytes, b.residentBytes);
     EXPECT_TRUE(std::ranges::equal(a.part->mt.arrays().link, b.part->mt.arrays().link));
@@ -242,7 +242,7 @@ TEST(ResidentPages, OfAStepAreNoMoreBytesThanItMayReadOrOnePage) {
   const Filed& filed = mountains();
   ResidentPages pages = filed.open();
   std::uint64_t largest = 0;
-  for (const PageNeed& need : *filed.file().pagesFor({}))
+  for (const PageNeed& need : got(filed.file().pagesFor({})))
     largest = std::max<std::uint64_t>(largest, need.bytes.size());
   Random random(8);
   for (int i = 0; i < 40; ++i) {
