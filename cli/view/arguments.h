@@ -48,10 +48,13 @@ struct ViewpointArguments {
 /// How fine the terrain is drawn. Times in milliseconds; 0 = no limit.
 struct DetailArguments {
   double pixelError = 1, frameTime = 0, deadline = 0;
-  std::string budget;             ///< as stated: a number, or a share of the finest; empty = any number
-  std::int64_t maxTriangles = 0;  ///< 0 = any number
-  std::string cut;                ///< empty: device
-  bool isFixed = false;           ///< no geomorphing
+  std::string budget;               ///< as stated: a number, or a share of the finest; empty = any number
+  std::int64_t maxTriangles = 0;    ///< 0 = any number
+  std::string cut;                  ///< empty: device
+  bool isFixed = false;             ///< no geomorphing
+  std::int64_t pageMebibytes = 64;  ///< of packed pages in memory; 0: all of the model is read at once
+  std::int64_t pageKibibytes =
+      0;  ///< of pages that are read before a frame of a flight; 0 = as many as it needs
 
   void addTo(CLI::App& command, OptionKinds& kinds);
   /// Sets maxTriangles, of a model whose finest triangulation has so many. Errors: usage.

@@ -9,8 +9,8 @@
 
 #include "cli/view/layer_argument.h"
 #include "surface/front/front.h"
-#include "viewer/inks/distance_colors.h"
 #include "viewer/fronts/drawn_vertices.h"
+#include "viewer/inks/distance_colors.h"
 
 namespace arete {
 namespace {

@@ -57,6 +57,13 @@ Json jsonOf(const FrameFigures& f, const Subject& subject) {
                {"drawMilliseconds", f.drawMilliseconds},
                {"moving", f.moving},
                {"jumpPixels", number(f.jumpPixels)}};
+  if (f.pages)
+    json["pages"] = {{"read", f.pages->pages},
+                     {"bytes", f.pages->bytes},
+                     {"missing", f.pages->missingPages},
+                     {"missingBytes", f.pages->missingBytes},
+                     {"residentBytes", f.pages->residentBytes},
+                     {"missingTriangles", f.pages->missingTriangles}};
   return json;
 }
 
@@ -85,6 +92,10 @@ tl::unexpected<Error> namedByOption(const Error& error, const ViewArguments& a) 
   if (culprit == "maxTriangles") culprit = fmt::format("--max-triangles {}", a.detail.maxTriangles);
   if (culprit == "camera" && !a.viewpoint.camera.empty()) culprit = "--camera " + a.viewpoint.camera;
   return failure(error.code, error.message, culprit);
+}
+
+bool lacksPages(const FrameFigures& figures) {
+  return figures.pages && figures.pages->missingTriangles > 0;
 }
 
 /// The nodes around the eye, whose pixels nothing bounds, are in every cut of the device.
@@ -146,7 +157,10 @@ Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView
   ARETE_TRY(const Image picture, view.picture());
   ARETE_CHECK(savePng(picture, a.pictures.screenshot));
   if (!figures->isShown) session.warn(fmt::format("the picture shows nothing of the {}", subject.kind()));
-  if (!figures->isComplete)
+  if (lacksPages(*figures))
+    session.warn(fmt::format("the pages that --page-memory has room for are too few: the {} is {}",
+                             subject.kind(), accuracyOf(*figures)));
+  else if (!figures->isComplete)
     session.warn(fmt::format("the {} ended the cut: the {} is {}", a.detail.whatEndsTheCut(), subject.kind(),
                              accuracyOf(*figures)));
   if (exceedsBudget(a, *figures))
@@ -174,11 +188,19 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, HeadlessView& view
   // figures list every frame; they go to a file of their own only if one is named.
   Json list = Json::array();
   std::uint64_t triangles = 0;
-  std::size_t unfinished = 0, empty = 0, large = 0, buried = 0;
+  std::size_t unfinished = 0, empty = 0, large = 0, buried = 0, late = 0;
+  double worst = 0;  // error in pixels of frames whose pages were late
   for (const FilmFrame& frame : frames) {
-    const auto ground = subject.heights() ? subject.heights()->at(frame.camera.xy) : std::nullopt;
+    // Of a model in pages the ground below the camera may not have been read.
+    const auto ground =
+        subject.heights() && !frame.figures.pages ? subject.heights()->at(frame.camera.xy) : std::nullopt;
     buried += ground && frame.camera.height < ground->height ? 1 : 0;
-    unfinished += frame.figures.isComplete ? 0 : 1;
+    if (lacksPages(frame.figures)) {
+      ++late;
+      worst = std::max(worst, frame.figures.pixels);
+    } else {
+      unfinished += frame.figures.isComplete ? 0 : 1;
+    }
     empty += frame.figures.isShown ? 0 : 1;
     large += exceedsBudget(a, frame.figures) ? 1 : 0;
     triangles += frame.figures.triangles;
@@ -197,6 +219,10 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, HeadlessView& view
   if (buried > 0) session.warn(fmt::format("the camera stands under the ground in {} of {}", buried, all));
   if (unfinished > 0)
     session.warn(fmt::format("the {} ended the cut of {} of {}", a.detail.whatEndsTheCut(), unfinished, all));
+  if (late > 0)
+    session.warn(fmt::format(
+        "pages were missing in {} of {}, which {} up to {} coarse", late, all, late == 1 ? "is" : "are",
+        std::isfinite(worst) ? fmt::format("{:.3g} pixels", worst) : "any number of pixels"));
   if (large > 0)
     session.warn(fmt::format("--max-triangles {}: the coarsest {} of {} of {} more", a.detail.maxTriangles,
                              agreeing(frames.size(), "cut", "cuts"), large,

@@ -29,8 +29,10 @@
 #include "io/query/extract/camera_argument.h"
 #include "io/query/extract/model.h"
 #include "io/query/extract/model_file.h"
+#include "io/query/pages/resident_pages.h"
 #include "io/query/scene/open_scene.h"
 #include "io/query/source/any_model.h"
+#include "io/store/amt/file.h"
 #include "viewer/camera/flight_json.h"
 #include "viewer/headless/headless.h"
 #include "viewer/marks/space_marks.h"
@@ -97,6 +99,17 @@ Status refuseForScenes(const ViewArguments& a, const OpenScene& scene) {
   return scene.terrain ? Status() : refuseOtherKinds(a, ModelKind::surface);
 }
 
+/// Why a model in pages is to be read whole, as words of a message; empty: it need not be.
+std::string needOfWhole(const ViewArguments& a) {
+  const AppearanceArguments& look = a.appearance;
+  if (look.isCurved) return "--curvature";
+  if (!look.drapes.empty()) return "--drape";
+  if (!look.layers.empty()) return "--layer";
+  if (look.contours > 0) return "--contours";
+  if (look.color == "slope" || look.color == "aspect") return "--color " + look.color;
+  return a.detail.pageMebibytes == 0 ? "--page-memory 0" : "";
+}
+
 /// What was opened, and how.
 struct Opening {
   Opened opened;
@@ -104,10 +117,17 @@ struct Opening {
   bool isBuilt = false;  ///< of a DEM or a mesh, in memory
 };
 
-Result<Opening> open(const std::string& path, std::optional<AmtContainer> file, const RunContext& context) {
+/// @param pageBytes of a terrain in pages that stays in its file; 0: it is read whole
+Result<Opening> open(const std::string& path, std::optional<AmtContainer> file, std::uint64_t pageBytes,
+                     const RunContext& context) {
   const auto asOpened = [](Model model) {
     return std::visit([](auto&& one) { return Opened(std::move(one)); }, std::move(model));
   };
+  if (file && pageBytes > 0) {
+    ARETE_TRY(AmtFile terrain, openAmt(std::move(*file)));
+    ARETE_TRY(ResidentPages pages, ResidentPages::open(std::move(terrain), pageBytes, context));
+    return Opening{.opened = std::make_unique<ResidentPages>(std::move(pages))};
+  }
   if (file) {
     ARETE_TRY(Model model, readModel(std::move(*file), context));
     return Opening{.opened = asOpened(std::move(model))};
@@ -129,6 +149,14 @@ Result<std::optional<Opened>> openModelOf(const ViewArguments& a, std::optional<
                                           GlfwWindow* window, Session& session) {
   const Stopwatch watch;
   const bool mayBuild = !file && !isSceneFile(a.model);
+  std::uint64_t pageBytes = 0;
+  if (file && file->isPaged() && !file->isOfSurface() && a.viewpoint.beside.empty()) {
+    const std::string need = needOfWhole(a);
+    if (need.empty())
+      pageBytes = std::uint64_t(a.detail.pageMebibytes) << 20;
+    else if (a.detail.pageMebibytes > 0)
+      session.note(fmt::format("{} needs all of the model, which is read before the first picture", need));
+  }
   std::optional<Opening> opening;
   const auto openIt = [&](const RunContext& context) -> Status {
     if (!a.viewpoint.beside.empty()) {
@@ -137,7 +165,7 @@ Result<std::optional<Opened>> openModelOf(const ViewArguments& a, std::optional<
       opening = Opening{.opened = std::move(both), .warnings = std::move(warnings)};
       return {};
     }
-    ARETE_TRY(opening, open(a.model, std::move(file), context));
+    ARETE_TRY(opening, open(a.model, std::move(file), pageBytes, context));
     return {};
   };
   const std::string name = std::filesystem::path(a.model).filename().string();
@@ -300,7 +328,8 @@ Status runView(ViewArguments a, Session& session) {
   if (a.viewpoint.parallelHeight > 0) camera.parallelHeight = a.viewpoint.parallelHeight;
   if (const Result<View> seen = subject.viewOf(camera, settings); !seen) return tl::unexpected(seen.error());
   // A camera below the ground may be meant, so it is allowed.
-  if (const auto ground = subject.heights() ? subject.heights()->at(camera.xy) : std::nullopt;
+  if (const auto ground =
+          subject.heights() && !viewed.isOfPages ? subject.heights()->at(camera.xy) : std::nullopt;
       ground && camera.height < ground->height)
     session.warn(fmt::format("the camera stands {} under the ground",
                              withUnit(ground->height - camera.height, viewed.georeference.verticalUnit)));
@@ -353,6 +382,7 @@ Status runView(ViewArguments a, Session& session) {
     if (viewed.layers) viewed.layers->warnOfLabels(view.scene(), session);
   }
   view.scene().layers.remove(SpaceMarks::kOrbit);  // a flight turns about nothing
+  view.setPageBytes(std::uint64_t(a.detail.pageKibibytes) << 10);
   if (!a.pictures.frames.empty()) ARETE_CHECK(makeFilm(a, *flight, view, session, json));
   session.answer(json);
   return {};

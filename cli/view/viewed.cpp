@@ -4,6 +4,8 @@
 // afterwards, by functions that keep the models.
 #include "cli/view/viewed.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -17,10 +19,12 @@
 #include "cli/view/beside.h"
 #include "io/geo/crs/data_unit.h"
 #include "io/query/extract/camera_argument.h"
+#include "io/query/extract/query_footprint.h"
 #include "viewer/gl/terrain_drawable.h"
 #include "viewer/heights/contour_labels.h"
 #include "viewer/inks/distance_colors.h"
 #include "viewer/layers/contour_heights.h"
+#include "viewer/pages/paged_drawable.h"
 #include "viewer/scene/scene_subject.h"
 #include "viewer/surface/surface_drawable.h"
 
@@ -79,6 +83,54 @@ Result<Viewed> viewedTerrain(const ViewArguments& a, std::shared_ptr<const Terra
     ARETE_TRY(const std::vector<ContourLabel> labels, contourLabels(*model, every));
     ARETE_TRY(auto written, ContourHeights::create(labels));
     return Layer::Drawn(std::move(written));
+  };
+  return viewed;
+}
+
+/// Of a stated camera, the ground below it read for its height.
+Result<Camera> cameraOverPages(const ViewArguments& a, const ResidentPages& pages, Session& session) {
+  const TerrainModel& outline = *pages.outline();
+  ARETE_TRY(const auto toDem, transformOfPlaces(a.viewpoint.isLonLat, outline));
+  ARETE_TRY(const Vec2 place, readCameraPlace("--camera", a.viewpoint.camera, toDem));
+  QueryFootprint below(outline);
+  below.add(outline.toPlan(place));
+  ARETE_TRY(const TerrainModel ground, pages.file().read({.wanted = below.within(0)}, session.context()));
+  const GroundHeights heights(ground);
+  ARETE_TRY(const CameraArgument stated, readCameraArgument("--camera", a.viewpoint.camera, toDem, heights));
+  if (const auto there = heights.at(stated.camera.xy); there && stated.camera.height < there->height)
+    session.warn(
+        fmt::format("the camera stands {} under the ground",
+                    withUnit(there->height - stated.camera.height, outline.georeference.verticalUnit)));
+  return stated.camera;
+}
+
+Result<Viewed> viewedPages(const ViewArguments& a, std::unique_ptr<ResidentPages> opened, Session& session) {
+  const std::shared_ptr<const TerrainModel> outline = opened->outline();
+  const auto subject = std::make_shared<PagedSubject>(outline);
+  ARETE_CHECK(checkGroundUnits(outline->georeference, {a.appearance.hazeWithUnit}));
+  Viewed viewed{.subject = subject,
+                .finestTriangles = opened->file().summary().finestTriangles,
+                .georeference = outline->georeference,
+                .turns = LongitudeTurns(*outline),
+                .source = outline->source,
+                .isOfPages = true,
+                .addModel = {}};
+  if (!a.viewpoint.camera.empty()) {
+    ARETE_TRY(viewed.camera, cameraOverPages(a, *opened, session));
+  }
+  if (const std::string word = a.appearance.colors.wordOfSea(a.appearance.color, *outline); !word.empty())
+    session.warn(Warnings{{WarningCode::display, word}}, a.model);
+  if (a.appearance.colors.isStated()) {
+    Warnings said;
+    ARETE_TRY(const TerrainColors colors, a.appearance.colors.of(a.appearance.color, *outline, said));
+    session.warn(said, a.appearance.colors.ramp);
+    viewed.colors = std::make_shared<const TerrainColors>(colors);
+  }
+  const std::shared_ptr<ResidentPages> pages = std::move(opened);
+  viewed.addModel = [&a, &session, pages, subject](Scene& scene) -> Status {
+    ARETE_TRY(PagedDrawable made,
+              PagedDrawable::create(std::move(*pages), subject, terrainOptions(a), session.context()));
+    return scene.add(std::make_unique<PagedDrawable>(std::move(made)));
   };
   return viewed;
 }
@@ -264,6 +316,8 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
 Result<Viewed> viewedOf(const ViewArguments& a, Opened opened, Session& session) {
   if (auto* terrain = std::get_if<TerrainModel>(&opened))
     return viewedTerrain(a, std::make_shared<const TerrainModel>(std::move(*terrain)), session);
+  if (auto* pages = std::get_if<std::unique_ptr<ResidentPages>>(&opened))
+    return viewedPages(a, std::move(*pages), session);
   if (auto* surface = std::get_if<SurfaceModel>(&opened)) return viewedSurface(a, std::move(*surface));
   return viewedScene(a, std::get<OpenScene>(std::move(opened)), session);
 }

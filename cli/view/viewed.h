@@ -14,6 +14,7 @@
 #include "engine/base/result.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/query/extract/model.h"
+#include "io/query/pages/resident_pages.h"
 #include "io/query/scene/open_scene.h"
 #include "viewer/gl/scene.h"
 #include "viewer/scene/heights_of_contours.h"
@@ -32,6 +33,7 @@ struct Viewed {
   std::vector<std::string> files = {};               ///< by object; empty of a terrain
   std::shared_ptr<const TerrainColors> colors = {};  ///< that are stated
   std::shared_ptr<const StatedLayers> layers = {};   ///< over a terrain
+  bool isOfPages = false;                            ///< a terrain that is read as the camera needs it
   FillScene addModel;                                ///< keeps the model
   WriteHeights heightsOfContours = {};               ///< as addModel; empty of a surface
   /// Of the heights on the device; null until the model is added, and of a surface.
@@ -41,7 +43,7 @@ struct Viewed {
 };
 
 /// What `arete view` opens.
-using Opened = std::variant<TerrainModel, SurfaceModel, OpenScene>;
+using Opened = std::variant<TerrainModel, SurfaceModel, OpenScene, std::unique_ptr<ResidentPages>>;
 
 /// Reads what the arguments name for it: the camera, colours, layers. Errors: usage and of the files, by
 /// option.

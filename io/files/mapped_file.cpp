@@ -35,4 +35,12 @@ void MappedFile::adviseRandomAccess() const {
   ::madvise(const_cast<std::byte*>(bytes_.data()), bytes_.size(), MADV_RANDOM);
 }
 
+// What another part of the mapping needs too, on the first and the last page of memory, stays.
+void MappedFile::forget(Part part) const {
+  constexpr std::size_t kPage = 4096;
+  const auto begin = static_cast<std::size_t>(part.data() - bytes_.data());
+  const std::size_t first = (begin + kPage - 1) / kPage * kPage, end = (begin + part.size()) / kPage * kPage;
+  if (first < end) ::madvise(const_cast<std::byte*>(bytes_.data()) + first, end - first, MADV_DONTNEED);
+}
+
 }  // namespace arete

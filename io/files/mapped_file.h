@@ -21,6 +21,7 @@ class MappedFile final : public FileImage {
   ~MappedFile() override;
 
   void adviseRandomAccess() const override;
+  void forget(Part part) const override;
 
  private:
   MappedFile(const std::byte* begin, std::size_t size) { bytes_ = {begin, size}; }

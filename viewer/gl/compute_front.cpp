@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 
 #include "viewer/gl/gl_program.h"
 
@@ -70,25 +71,45 @@ Result<ComputeFront> ComputeFront::create(const TerrainOnGpu& t, std::uint32_t m
         program(f.step_, {"front_state.glsl", "morph_step.comp.glsl"})})
     if (!ok) return tl::unexpected(ok.error());
 
+  f.fit(t, mostTriangles);
+  return f;
+}
+
+void ComputeFront::fit(const TerrainOnGpu& t, std::uint32_t mostTriangles) {
   // Two halves of the index buffer are kept, one drawn while the other is written: 12 bytes of corners and 4
   // bytes of id for each triangle, twice.
-  f.capacity_ = std::max(mostTriangles, t.rootTriangles);
-  f.memberWords_ = std::max(1u, 2 * t.blocks);
+  const std::uint32_t before = capacity_;
+  capacity_ = std::max(mostTriangles, t.rootTriangles);
+  memberWords_ = std::max(1u, 2 * t.blocks);
   State state;
-  state.capacity = f.capacity_;
+  state.capacity = capacity_;
   state.rootTriangles = t.rootTriangles;
   state.rootVertices = t.rootVertices;
   state.nodes = t.nodeCount;
-  state.movingCapacity = std::min(f.capacity_, t.nodeCount);
-  f.state_ = makeBuffer(sizeof state, &state);
-  f.pageList_ = makeBuffer(std::size_t(4) * t.pages);
-  f.blockList_ = makeBuffer(std::size_t(4) * t.blocks);
-  f.members_ = makeBuffer(std::size_t(4) * f.memberWords_);
-  f.indices_ = makeBuffer(std::size_t(24) * f.capacity_);
-  f.ids_ = makeBuffer(std::size_t(8) * f.capacity_);
-  f.moving_ = makeBuffer(std::size_t(16) * state.movingCapacity);
-  for (Copy& copy : f.copies_) copy.buffer = makeBuffer(sizeof state);
-  return f;
+  state.draw = {3 * t.rootTriangles, 1, 0, 0, 0};
+  state.movingCapacity = std::min(capacity_, t.nodeCount);
+  state_ = makeBuffer(sizeof state, &state);
+  pageList_ = makeBuffer(std::size_t(4) * t.pages);
+  blockList_ = makeBuffer(std::size_t(4) * t.blocks);
+  members_ = makeBuffer(std::size_t(4) * memberWords_);
+  if (before != capacity_) {
+    indices_ = makeBuffer(std::size_t(24) * capacity_);
+    ids_ = makeBuffer(std::size_t(8) * capacity_);
+  }
+  moving_ = makeBuffer(std::size_t(16) * state.movingCapacity);
+  // A cut that has no room leaves the front before it, which is never empty: the root's triangles are written
+  // into the half that is drawn first, and their ids are 0, 1, 2 ...
+  if (t.rootTriangles > 0) {
+    std::vector<std::uint32_t> ids(t.rootTriangles);
+    std::iota(ids.begin(), ids.end(), 0u);
+    glCopyNamedBufferSubData(t.roots, indices_, 0, 0, GLsizeiptr(12) * t.rootTriangles);
+    glNamedBufferSubData(ids_, 0, GLsizeiptr(4) * t.rootTriangles, ids.data());
+  }
+  for (Copy& copy : copies_) {
+    if (copy.fence) glDeleteSync(copy.fence);
+    copy = {makeBuffer(sizeof state), nullptr};
+  }
+  late_ = {};
 }
 
 // Each stage reads what the one before has written, so every dispatch ends with a barrier. Later stages take

@@ -24,6 +24,10 @@ class ComputeFront {
   /// terrain.refusal or by the driver.
   static Result<ComputeFront> create(const TerrainOnGpu& terrain, std::uint32_t mostTriangles);
 
+  /// Makes room for another terrain in place of the one before; the programs stay. Its front is the root's
+  /// triangles until the next cut. Precondition: no refusal.
+  void fit(const TerrainOnGpu& terrain, std::uint32_t mostTriangles);
+
   /// The frame's block lies in uniform buffer binding 0. Steps of geomorphing: as many as there may be moving
   /// nodes one under the other; more change nothing.
   void cut(const TerrainOnGpu& terrain, bool isMorphing, int morphSteps = 12);

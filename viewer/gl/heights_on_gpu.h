@@ -18,6 +18,8 @@ struct HeightsOptions {
   std::uint64_t mostBytes = std::uint64_t(512) << 20;
   /// Of a tile, in texels, at least 4; 0 = as suits the terrain.
   std::uint32_t tileSide = 0;
+  /// Nothing is kept: what is painted takes the heights and slopes of the triangles that are drawn.
+  bool isOfDrawn = false;
 };
 
 /// A HeightPyramid in graphics memory, of any size: every level cut into tiles of two array textures

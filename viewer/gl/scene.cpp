@@ -68,6 +68,13 @@ ViewSettings Scene::settingsOf(std::size_t model, const ViewSettings& shared) co
   return own;
 }
 
+Status Scene::advance(const Camera& camera, const ViewSettings& settings, const RunContext& context) {
+  const ViewSettings shared = sharedOf(settings);
+  for (std::size_t i = 0; i < drawables_.size(); ++i)
+    if (objects()[i].isShown) ARETE_CHECK(drawables_[i]->advance(camera, settingsOf(i, shared), context));
+  return {};
+}
+
 Result<FrameFigures> Scene::cut(const Camera& camera, const ViewSettings& settings,
                                 const RunContext& context) {
   FrameFigures sum;
@@ -88,6 +95,7 @@ Result<FrameFigures> Scene::cut(const Camera& camera, const ViewSettings& settin
     sum.isComplete = sum.isComplete && figures.isComplete;
     sum.jumpPixels = std::fmax(sum.jumpPixels, figures.jumpPixels);
     sum.cutMilliseconds += figures.cutMilliseconds;
+    if (figures.pages) sum.pages = figures.pages;
   }
   return sum;
 }

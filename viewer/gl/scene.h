@@ -48,6 +48,8 @@ class Scene {
   /// Of the model, where it is one; else of all. Precondition: there is one. Valid until the next add().
   const Subject& subject() const;
 
+  /// Before the cuts of a picture: Drawable::advance() of all models that are shown.
+  Status advance(const Camera& camera, const ViewSettings& settings, const RunContext& context = {});
   /// The cuts of all models that are shown; figures are added up, the worst tolerance and jump count. Errors:
   /// as Drawable::cut().
   Result<FrameFigures> cut(const Camera& camera, const ViewSettings& settings,

@@ -25,6 +25,7 @@ Result<TerrainDrawable> TerrainDrawable::create(std::shared_ptr<const TerrainSub
   ARETE_TRY(TerrainPainter painter, TerrainPainter::create(model, options.heights, context));
   TerrainDrawable made(std::move(subject), uploadTerrain(model.mt, nullptr, context), std::move(painter));
   made.drawn_ = options.path;
+  made.mostTriangles_ = options.mostTriangles;
   // If the device cannot compute cuts, the processor takes over, and the refusal gives the reason.
   if (made.terrain_.refusal.empty()) {
     Result<ComputeFront> device = ComputeFront::create(made.terrain_, options.mostTriangles);
@@ -34,6 +35,18 @@ Result<TerrainDrawable> TerrainDrawable::create(std::shared_ptr<const TerrainSub
       made.terrain_.refusal = device.error().describe();
   }
   return made;
+}
+
+// The processor's front and the rises are of vertices that are gone. Moving vertices begin anew at rest.
+void TerrainDrawable::replace(std::shared_ptr<const TerrainSubject> subject, const RunContext& context) {
+  processor_.reset();
+  subject_ = std::move(subject);
+  mt_ = model().mt;
+  terrain_ = {};
+  terrain_ = uploadTerrain(mt_, nullptr, context);
+  if (device_ && terrain_.refusal.empty()) device_->fit(terrain_, mostTriangles_);
+  hasRises_ = false;
+  isBent_ = false;
 }
 
 Status TerrainDrawable::prepare(const ViewSettings& settings) {
@@ -84,7 +97,7 @@ Result<FrameFigures> TerrainDrawable::cut(const Camera& camera, const ViewSettin
   FrameFigures figures;
   figures.pixels = settings.pixels;
   const Stopwatch watch;
-  if (settings.path == CutPath::device && device_ && !settings.level) {
+  if (settings.path == CutPath::device && device_ && terrain_.refusal.empty() && !settings.level) {
     // Vertices that the device's cut would leave moved are put at rest before it.
     if (hasRises_ && (!settings.isGeomorphed || drawn_ == CutPath::processor)) {
       glClearNamedBufferData(terrain_.rises, GL_R32F, GL_RED, GL_FLOAT, nullptr);

@@ -34,6 +34,9 @@ class TerrainDrawable final : public Drawable {
   /// With a subject of its own.
   static Result<TerrainDrawable> create(const TerrainModel& model, const Options& options,
                                         const RunContext& context = {});
+  /// Draws another model of the same map, a part of the whole as a rule, from the next cut on, with the same
+  /// programs and colours. What is painted on the ground stays. Precondition: as create(); one metric space.
+  void replace(std::shared_ptr<const TerrainSubject> subject, const RunContext& context = {});
   const TerrainSubject& subject() const override { return *subject_; }
   Result<FrameView> frameOf(const Camera& camera, const ViewSettings& settings) const override;
   Result<FrameFigures> cut(const Camera& camera, const ViewSettings& settings,
@@ -85,6 +88,7 @@ class TerrainDrawable final : public Drawable {
   double processorStretch_ = 1;
   bool hasRises_ = false;  // of vertices that the device's cut would not put to rest
   CutPath drawn_ = CutPath::device;
+  std::uint32_t mostTriangles_ = 0;
   GlQuery anySample_ = makeQuery(GL_ANY_SAMPLES_PASSED);  // of the terrain, when it was drawn last
   bool isBent_ = false;
   double bentStretch_ = 1;

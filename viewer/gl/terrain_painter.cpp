@@ -65,7 +65,11 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model, const H
 
   {
     // The pyramid is freed as soon as the device has it.
-    ARETE_TRY(const HeightPyramid pyramid, HeightPyramid::create(model, {}, context));
+    const auto made = [&]() -> Result<HeightPyramid> {
+      if (options.isOfDrawn) return HeightPyramid::none();
+      return HeightPyramid::create(model, {}, context);
+    };
+    ARETE_TRY(const HeightPyramid pyramid, made());
     ARETE_TRY(HeightsOnGpu heights, HeightsOnGpu::load(pyramid, options, context));
     p.heights_ = std::move(heights);
   }

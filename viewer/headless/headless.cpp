@@ -64,6 +64,7 @@ Result<FrameFigures> HeadlessView::draw(const Camera& stated, const RunContext& 
   camera.heightPixels = target_.height();
   ViewSettings settings = settings_;
   settings.waits = true;
+  ARETE_CHECK(scene_.advance(camera, settings, context));
   Result<FrameFigures> figures = scene_.cut(camera, settings, context);
   if (!figures) return figures;
   // The device's cut knows its number of triangles beforehand, but not which tolerance has fewer: doubled
@@ -96,6 +97,8 @@ Result<FrameFigures> HeadlessView::draw(const Camera& stated, const RunContext& 
     if (canFit && !fits()) ARETE_CHECK(cutAt(coarse));
     figures->isComplete = false;
   }
+  // A page that is not there is no reason for a coarser cut, so it counts only now.
+  if (figures->pages && figures->pages->missingTriangles > 0) figures->isComplete = false;
   // The time of drawing ends when the device has finished, and not when the last call returns.
   const Stopwatch watch;
   target_.begin();

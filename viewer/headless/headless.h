@@ -49,6 +49,9 @@ class HeadlessView {
   /// the scene as it is. Errors: as Canvas::create().
   Result<Image> picture();
 
+  /// From the next picture on: ViewSettings::pageBytes.
+  void setPageBytes(std::uint64_t bytes) { settings_.pageBytes = bytes; }
+
   Scene& scene() { return scene_; }
   /// The renderer's name and the version of OpenGL.
   const std::string& description() const { return context_.description(); }

@@ -182,6 +182,13 @@ Result<HeightPyramid> HeightPyramid::create(const TerrainModel& model, const Pyr
   return caughtFailure();
 }
 
+HeightPyramid HeightPyramid::none() {
+  HeightPyramid pyramid;
+  pyramid.levels_.push_back({.columns = 1, .rows = 1, .heights = {kNone}, .ground = {Ground{}}});
+  pyramid.spacing_ = {1, 1};
+  return pyramid;
+}
+
 std::optional<double> HeightPyramid::heightAt(Vec2 plan) const {
   const Level& level = levels_.front();
   if (level.columns < 2 || level.rows < 2) return std::nullopt;

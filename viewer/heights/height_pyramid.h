@@ -51,6 +51,9 @@ class HeightPyramid {
   static Result<HeightPyramid> create(const TerrainModel& model, const PyramidOptions& options = {},
                                       const RunContext& context = {});
 
+  /// One node without data.
+  static HeightPyramid none();
+
   const std::vector<Level>& levels() const { return levels_; }
   /// Plan position p is at node p * scale() + shift() of level 0, and at (q + 1/2) / 2^k - 1/2 of level k.
   Vec2 scale() const { return scale_; }

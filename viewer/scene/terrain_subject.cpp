@@ -224,10 +224,14 @@ std::optional<Pick> TerrainSubject::pickFlat(const View& view, Vec2 pixel, const
 double TerrainSubject::boundAt(const Pick& pick, double allowed) const {
   const TriangleLocator& locator = profiles_.heights().locator();
   double bound = 0;
-  for (auto t = locator.inRoot(pick.plan); t && !locator.isFinest(*t); t = locator.finer(*t, pick.plan))
+  auto t = locator.inRoot(pick.plan);
+  for (; t && !locator.isFinest(*t); t = locator.finer(*t, pick.plan))
     if (model_.mt.error(t->triangle) <= allowed)
       bound =
           std::max({bound, model_.mt.decoded(kAbove, t->triangle), model_.mt.decoded(kBelow, t->triangle)});
+  // Of a part of a model the finest triangle there may stand for finer ones.
+  if (t && model_.mt.isRemoverMissing(t->triangle))
+    bound = std::max({bound, model_.mt.decoded(kAbove, t->triangle), model_.mt.decoded(kBelow, t->triangle)});
   return bound;
 }
 

@@ -96,6 +96,17 @@ struct ViewSettings {
   Vec3 contentsMiddle = {};
   double contentsRadius = 0;
   std::optional<HandLevel> level = {};  ///< instead of the tolerance and the budget
+  /// Of a model that is read in pages: bytes that are read before a picture; 0 = as many as it needs.
+  std::uint64_t pageBytes = 0;
+};
+
+/// What was read of the pages of a model before a picture, and what the picture lacks of them.
+struct PageFigures {
+  std::uint64_t pages = 0, bytes = 0;                ///< that were read since the picture before
+  std::uint64_t missingPages = 0, missingBytes = 0;  ///< that the camera needs and are not in memory
+  std::uint64_t residentBytes = 0;                   ///< in memory, packed
+  /// Triangles of the picture that are too coarse because what refines them is not there.
+  std::uint32_t missingTriangles = 0;
 };
 
 /// What a frame took, and what it shows.
@@ -110,6 +121,7 @@ struct FrameFigures {
   double jumpPixels = std::numeric_limits<double>::quiet_NaN();
   double cutMilliseconds = 0, drawMilliseconds = 0;
   bool isShown = true;  ///< false: nothing but the background; of pictures without a window
+  std::optional<PageFigures> pages = {};  ///< of a model that is read in pages
 };
 
 /// The parameters of a frame of one model: its cut and its projection.

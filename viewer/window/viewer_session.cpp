@@ -83,9 +83,10 @@ void ViewerSession::step(const InputState& input) {
   readCursor(input);
   // Nothing to learn from a cut that stays as it is.
   if (!isFrozen)
-    settings.pixels = control_.next(
-        wantedNow(input),
-        {.milliseconds = history.lastWork(), .triangles = figures.asked, .pixels = figures.pixels});
+    settings.pixels =
+        control_.next(wantedNow(input), {.milliseconds = history.lastWork(),
+                                         .triangles = figures.asked,
+                                         .pixels = figures.pages ? cutSettings.pixels : figures.pixels});
 }
 
 // While the camera is at rest a frame may take longer and longer, and the picture becomes as fine as it can;

@@ -211,6 +211,7 @@ class WindowLoop {
     ViewSettings settings = s.settings;
     settings.waits = settings.waits || files_.has_value();
     if (!s.isFrozen || !hasCut_) {
+      ARETE_CHECK(scene_.advance(s.rig.camera(), settings, context));
       ARETE_TRY(s.figures, scene_.cut(s.rig.camera(), settings, context));
       s.cutSettings = settings;
       hasCut_ = true;

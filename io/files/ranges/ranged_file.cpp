@@ -97,6 +97,17 @@ std::optional<Error> RangedFile::problem() const {
   return problem_;
 }
 
+// A block that lies in the part wholly is no longer marked before its bytes become zeros.
+void RangedFile::forget(Part part) const {
+  const auto begin = static_cast<std::uint64_t>(part.data() - bytes_.data());
+  const std::uint64_t first = (begin + kBlockBytes - 1) / kBlockBytes,
+                      end = (begin + part.size()) / kBlockBytes;
+  if (part.empty() || first >= end) return;
+  const std::lock_guard lock(mutex_);
+  for (std::uint64_t b = first; b < end; ++b) isLoaded_[b].store(false, std::memory_order_release);
+  static_cast<void>(::madvise(begin_ + first * kBlockBytes, (end - first) * kBlockBytes, MADV_DONTNEED));
+}
+
 /// The blocks of parts that are not there.
 std::vector<ByteRange> RangedFile::missing(std::span<const Part> parts) const {
   std::vector<ByteRange> ranges;

@@ -48,6 +48,7 @@ class RangedFile final : public FileImage {
   bool load(Part part) const override { return loadParts({&part, 1}); }
   /// Reports "fetch" as its progress where it takes more than a few requests.
   bool loadParts(std::span<const Part> parts, const RunContext& context = {}) const override;
+  void forget(Part part) const override;
   bool isFar() const override { return true; }
   /// unreadable: a request failed, or the file was replaced. interrupted. Nothing is asked for after that.
   std::optional<Error> problem() const override;

@@ -12,6 +12,7 @@
 #include "io/store/amt/container.h"
 #include "io/store/format/columns.h"
 #include "io/store/format/layout.h"
+#include "io/store/format/page_need.h"
 #include "io/store/format/required_error.h"
 #include "io/store/format/summary.h"
 #include "terrain/model/terrain_model.h"
@@ -94,6 +95,11 @@ class AmtFile {
   /// (io/store/packed/packed.h). Errors, naming the path: those of checkAmt() and unpackMt(). O(size of the
   /// part); O(triangles) if everything is required, or the file is plain and has no checksums of segments.
   Result<TerrainModel> read(const AmtReadOptions& options = {}, const RunContext& context = {}) const;
+
+  /// The pages of a paged file that read() would use for a requirement, in the order of the file, without
+  /// reading one. Of another file nothing. Errors, naming the path: those of neededPages() and of loading the
+  /// directory. O(blocks of the directory used + pages in them).
+  Result<std::vector<PageNeed>> pagesFor(const RequiredError& wanted, const RunContext& context = {}) const;
 
   /// The model without its isolated samples and fixed vertices. Its arrays have the sizes that engine/mt
   /// states. Their content is unchecked: no algorithm may follow their indices before checkAmtIndices().

@@ -5,6 +5,7 @@
 // more.
 #include <fmt/format.h>
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -133,6 +134,19 @@ Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const 
   ARETE_CHECK(container_.loaded());
   if (!mt) return failure(mt.error().code, mt.error().message, path());
   return mt;
+}
+
+Result<std::vector<PageNeed>> AmtFile::pagesFor(const RequiredError& wanted, const RunContext& context) const {
+  if (!isPaged()) return std::vector<PageNeed>();
+  const std::array<FileImage::Part, 1> directory = {packedDirectory_};
+  ARETE_CHECK(container_.loadParts(directory, context));
+  auto needs = neededPages(*metadata_, {packedDirectory_, packedTables_, pageBlocks_, packedNodes_}, wanted,
+                           [&](std::span<const FileImage::Part> parts) {
+                             return container_.loadParts(parts, context);
+                           });
+  ARETE_CHECK(container_.loaded());
+  if (!needs) return failure(needs.error().code, needs.error().message, path());
+  return needs;
 }
 
 // The isolated samples and the fixed vertices are copied into the model, while the arrays of the MT stay

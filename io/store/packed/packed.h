@@ -11,6 +11,7 @@
 #include "engine/mt/multitriangulation.h"
 #include "engine/parallel/run_context.h"
 #include "io/store/format/load_parts.h"
+#include "io/store/format/page_need.h"
 #include "io/store/format/required_error.h"
 #include "io/store/packed/nodes/layout.h"
 #include "terrain/model/terrain_model.h"
@@ -77,6 +78,14 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, const packed::PagedMt& paged,
                                     const RequiredError& wanted, const RunContext& context,
                                     const LoadParts& load);
+
+/// The pages that unpackMt() would use, in the order of the file, without reading one: each comes after those that
+/// it depends on. What is needed where more error is allowed is a part of it.
+///
+/// @param load for blocks
+/// Errors, without a culprit: corrupt: a damaged block, a page outside the file. O(blocks used + pages in them).
+Result<std::vector<PageNeed>> neededPages(const AmtMetadata& metadata, const packed::PagedMt& paged,
+                                          const RequiredError& wanted, const LoadParts& load);
 
 /// How a surface is packed.
 struct SurfacePackOptions {

@@ -206,6 +206,17 @@ Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& c
   });
 }
 
+/// All segments of a page that was chosen; nothing of a page without one. Errors: corrupt.
+Result<std::span<const std::byte>> bytesOf(const packed::PagedMt& paged, const packed::Packet& page) {
+  if (page.segments.empty()) return std::span<const std::byte>();
+  const packed::Segment& last = page.segments.back();
+  const std::uint64_t begin = page.segments[0].begin(), end = last.begin() + last.bytes();
+  // The offset may be any 64-bit number, so that the end wraps around.
+  if (begin > end || end > paged.nodes.size())
+    return failure(ErrorCode::corrupt, fmt::format("page {}: lies behind the end", page.number));
+  return paged.nodes.subspan(begin, end - begin);
+}
+
 /// Checks what was loaded of a page, and reads its headers.
 /// @return what is wrong with it
 std::optional<std::string> openPage(const packed::PagedMt& paged, std::uint32_t lowest, std::uint64_t roots,
@@ -235,13 +246,8 @@ Result<UnpackedPages> unpack(const packed::MtKind& kind, const AmtCounts& counts
   directory.isOfSurface = !kind.hasPlan();
   std::vector<std::span<const std::byte>> parts;
   for (const packed::Packet& page : directory.packets) {
-    if (page.segments.empty()) continue;
-    const packed::Segment& last = page.segments.back();
-    const std::uint64_t begin = page.segments[0].begin(), end = last.begin() + last.bytes();
-    // The offset may be any 64-bit number, so that the end wraps around.
-    if (begin > end || end > paged.nodes.size())
-      return failure(ErrorCode::corrupt, fmt::format("page {}: lies behind the end", page.number));
-    parts.push_back(paged.nodes.subspan(begin, end - begin));
+    ARETE_TRY(const auto part, bytesOf(paged, page));
+    if (!part.empty()) parts.push_back(part);
   }
   if (load) ARETE_CHECK(load(parts));
   const std::uint64_t roots = counts.rootVertices + counts.rootTriangles;
@@ -315,6 +321,23 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, const packed::P
                                     const LoadParts& load) try {
   ARETE_TRY(UnpackedPages unpacked, unpack(kindOf(metadata), metadata.counts, paged, wanted, context, load));
   return std::move(unpacked.mt);
+} catch (...) {
+  return caughtFailure();
+}
+
+Result<std::vector<PageNeed>> neededPages(const AmtMetadata& metadata, const packed::PagedMt& paged,
+                                          const RequiredError& wanted, const LoadParts& load) try {
+  std::string problem;
+  const auto root = packed::pageRootOf(paged.root, problem);
+  if (!root) return failure(ErrorCode::corrupt, "the directory of its pages " + problem);
+  ARETE_TRY(const auto choice, packed::choosePages(*root, paged.blocks, wanted, metadata.scale, load));
+  std::vector<PageNeed> needs;
+  for (std::size_t i = 0; i < choice.directory.packets.size(); ++i) {
+    const packed::Packet& page = choice.directory.packets[i];
+    ARETE_TRY(const auto bytes, bytesOf(paged, page));
+    needs.push_back({page.number, choice.lowest[i], bytes});
+  }
+  return needs;
 } catch (...) {
   return caughtFailure();
 }

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
+#include "io/store/amt/file.h"
+#include "io/store/format/page_need.h"
+#include "io/store/format/required_error.h"
+#include "terrain/model/terrain_model.h"
+
+namespace arete {
+
+/// What pictures ask of the pages of a model. Each requires at least the errors of the one before; null: the
+/// same.
+struct PageDemand {
+  RequiredError needed;       ///< by the next picture
+  RequiredError around = {};  ///< by pictures from places near by too
+  RequiredError ahead = {};   ///< by pictures that are expected; it may lie elsewhere
+};
+
+/// The pages of a file in pages that are in memory, packed, within a budget of bytes; and a part of the model
+/// that is made of them. Each step reads some pages that a demand needs and gives back those that were used
+/// longest ago.
+///
+/// The part is always a multitriangulation in itself, with every ancestor of its nodes, so that each cut of
+/// it covers the whole plan: a page that is not there yet makes the cut coarser (Cut::missing) and never
+/// leaves a hole. Where the budget or the bytes of a step do not allow the errors that are needed, the part
+/// allows the least multiple of them, the same everywhere. Steps with one demand lead to a part that depends
+/// neither on the demands before nor on the bytes of a step, and then read nothing. No result depends on
+/// threads.
+///
+/// Not thread-safe: one thread at a time, and no other reads pages of the same open file meanwhile. The parts
+/// are models of their own and stay valid.
+class ResidentPages {
+ public:
+  static constexpr std::uint64_t kUsualBytes = std::uint64_t{64} << 20;
+  /// About as many nodes are in the part of the beginning.
+  static constexpr std::uint64_t kOutlineNodes = 8000;
+
+  /// Reads a part of some thousand nodes, the coarsest ones. Precondition: the file is in pages.
+  ///
+  /// @param mostBytes of pages in memory. The pages of the root are there even so.
+  /// Errors: those of AmtFile::read().
+  static Result<ResidentPages> open(AmtFile file, std::uint64_t mostBytes = kUsualBytes,
+                                    const RunContext& context = {});
+
+  /// The part of the beginning, which stays.
+  const std::shared_ptr<const TerrainModel>& outline() const { return outline_; }
+  const AmtFile& file() const { return file_; }
+
+  struct Step {
+    std::shared_ptr<const TerrainModel> part;
+    bool isNew = false;  ///< another part than after the step before
+    /// The part allows errors so many times as large as those that are needed, at most; 1: it has all that
+    /// is needed. Infinite: nothing but the root is sure.
+    double coarseness = 1;
+    std::uint64_t pages = 0, bytes = 0;  ///< that this step read
+    /// What the next picture needs and is not in memory after the step.
+    std::uint64_t missingPages = 0, missingBytes = 0;
+    std::uint64_t residentBytes = 0;  ///< after the step
+    bool isDone = false;              ///< a further step for the same demand changes nothing
+  };
+  /// @param mostBytes that are read; where a single page has more, that page.
+  /// Errors: those of AmtFile::pagesFor() and AmtFile::read(). O(pages of the directory that the demand
+  /// meets, times the logarithm of how much coarser the part has to be) and, where the part changes, O(part),
+  /// parallel.
+  Result<Step> step(const PageDemand& demand, std::uint64_t mostBytes, const RunContext& context = {});
+
+ private:
+  /// The beginning of a page in memory.
+  struct Resident {
+    std::span<const std::byte> bytes;
+    std::uint64_t usedAt = 0;  ///< the last step that had a use for it
+  };
+  /// One choice of a demand: its requirement, its pages, and what they weigh.
+  struct Choice {
+    RequiredError required;
+    std::vector<PageNeed> pages;
+    std::uint64_t bytes = 0, newBytes = 0;
+    double coarseness = 1;
+  };
+  class Stepping;
+
+  ResidentPages(AmtFile file, std::uint64_t mostBytes) : file_(std::move(file)), mostBytes_(mostBytes) {}
+  std::uint64_t newBytesOf(const PageNeed& need) const;
+  bool partHas(const std::vector<PageNeed>& pages) const;
+  void makeRoom(std::uint64_t bytes);
+  void forget(std::uint64_t page);
+
+  AmtFile file_;
+  std::uint64_t mostBytes_, bytes_ = 0, now_ = 0;
+  std::map<std::uint64_t, Resident> resident_;  // by page, which is the order of the file
+  std::shared_ptr<const TerrainModel> outline_, part_;
+  std::vector<PageNeed> partPages_;  // that part_ was made of
+};
+
+}  // namespace arete
