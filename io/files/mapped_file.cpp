@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <system_error>
 
 #include "io/files/open_plain.h"
@@ -33,6 +35,19 @@ MappedFile::~MappedFile() {
 
 void MappedFile::adviseRandomAccess() const {
   ::madvise(const_cast<std::byte*>(bytes_.data()), bytes_.size(), MADV_RANDOM);
+}
+
+// The pages stay in the system's cache of files. A fault maps up to 64 KiB around what is touched, so what
+// lies beside the part goes too.
+void releaseMapped(const FileImage& image, FileImage::Part part) {
+  if (part.empty() || dynamic_cast<const MappedFile*>(&image) == nullptr) return;
+  constexpr std::uintptr_t kAround = std::uintptr_t{1} << 16;
+  const auto addressOf = [](const std::byte* byte) { return reinterpret_cast<std::uintptr_t>(byte); };
+  const std::uintptr_t begin = addressOf(image.bytes().data()), end = begin + image.bytes().size();
+  const std::uintptr_t first = std::max(addressOf(part.data()) / kAround * kAround, begin);
+  const std::uintptr_t last =
+      std::min((addressOf(part.data()) + part.size() + kAround - 1) / kAround * kAround, end);
+  ::madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);
 }
 
 }  // namespace arete

@@ -26,4 +26,9 @@ class MappedFile final : public FileImage {
   MappedFile(const std::byte* begin, std::size_t size) { bytes_ = {begin, size}; }
 };
 
+/// Says that a part of an image is not used for a while. Of a mapped file its pages, and those within 64 KiB
+/// of it, go back to the system; they can be used again, and are then read again. Of another image nothing
+/// happens. Thread-safe.
+void releaseMapped(const FileImage& image, FileImage::Part part);
+
 }  // namespace arete

@@ -5,11 +5,15 @@
 // is read whole.
 #include <fmt/format.h>
 
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "engine/base/caught_failure.h"
+#include "engine/memory/required_memory.h"
 #include "engine/mt/node_blocks.h"
+#include "io/files/mapped_file.h"
+#include "io/store/amt/block_parts.h"
 #include "io/store/amt/file.h"
 #include "io/store/amt/finest_triangles.h"
 #include "io/store/amt/index_check.h"
@@ -44,6 +48,10 @@ class AmtOpener {
   AmtFile& file_;
   const AmtContainer& all_;
 };
+
+namespace {
+constexpr std::string_view kPagesNeedLess = "of a model in pages (`paged`) only what is asked for is read";
+}  // namespace
 
 static_assert(sizeof(Vec2) == 16 && sizeof(Sphere) == 16 && sizeof(std::array<std::uint32_t, 3>) == 12);
 
@@ -123,6 +131,8 @@ double AmtFile::errorBeyond(std::uint64_t nodes) const {
 /// A part is read alone where the file's segments have checksums of their own; otherwise everything is loaded
 /// and checked. A failed read of the file is reported before the failure to unpack that it causes.
 Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const RunContext& context) const {
+  // The arrays of a plain file are used where they are mapped, and all of them may be touched.
+  if (!isPacked()) requireMemory(container_.bytes().size(), kPagesNeedLess);
   const bool isPart = options.wanted && options.verify != AmtVerify::none && !isPacked() && hasSegments();
   if (isPart) return readAmtPart(*this, options.wanted, options.verify, context);
   ARETE_CHECK(loadAllButPacked(context));
@@ -130,13 +140,19 @@ Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const 
   if (!isPacked()) return model_.mt;
   const AmtContainer& all = container_;
   const LoadParts load = [&](std::span<const FileImage::Part> parts) {
-    return all.loadParts(parts, context);
+    return all.loadParts(isPaged() && all.owner()->isFar() ? withBlocksJoined(parts, pageBlocks_, packedNodes_)
+                                                           : std::vector(parts.begin(), parts.end()),
+                         context);
   };
   Result<MultiTriangulation> mt =
       isPaged() ? unpackMt(*metadata_, {packedDirectory_, packedTables_, pageBlocks_, packedNodes_},
                            options.wanted, context, load)
                 : unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options.wanted, context,
                            load);
+  if (memoryBudget() > 0) {
+    releaseMapped(*container_.owner(), packedNodes_);
+    releaseMapped(*container_.owner(), pageBlocks_);
+  }
   ARETE_CHECK(container_.loaded());
   if (!mt) return failure(mt.error().code, mt.error().message, path());
   return mt;
@@ -332,6 +348,7 @@ Result<SurfaceModel> loadSurfaceAmt(const AmtContainer& container, AmtVerify ver
                                     const RunContext& context) try {
   if (!container.isOfSurface())
     return failure(ErrorCode::unsupported, "is of terrain, and a surface is wanted here", container.path());
+  requireMemory(container.bytes().size(), "build a smaller surface");
   ARETE_CHECK(container.loadAll(context));
   const Result<SurfaceMetadata> metadata = fromSurfaceJson(container.metadata());
   if (!metadata) return container.corrupt(fmt::format("chunk META: {}", metadata.error().message));
