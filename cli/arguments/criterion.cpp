@@ -384,8 +384,7 @@ Result<std::vector<CriterionArguments::OfTerrain>> CriterionArguments::criteria(
   }
   std::vector<StatedTriangles> budgets(1);
   if (hasBudget()) {
-    ARETE_TRY(auto stated,
-              parseTriangleBudgets(maxTriangles_, wholes ? wholes->triangles : 0));
+    ARETE_TRY(auto stated, parseTriangleBudgets(maxTriangles_, wholes ? wholes->triangles : 0));
     budgets = std::move(stated);
   }
   std::vector<OfTerrain> all;

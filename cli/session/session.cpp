@@ -16,8 +16,8 @@
 #include <utility>
 
 #include "cli/cache/cache_argument.h"
+#include "cli/memory/memory_option.h"
 #include "cli/session/interrupt.h"
-#include "cli/session/memory_option.h"
 #include "cli/session/named_files.h"
 #include "cli/session/next_step.h"
 #include "cli/session/option_names.h"

@@ -307,8 +307,8 @@ Status runLosOfScene(const LosArguments& a, Session& session) {
           site.height->kind = HeightKind::seaLevel;  // z, from the scene's own zero
   }
   ARETE_TRY(const auto earth, a.sight.makeEarth(model, session));
-  ARETE_TRY(auto answers, answerLines({pairs, typedEnds(a), options, *earth, a.method, a.model}, model,
-                                      session.context()));
+  ARETE_TRY(auto answers,
+            answerLines({pairs, typedEnds(a), options, *earth, a.method, a.model}, model, session.context()));
   return reportLos(a, {model, pairs, *earth, exact, &scene}, answers, session);
 }
 
@@ -324,8 +324,8 @@ Status runLos(const LosArguments& a, Session& session) {
   ARETE_TRY(const TerrainError maxError, terrainErrorOf(a.maxError, file, session));
   ARETE_TRY(const auto options, optionsOf(a, maxError.value, outline, session));
   ARETE_TRY(const auto earth, a.sight.makeEarth(outline, session));
-  ARETE_TRY(auto answers, answerLines({pairs, typedEnds(a), options, *earth, a.method, a.model}, file, outline,
-                                      session));
+  ARETE_TRY(auto answers,
+            answerLines({pairs, typedEnds(a), options, *earth, a.method, a.model}, file, outline, session));
   return reportLos(a, {outline, pairs, *earth, maxError}, answers, session);
 }
 

@@ -59,8 +59,7 @@ Result<LosAnswers> answerLines(const LosQuestion& question, const TerrainModel& 
   for (const SightPath& path : all.rows.paths)
     all.buried.push_back({depthBelowGround(path.from, path.fromHeight, heights),
                           depthBelowGround(path.to, path.toHeight, heights)});
-  all.method =
-      bestMethod(question.method, question.options.sight.maxError, all.rows.paths.size(), model);
+  all.method = bestMethod(question.method, question.options.sight.maxError, all.rows.paths.size(), model);
   if (!model.isRaster && all.method != SightMethod::descent)
     return failure(ErrorCode::usage, fmt::format("requires a raster; {} is made of points", question.model),
                    fmt::format("--method {}", toString(all.method)));

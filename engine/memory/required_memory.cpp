@@ -47,6 +47,10 @@ std::string decimal(std::uint64_t bytes) {
   return n >= 1e9 ? fmt::format("{:.1f} GB", n / 1e9) : fmt::format("{:.1f} MB", n / 1e6);
 }
 
+/// What the program takes before it has read anything: itself, and the libraries and tables that it loads on
+/// its way.
+constexpr std::uint64_t kProgram = std::uint64_t{56} << 20;
+
 /// More than libraries allocate beside our own bulk.
 constexpr std::uint64_t kRoom = std::uint64_t{4} << 20;
 
@@ -56,7 +60,8 @@ std::uint64_t stackBytes() noexcept {
   constexpr std::uint64_t kUsual = std::uint64_t{8} << 20;
   const bool isKnown = getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur != RLIM_INFINITY;
   const long threads = sysconf(_SC_NPROCESSORS_ONLN);
-  return (isKnown ? std::uint64_t{stack.rlim_cur} : kUsual) * static_cast<std::uint64_t>(std::max(threads, 1L));
+  return (isKnown ? std::uint64_t{stack.rlim_cur} : kUsual) *
+         static_cast<std::uint64_t>(std::max(threads, 1L));
 }
 
 bool isLimited = false;
@@ -64,7 +69,8 @@ bool isLimited = false;
 void limitData(std::uint64_t bytes) noexcept {
   rlimit limit{};
   if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
-  const std::uint64_t most = limit.rlim_max == RLIM_INFINITY ? ~std::uint64_t{0} : std::uint64_t{limit.rlim_max};
+  const std::uint64_t most =
+      limit.rlim_max == RLIM_INFINITY ? ~std::uint64_t{0} : std::uint64_t{limit.rlim_max};
   limit.rlim_cur = static_cast<rlim_t>(std::min(bytes, most));
   isLimited = setrlimit(RLIMIT_DATA, &limit) == 0;
 }
@@ -74,7 +80,7 @@ void limitData(std::uint64_t bytes) noexcept {
 void setMemoryBudget(std::uint64_t bytes) noexcept {
   const Taken now = taken();
   budget = bytes;
-  atStart = now.resident;
+  atStart = std::max(now.resident, kProgram);
   if (bytes > 0 && now.writable > 0) limitData(now.writable + bytes + kRoom + stackBytes());
 }
 
@@ -92,9 +98,10 @@ Status checkBudget(std::uint64_t bytes, std::string_view wayOut) {
   if (all == 0) return {};
   const std::uint64_t used = memoryInUse(), left = all > used ? all - used : 0;
   if (bytes <= left) return {};
-  return failure(ErrorCode::outOfMemory,
-                 fmt::format("needs about {} of memory, and {} of the {} of `memory` are left{}{}",
-                             decimal(bytes), decimal(left), decimal(all), wayOut.empty() ? "" : ": ", wayOut));
+  return failure(
+      ErrorCode::outOfMemory,
+      fmt::format("needs about {} of memory, and {} of the {} of `memory` are left{}{}", decimal(bytes),
+                  decimal(left), decimal(all), wayOut.empty() ? "" : ": ", wayOut));
 }
 
 void requireMemory(std::uint64_t bytes, std::string_view wayOut) {

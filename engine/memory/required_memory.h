@@ -11,17 +11,17 @@ namespace arete {
 // The memory budget of the process: this is the one place that knows it. What takes memory in bulk asks here
 // first, and says what would take less.
 
-/// Sets how many bytes the process may take beyond those that it has now: the program itself, about 50 MB, is
-/// not counted. Memory that is allocated without a question is limited too: a little above the budget
-/// allocations fail. Call it once, before threads are started.
+/// Sets how many bytes the process may take beyond those that it has now, or beyond 56 MiB if that is more:
+/// the program itself is not counted. Memory that is allocated without a question is limited too: a little
+/// above the budget allocations fail. Call it once, before threads are started.
 ///
 /// @param bytes  0: as many as the machine has (the default).
 void setMemoryBudget(std::uint64_t bytes) noexcept;
 /// @return 0 where there is none
 std::uint64_t memoryBudget() noexcept;
 
-/// The bytes in physical memory beyond those at setMemoryBudget(), pages of mapped files included. O(1), a
-/// call of the system. Thread-safe.
+/// The bytes in physical memory beyond those that setMemoryBudget() leaves out, pages of mapped files
+/// included. O(1), a call of the system. Thread-safe.
 std::uint64_t memoryInUse() noexcept;
 
 /// Whether `bytes` more fit into what is left of the budget, or, without one, into the memory of the machine.
@@ -38,8 +38,8 @@ Status checkBudget(std::uint64_t bytes, std::string_view wayOut = {});
 /// machine's memory.
 void requireMemory(std::uint64_t bytes, std::string_view wayOut = {});
 
-/// Says that address space is reserved which will mostly stay untouched: it is no memory, and the limit on
-/// allocations grows by it. Call it before the reservation.
+/// Says that address space is reserved which will mostly stay untouched. The limit on allocations grows by
+/// it. Call it before the reservation.
 void allowReserved(std::uint64_t bytes) noexcept;
 
 }  // namespace arete

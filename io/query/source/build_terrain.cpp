@@ -36,8 +36,7 @@ Status checkBuildMemory(const DemHeightfield& heights, const std::string& path) 
                                        : valid * kLeastBuildBytesPerSample +
                                              static_cast<double>(field.heights.size() * sizeof(double));
         const Status memory = checkMemory(
-            bytes,
-            fmt::format("a build of {} samples would", grouped(static_cast<std::uint64_t>(valid))));
+            bytes, fmt::format("a build of {} samples would", grouped(static_cast<std::uint64_t>(valid))));
         if (memory) return {};
         if (hasBudget) return failure(memory.error().code, memory.error().message, path);
         return failure(memory.error().code,

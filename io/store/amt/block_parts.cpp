@@ -8,20 +8,24 @@ namespace {
 
 using Bytes = std::span<const std::byte>;
 
-/// Of a directory that is fetched at once, of the first page, and of gaps between blocks.
-constexpr std::size_t kSmallDirectory = std::size_t{1} << 18, kFirstPage = std::size_t{1} << 15,
-                      kGap = std::size_t{1} << 18;
+/// A directory that is fetched at once: of about 20 million samples at the most.
+constexpr std::size_t kSmallDirectory = std::size_t{1} << 20;
+/// Of the pages a part of the first ones, which hold the largest nodes, goes with it.
+constexpr std::size_t kFirstPart = 256, kMostOfFirst = std::size_t{704} << 10;
+/// Between two blocks that are fetched together.
+constexpr std::size_t kGap = std::size_t{1} << 18;
 
 }  // namespace
 
 std::vector<Bytes> withBlocksJoined(std::span<const Bytes> parts, Bytes blocks, Bytes nodes) {
   std::vector<Bytes> wanted, of;
   for (const Bytes part : parts)
-    (part.data() >= blocks.data() && part.data() < blocks.data() + blocks.size() ? of : wanted).push_back(part);
+    (part.data() >= blocks.data() && part.data() < blocks.data() + blocks.size() ? of : wanted)
+        .push_back(part);
   if (of.empty()) return wanted;
   if (blocks.size() <= kSmallDirectory) {
     wanted.push_back(blocks);
-    wanted.push_back(nodes.first(std::min(kFirstPage, nodes.size())));
+    wanted.push_back(nodes.first(std::min(kMostOfFirst, nodes.size() / kFirstPart)));
     return wanted;
   }
   std::ranges::sort(of, {}, [](Bytes part) { return part.data(); });

@@ -140,8 +140,9 @@ Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const 
   if (!isPacked()) return model_.mt;
   const AmtContainer& all = container_;
   const LoadParts load = [&](std::span<const FileImage::Part> parts) {
-    return all.loadParts(isPaged() && all.owner()->isFar() ? withBlocksJoined(parts, pageBlocks_, packedNodes_)
-                                                           : std::vector(parts.begin(), parts.end()),
+    return all.loadParts(isPaged() && all.owner()->isFar()
+                             ? withBlocksJoined(parts, pageBlocks_, packedNodes_)
+                             : std::vector(parts.begin(), parts.end()),
                          context);
   };
   Result<MultiTriangulation> mt =

@@ -209,7 +209,8 @@ Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& c
   const auto tables = tablesOf(tableBytes, packed::kTables);
   if (!tables) return failure(ErrorCode::corrupt, "the tables of the packed nodes are damaged");
   const bool isPart = wanted && !packed::keepRequired(*directory, wanted, kind.scale);
-  ARETE_CHECK(checkUnpacking(kind, counts, directory->nodes(), directory->slots(), directory->borders(), bytes));
+  ARETE_CHECK(
+      checkUnpacking(kind, counts, directory->nodes(), directory->slots(), directory->borders(), bytes));
   return withThreads(context, [&] {
     return packed::Unpacker(std::move(*directory), *tables, nodes, context, isPart, false, load)
         .run(kind, counts);
@@ -259,9 +260,11 @@ Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& c
     packedBytes += end - begin + kAround;
   }
   // How many slots the nodes of a page have is in its headers, which are not read yet: about as many as all.
-  const double slotsOfNode = static_cast<double>(root->slots) / std::max(1.0, static_cast<double>(counts.nodes));
-  ARETE_CHECK(checkUnpacking(kind, counts, stated, static_cast<std::uint64_t>(static_cast<double>(stated) * slotsOfNode),
-                             left, std::min<std::uint64_t>(packedBytes, paged.nodes.size())));
+  const double slotsOfNode =
+      static_cast<double>(root->slots) / std::max(1.0, static_cast<double>(counts.nodes));
+  ARETE_CHECK(checkUnpacking(kind, counts, stated,
+                             static_cast<std::uint64_t>(static_cast<double>(stated) * slotsOfNode), left,
+                             std::min<std::uint64_t>(packedBytes, paged.nodes.size())));
   if (load) ARETE_CHECK(load(parts));
   const std::uint64_t roots = counts.rootVertices + counts.rootTriangles;
   return withThreads(context, [&]() -> Result<MultiTriangulation> {

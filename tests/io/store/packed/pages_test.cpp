@@ -253,8 +253,9 @@ TEST(Pages, AreNamedWhereABitIsFlippedAndTheRestStaysReadable) {
   EXPECT_GT(rest->mt.nodeCount(), 1000u);
 }
 
-/// Bits changed one by one with all checksums made anew, as a forger can: what comes back is refused, or holds
-/// to every check of plain files. ARETE_FULL=1 changes each bit, 10^5 files; else one of about each 31st byte.
+/// Bits changed one by one with all checksums made anew, as a forger can: what comes back is refused, or
+/// holds to every check of plain files. ARETE_FULL=1 changes each bit, 10^5 files; else one of about each
+/// 31st byte.
 TEST(Pages, AreRefusedOrSurviveWhateverTheirBytesAre) {
   int damaged = 0;
   for (const TerrainModel& model :

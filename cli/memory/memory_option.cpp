@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/session/memory_option.h"
+#include "cli/memory/memory_option.h"
 
 #include <fmt/format.h>
 
@@ -26,7 +26,8 @@ void addMemoryTo(CLI::App& command) {
   command
       .add_option_function<std::string>(
           kMemoryOption, [](const std::string& text) { setMemoryBudget(parseByteSize(text).value_or(0)); },
-          "Refuse work that takes more memory than this (500MB, 2G), beside the program itself, about 60 MB; a\n"
+          "Refuse work that takes more memory than this (500MB, 2G), beside the program itself, about 60 MB; "
+          "a\n"
           "model in pages is read in batches within it")
       ->check(CLI::Validator(
           [](std::string& text) -> std::string {
