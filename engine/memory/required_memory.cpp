@@ -81,7 +81,10 @@ void setMemoryBudget(std::uint64_t bytes) noexcept {
   const Taken now = taken();
   budget = bytes;
   atStart = std::max(now.resident, kProgram);
-  if (bytes > 0 && now.writable > 0) limitData(now.writable + bytes + kRoom + stackBytes());
+  if (bytes == 0 && isLimited)
+    limitData(~std::uint64_t{0});
+  else if (bytes > 0 && now.writable > 0)
+    limitData(now.writable + bytes + kRoom + stackBytes());
 }
 
 std::uint64_t memoryBudget() noexcept {
