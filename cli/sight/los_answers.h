@@ -38,8 +38,8 @@ Result<LosAnswers> answerLines(const LosQuestion& question, const TerrainModel& 
                                const RunContext& context);
 
 /// Answers lines over the parts of a file that they need. Within a memory budget that all of them together
-/// exceed they are answered in batches, by descents where the method is left open: the answers are the same.
-/// Errors: also those of AmtFile::read().
+/// exceed they are answered in batches, by descents where the method is left open: the answers are the same
+/// but for the last of twelve digits. Errors: also those of AmtFile::read().
 ///
 /// @param outline of the file
 Result<LosAnswers> answerLines(const LosQuestion& question, const AmtFile& file, const TerrainModel& outline,

@@ -12,6 +12,7 @@
 
 #include "engine/base/caught_failure.h"
 #include "engine/base/morton.h"
+#include "engine/memory/pages.h"
 #include "engine/memory/required_memory.h"
 
 namespace arete {
@@ -52,6 +53,7 @@ Status answerHalves(std::span<std::uint32_t> sorted, const AnswerBatch& answer) 
   for (const auto part : {sorted.first(half), sorted.subspan(half)}) {
     std::vector<std::uint32_t> questions(part.begin(), part.end());
     std::ranges::sort(questions);
+    giveFreeHeapBack();  // what the batch before has freed counts as in use until then
     Status status = answerGuarded(answer, questions);
     if (!status && status.error().code == ErrorCode::outOfMemory && part.size() > 1)
       status = answerHalves(part, answer);

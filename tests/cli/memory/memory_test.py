@@ -34,6 +34,22 @@ def digest_of(name):
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
+def are_same_lines(a, b):
+    """Whether tables of lines of sight are the same but for how much of the model their methods have visited, and for the last
+    of twelve digits, in which two methods may place an obstruction differently."""
+    rows = [[line.split(b",") for line in table.split(b"\n")] for table in (a, b)]
+    visited = rows[0][0].index(b"visited")
+
+    def is_same(x, y):
+        try:
+            return x == y or abs(float(x) - float(y)) <= 4e-12 * abs(float(x))
+        except ValueError:
+            return False
+
+    return len(rows[0]) == len(rows[1]) and all(
+        len(x) == len(y) and all(c == visited or is_same(x[c], y[c]) for c in range(len(x))) for x, y in zip(*rows))
+
+
 class Ran:
     """A run: its exit code, what it wrote to stdout and stderr, and its peak of resident memory in bytes."""
 
@@ -49,14 +65,23 @@ class Ran:
 
 
 def setUpModule():
-    global folder, box, places
+    global folder
     folder = tempfile.mkdtemp(prefix="arete-memory-")
     unittest.addModuleCleanup(shutil.rmtree, folder, ignore_errors=True)
+    make_models()
+    make_questions()
+
+
+def make_models():
     subprocess.run([DATASETS, "generate", "-o", "dem.tif", "--size", str(SIZE), "-q"], cwd=folder, check=True)
     subprocess.run([ARETE, "build", "dem.tif", "-o", "paged.amt", "--paged", "-q"], cwd=folder, check=True)
     for other in ("plain", "packed"):
         words = ["convert", "paged.amt", "-o", f"{other}.amt", "-q"] + (["--packed"] if other == "packed" else [])
         subprocess.run([ARETE, *words], cwd=folder, check=True)
+
+
+def make_questions():
+    global box, places
     facts = json.loads(subprocess.run([ARETE, "info", "paged.amt", "--json"], cwd=folder, check=True, capture_output=True).stdout)
     g, grid = facts["grid"]["geoTransform"], facts["grid"]
 
@@ -134,7 +159,11 @@ class Memory(unittest.TestCase):
             with self.subTest(question=name, model=model, budget=budget):
                 ran = self.held(words, budget, written)
                 if ran.code == 0:
-                    self.assertEqual(ran.out, wanted.out)
+                    # Many lines are answered by descents within a budget, else by a walk over all samples.
+                    if name == "many lines":
+                        self.assertTrue(are_same_lines(wanted.out, ran.out))
+                    else:
+                        self.assertEqual(ran.out, wanted.out)
                     self.assertEqual(ran.file, wanted.file)
                 else:
                     self.assertTrue(least is None or budget < least, ran.err)
@@ -147,9 +176,9 @@ class Memory(unittest.TestCase):
         self.holds("heights", least=24)
 
     def test_lines_of_sight_are_answered_in_batches(self):
-        self.holds("los", least=64 if FULL else 24)
-        self.holds("few lines", least=160 if FULL else 64)
-        self.holds("many lines", least=160 if FULL else 64)
+        self.holds("los", least=160 if FULL else 64)
+        self.holds("few lines", least=160)
+        self.holds("many lines", least=400 if FULL else 160)
 
     def test_a_profile_holds_its_budget(self):
         self.holds("profile", least=400 if FULL else 64)
@@ -158,7 +187,7 @@ class Memory(unittest.TestCase):
         self.holds("viewshed", least=1200 if FULL else 160)
 
     def test_cuts_of_pages_hold_their_budgets(self):
-        self.holds("coarse", least=160 if FULL else 64)
+        self.holds("coarse", least=64 if FULL else 24)
         self.holds("budget", least=160 if FULL else 64)
         self.holds("region", least=160 if FULL else 64)
         self.holds("exact region", least=400 if FULL else 64)
@@ -205,7 +234,7 @@ class Memory(unittest.TestCase):
         refused = self.held([words[0], "paged.amt", *words[1:], "--json"], 8, "a.ply")
         self.assertEqual(refused.code, 1)
         error = json.loads(refused.out)["error"]
-        self.assertEqual(error["code"], "outOfMemory")
+        self.assertEqual(error["code"], "out of memory")
         self.assertRegex(error["message"], r"needs about [\d.]+ [MG]B of memory, and [\d.]+ MB of the 8\.4 MB of --memory are left: .*larger tolerance")
 
     def test_budgets_that_are_none_are_refused(self):
