@@ -19,7 +19,6 @@
 #include "io/geo/crs/position_argument.h"
 #include "io/query/extract/camera_argument.h"
 #include "terrain/locate/ground_height.h"
-#include "terrain/model/relief.h"
 
 namespace arete {
 namespace {
@@ -352,9 +351,9 @@ std::string CriterionArguments::tagOf(const CutRequest& criterion, const std::st
 }
 
 Result<std::vector<CriterionArguments::OfTerrain>> CriterionArguments::criteria(
-    const TerrainModel& model) const {
+    const TerrainModel& model, const std::optional<Wholes>& wholes) const {
   ARETE_CHECK(checkGroundUnits(model.georeference, {distanceWithUnit_}));
-  const double relief = statesShares() ? reliefOf(model) : 0;
+  const double relief = wholes ? wholes->length : 0;
   const DataUnit unit = heightUnitOf(model.georeference);
   CutRequest request = common();
   if (!outsideErrorText_.empty()) {
@@ -385,8 +384,7 @@ Result<std::vector<CriterionArguments::OfTerrain>> CriterionArguments::criteria(
   }
   std::vector<StatedTriangles> budgets(1);
   if (hasBudget()) {
-    ARETE_TRY(auto stated,
-              parseTriangleBudgets(maxTriangles_, statesShares() ? model.mt.finestTriangleCount() : 0));
+    ARETE_TRY(auto stated, parseTriangleBudgets(maxTriangles_, wholes ? wholes->triangles : 0));
     budgets = std::move(stated);
   }
   std::vector<OfTerrain> all;

@@ -12,6 +12,7 @@
 #include "engine/base/result.h"
 #include "io/query/extract/region_argument.h"
 #include "io/query/request/criterion.h"
+#include "io/query/request/wholes.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {
@@ -47,11 +48,12 @@ struct CriterionArguments {
     CutRequest criterion;
     std::string tag;
   };
-  /// @param model the root, and the terrain at placeAboveGround(), are enough; the whole where
-  /// statesShares().
+  /// @param model the root, and the terrain at placeAboveGround(), are enough
+  /// @param wholes where statesShares()
   /// @return one criterion for each tolerance and each number of triangles.
   /// Precondition: check(). Errors: usage, naming the option; invalidData: no terrain below the camera.
-  Result<std::vector<OfTerrain>> criteria(const TerrainModel& model) const;
+  Result<std::vector<OfTerrain>> criteria(const TerrainModel& model,
+                                          const std::optional<Wholes>& wholes) const;
 
   /// A warning of a focus that looks like longitude and latitude on a map of lengths; empty: none.
   std::string focusHint(const TerrainModel& model) const;

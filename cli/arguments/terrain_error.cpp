@@ -51,6 +51,8 @@ Result<TerrainError> terrainErrorOf(const std::string& text, const AmtFile& file
   const DataUnit unit = heightUnitOf(file.model().georeference);
   ARETE_TRY(const StatedSize stated, parseStatedSize(text, kOption, &unit));
   if (!stated.isShare) return TerrainError{stated.number};
+  // A file in pages says it of itself.
+  if (file.summary().isThere()) return TerrainError{stated.of(file.summary().relief), file.summary().relief};
   ARETE_TRY(const TerrainModel whole, file.read({}, session.context()));
   const double relief = reliefOf(whole);
   return TerrainError{stated.of(relief), relief};

@@ -3,39 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cctype>
-#include <charconv>
-#include <cmath>
-#include <optional>
-#include <string_view>
-#include <utility>
+
+#include "io/files/text/byte_size.h"
 
 namespace arete {
 namespace {
 
-constexpr double kLeastBudget = 1e6, kMostBudget = 1e18;
-
-std::optional<double> bytesOf(std::string_view text) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || !std::isfinite(number)) return std::nullopt;
-  const std::string_view unit(end, text.data() + text.size());
-  constexpr std::array<std::pair<std::string_view, double>, 11> kUnits = {{{"", 1},
-                                                                           {"B", 1},
-                                                                           {"kB", 1e3},
-                                                                           {"KB", 1e3},
-                                                                           {"MB", 1e6},
-                                                                           {"GB", 1e9},
-                                                                           {"TB", 1e12},
-                                                                           {"KiB", 0x1p10},
-                                                                           {"MiB", 0x1p20},
-                                                                           {"GiB", 0x1p30},
-                                                                           {"TiB", 0x1p40}}};
-  for (const auto& [name, factor] : kUnits)
-    if (unit == name) return number * factor;
-  return std::nullopt;
-}
+constexpr std::uint64_t kLeastBudget = 1'000'000;
 
 }  // namespace
 
@@ -46,12 +21,12 @@ Result<CacheArgument> parseCacheArgument(const std::string& text) {
       colon != text.npos && colon + 1 < text.size() &&
       std::isdigit(static_cast<unsigned char>(text[colon + 1])) != 0) {
     const std::string bytes = text.substr(colon + 1);
-    const auto budget = bytesOf(bytes);
-    if (!budget || *budget < kLeastBudget || *budget > kMostBudget)
+    const auto budget = parseByteSize(bytes);
+    if (!budget || *budget < kLeastBudget)
       return failure(ErrorCode::usage,
                      fmt::format("'{}' is not a number of bytes of at least 1MB, as 500MB or 2GB", bytes),
                      text);
-    argument.budget = static_cast<std::uint64_t>(*budget);
+    argument.budget = *budget;
     argument.folder.resize(colon);
   }
   if (argument.folder.empty()) return failure(ErrorCode::usage, "names no folder", text);

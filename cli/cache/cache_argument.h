@@ -17,8 +17,8 @@ struct CacheArgument {
   std::uint64_t budget = SpanCache::kUsualBudget;
 };
 
-/// Reads "FOLDER[:BYTES]": BYTES is a number, by itself or followed by kB, MB, GB, TB (powers of 1000) or
-/// KiB, MiB, GiB, TiB (of 1024). What follows the last colon and begins with a digit is BYTES.
+/// Reads "FOLDER[:BYTES]": BYTES is a number, by itself or followed by a unit (parseByteSize()). What follows
+/// the last colon and begins with a digit is BYTES.
 ///
 /// Errors: usage: no folder, or bytes that are no such number, of less than 1 MB.
 Result<CacheArgument> parseCacheArgument(const std::string& text);

@@ -93,9 +93,17 @@ struct ExtractArguments {
   }
 };
 
+/// What shares are of. A file in pages says it of itself.
+Result<std::optional<Wholes>> wholesOf(const AmtFile& file, const Session& session) {
+  if (file.summary().isThere())
+    return std::optional(Wholes{file.summary().relief, file.summary().finestTriangles});
+  ARETE_TRY(const TerrainModel whole, file.read({}, session.context()));
+  return std::optional(wholesOf(whole));
+}
+
 Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments, const TerrainModel& model,
-                                               Session& session) {
-  ARETE_TRY(const auto criteria, arguments.criterion.criteria(model));
+                                               const std::optional<Wholes>& wholes, Session& session) {
+  ARETE_TRY(const auto criteria, arguments.criterion.criteria(model, wholes));
   if (!model.isRaster && criteria.front().criterion.fit == CutFit::unbiased)
     session.warn(
         {{WarningCode::bound,
@@ -229,11 +237,12 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   ARETE_CHECK(arguments.kinds.refuseOther(kindOf(container)));
   if (container.isOfSurface()) return runSurfaceExtract(arguments, container, session);
   ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
-  // The relief is that of all samples.
-  const bool statesShares = arguments.criterion.statesShares();
-  ARETE_TRY(const TerrainModel outline, statesShares ? file.read({}, session.context())
-                                                     : outlineForPlaces(file, arguments.criterion, session));
-  ARETE_TRY(auto requests, requestsOf(arguments, outline, session));
+  std::optional<Wholes> wholes;
+  if (arguments.criterion.statesShares()) {
+    ARETE_TRY(wholes, wholesOf(file, session));
+  }
+  ARETE_TRY(const TerrainModel outline, outlineForPlaces(file, arguments.criterion, session));
+  ARETE_TRY(auto requests, requestsOf(arguments, outline, wholes, session));
   ARETE_CHECK(checkOutputs(requests, arguments, outline));
   warnOfMapMetres(requests, outline, session);
   if (const std::string hint = arguments.criterion.focusHint(outline); !hint.empty()) session.warn(hint);
@@ -242,8 +251,6 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   ARETE_TRY(PartAndCut part, readForExtract(file, requests, outline, session.context()));
 
   const std::string& verticalUnit = outline.georeference.verticalUnit;
-  std::optional<Wholes> wholes;
-  if (statesShares) wholes = wholesOf(outline);
   TinExtractor extractor(
       std::move(part.model), arguments.model,
       [&file](const RunContext& context) { return file.read({}, context); },

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "io/geo/crs/transform.h"
 #include "io/geo/table/height_table.h"
 #include "io/geo/table/point_table.h"
+#include "io/query/extract/batches.h"
 #include "terrain/locate/ground_height.h"
 
 namespace arete {
@@ -157,14 +159,25 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
   ARETE_TRY(const auto table, readPlaces(arguments, outline, session));
   // Only the parts of the model that hold the places are read. A place off the terrain has no height, which
   // is an answer and not an error unless all places are like that.
-  QueryFootprint wanted(outline);
-  for (const Vec2 place : table.positions) wanted.add(outline.toPlan(place));
-  ARETE_TRY(const TerrainModel model, readWanted(file, outline, wanted.within(0), session));
-  ARETE_TRY(const auto heights, GroundHeights(model).at(table.positions, maxError.value, session.context()));
+  std::vector<Vec2> plan;
+  for (const Vec2 place : table.positions) plan.push_back(outline.toPlan(place));
+  Heights heights(plan.size());
+  ARETE_CHECK(answerInBatches(plan, [&](std::span<const std::uint32_t> batch) -> Status {
+    QueryFootprint wanted(outline);
+    std::vector<Vec2> places;
+    for (const std::uint32_t i : batch) {
+      wanted.add(plan[i]);
+      places.push_back(table.positions[i]);
+    }
+    ARETE_TRY(const TerrainModel model, readWanted(file, outline, wanted.within(0), session));
+    ARETE_TRY(auto found, GroundHeights(model).at(places, maxError.value, session.context()));
+    for (std::size_t k = 0; k < batch.size(); ++k) heights[batch[k]] = std::move(found[k]);
+    return {};
+  }));
 
   const auto found = static_cast<std::size_t>(
       std::count_if(heights.begin(), heights.end(), [](const auto& h) { return h.has_value(); }));
-  Json json = {{"model", arguments.model}, {"verticalUnit", model.georeference.verticalUnit}};
+  Json json = {{"model", arguments.model}, {"verticalUnit", outline.georeference.verticalUnit}};
   maxError.addTo(json);
   json["places"] = heights.size();
   json["withoutPlace"] = table.withoutPlace;
@@ -175,7 +188,7 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
   if (arguments.output.empty()) {
     session.say(textOf(arguments, table, heights));
     if (maxError.relief)
-      session.note(fmt::format("heights within {}", maxError.text(model.georeference.verticalUnit)));
+      session.note(fmt::format("heights within {}", maxError.text(outline.georeference.verticalUnit)));
     json["points"] = jsonOf(table, heights);
   } else {
     if (Status written =
@@ -184,7 +197,7 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
       return written;
     session.say(fmt::format("{}: {} of {} a height{}\n", arguments.output, grouped(found),
                             grouped(heights.size(), "place has", "places have"),
-                            maxError.shareText(model.georeference.verticalUnit)));
+                            maxError.shareText(outline.georeference.verticalUnit)));
     json["file"] = arguments.output;
   }
   session.answer(json);

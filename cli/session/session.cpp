@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "cli/cache/cache_argument.h"
+#include "cli/memory/memory_option.h"
 #include "cli/session/interrupt.h"
 #include "cli/session/named_files.h"
 #include "cli/session/next_step.h"
@@ -24,6 +25,7 @@
 #include "cli/session/progress_bar.h"
 #include "cli/session/proj_guard.h"
 #include "cli/session/run_log.h"
+#include "engine/base/memory_refusal.h"
 #include "engine/memory/pages.h"
 #include "engine/parallel/thread_limit.h"
 #include "io/files/network/network_use.h"
@@ -159,6 +161,7 @@ CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std:
           "--no-huge-pages", [] { setHugePages(false); },
           "Keep large arrays in small memory pages, where huge pages make this machine slower")
       ->group("Output");
+  addMemoryTo(*command);
   command
       ->add_flag("--confined", isConfined_,
                  "Read the named files and their sidecars only, without network (for services)")
@@ -214,6 +217,8 @@ ExitCode Session::runAndReport() try {
   const ExitCode code = explained ? ExitCode::ok : fail(explained.error());
   sayFiles();
   return code;
+} catch (const MemoryRefusal& refusal) {
+  return fail({ErrorCode::outOfMemory, refusal.what(), subject()});
 } catch (const std::bad_alloc&) {
   progressBar().endLine();
   const Error error{ErrorCode::outOfMemory, "there is not enough memory for this", ""};
@@ -264,6 +269,7 @@ Status Session::prepareGdal() {
   logOfGdal = log_.get();
   sendUnclaimedGdalMessages(!quiet_ ? warnOfGdal : log_ ? logGdal : nullptr);
   guardProjFiles();
+  boundLibraries();
   if (isConfined_) return confineGdal(fileNamesOf(words_));
   ARETE_TRY(auto cache, openCache(cache_));
   setWebSettings({&interruptFlag(), std::move(cache)});
@@ -275,6 +281,7 @@ Status Session::explain(Status status) const {
     return failure(ErrorCode::unreadable, "was changed while it was read", changed);
   if (status) return status;
   Error& error = status.error();
+  nameBudget(error);
   // What a signal ended may look like a file that cannot be opened.
   const bool isAboutAFile = error.code == ErrorCode::notFound || error.code == ErrorCode::unreadable ||
                             error.code == ErrorCode::unsupported || error.code == ErrorCode::corrupt;

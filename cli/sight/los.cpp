@@ -20,6 +20,7 @@
 #include "cli/session/model_file.h"
 #include "cli/session/option_names.h"
 #include "cli/sight/arguments.h"
+#include "cli/sight/los_answers.h"
 #include "cli/sight/meshes_in_the_way.h"
 #include "cli/sight/rows.h"
 #include "io/files/file_writer.h"
@@ -164,28 +165,6 @@ std::array<std::string, 2> typedEnds(const LosArguments& a) {
   return {a.from.empty() ? "" : "--from " + a.from, a.to.empty() ? "" : "--to " + a.to};
 }
 
-/// A height below the ground is an answer, blocked, and seldom meant.
-void warnOfBuriedEnds(const SightRows& rows, const GroundHeights& heights, const Session& session) {
-  const std::string& unit = heights.model().georeference.verticalUnit;
-  std::size_t buried = 0;
-  double deepest = 0;
-  for (std::size_t i = 0; i < rows.paths.size(); ++i)
-    for (int end = 0; end < 2; ++end) {
-      const SightPath& path = rows.paths[i];
-      const double below = depthBelowGround(end == 0 ? path.from : path.to,
-                                            end == 0 ? path.fromHeight : path.toHeight, heights);
-      if (!(below > 0)) continue;
-      ++buried;
-      deepest = std::max(deepest, below);
-      if (rows.paths.size() == 1)
-        session.warn(fmt::format("the {} end lies {} below the ground", end == 0 ? "first" : "second",
-                                 withUnit(below, unit)));
-    }
-  if (buried > 0 && rows.paths.size() > 1)
-    session.warn(fmt::format("{} below the ground, by up to {}", grouped(buried, "end lies", "ends lie"),
-                             withUnit(deepest, unit)));
-}
-
 /// Applies the heights of the options to ends that have none.
 Status addUsualHeights(const LosArguments& a, const DataUnit& unit, SightPairs& pairs) {
   for (const auto& [end, option, text] :
@@ -211,25 +190,6 @@ Result<SightPathOptions> optionsOf(const LosArguments& a, double maxError, const
   options.clutter = std::move(clutter);
   options.clutter.freeMetres = a.clutterFree;
   return options;
-}
-
-/// The terrain that lines of sight require: around both ends and below the line. All of the model where the
-/// method reads all samples.
-RequiredError wantedFor(const LosArguments& a, double maxError, const SightPairs& pairs,
-                        const SightEarth& earth, const TerrainModel& outline) {
-  if (bestMethod(a.method, maxError, pairs.rows.size(), outline) != SightMethod::descent) return {};
-  QueryFootprint wanted(outline);
-  for (const auto& [first, second] : pairs.rows) {
-    const Vec2 from = sightPlan(outline, first.xy), to = sightPlan(outline, second.xy);
-    for (const auto& [site, plan] : {std::pair{first, from}, {second, to}}) {
-      wanted.add(plan);
-      wanted.add(outline.toPlan(site.xy));
-    }
-    if (!std::isfinite(from.x + from.y + to.x + to.y)) continue;
-    if (const auto track = earth.track(from, to))
-      wanted.addTrack(*track);  // without a track, the answer is an error
-  }
-  return wanted.within(0);
 }
 
 Status reportOne(const LosArguments& a, const SightResults& results, Json json, Session& session) {
@@ -296,16 +256,15 @@ Status reportMany(const LosArguments& a, const SightResults& results, Json json,
   return {};
 }
 
-/// What is asked, over a model of which enough is read.
-struct LosQuestion {
-  const TerrainModel& model;
+/// What is reported, and of what.
+struct LosReport {
+  const TerrainModel& model;  ///< its root is enough
   const SightPairs& pairs;
-  const SightPathOptions& options;
   const SightEarth& earth;
   const TerrainError& maxError;
   const OpenScene* scene = nullptr;  ///< whose meshes are in the way too
 };
-Status answerLos(const LosArguments& a, const LosQuestion& question, Session& session);
+Status reportLos(const LosArguments& a, const LosReport& report, LosAnswers& answers, Session& session);
 
 Status checkOutputOf(const LosArguments& a, const std::vector<std::string>& inputs) {
   return a.output.empty() ? Status{} : checkOutput("--output", a.output, inputs);
@@ -348,7 +307,9 @@ Status runLosOfScene(const LosArguments& a, Session& session) {
           site.height->kind = HeightKind::seaLevel;  // z, from the scene's own zero
   }
   ARETE_TRY(const auto earth, a.sight.makeEarth(model, session));
-  return answerLos(a, {model, pairs, options, *earth, exact, &scene}, session);
+  ARETE_TRY(auto answers,
+            answerLines({pairs, typedEnds(a), options, *earth, a.method, a.model}, model, session.context()));
+  return reportLos(a, {model, pairs, *earth, exact, &scene}, answers, session);
 }
 
 Status runLos(const LosArguments& a, Session& session) {
@@ -363,26 +324,16 @@ Status runLos(const LosArguments& a, Session& session) {
   ARETE_TRY(const TerrainError maxError, terrainErrorOf(a.maxError, file, session));
   ARETE_TRY(const auto options, optionsOf(a, maxError.value, outline, session));
   ARETE_TRY(const auto earth, a.sight.makeEarth(outline, session));
-  ARETE_TRY(const TerrainModel model,
-            readWanted(file, outline, wantedFor(a, maxError.value, pairs, *earth, outline), session));
-  return answerLos(a, {model, pairs, options, *earth, maxError}, session);
+  ARETE_TRY(auto answers,
+            answerLines({pairs, typedEnds(a), options, *earth, a.method, a.model}, file, outline, session));
+  return reportLos(a, {outline, pairs, *earth, maxError}, answers, session);
 }
 
-Status answerLos(const LosArguments& a, const LosQuestion& question, Session& session) {
-  const auto& [model, pairs, options, earth, maxError, scene] = question;
-  // Profiles at full resolution walk over the cells of a raster.
-  const bool hasProfiles = options.frequencyMegahertz > 0 || options.clutter.height;
-  const auto grid = hasProfiles && model.isRaster ? std::make_shared<const SightGrid>(model) : nullptr;
-  const Profiles profiles(model, grid);
-  const SightRows rows = SightRows::of(pairs, profiles.heights(), typedEnds(a));
-  warnOfBuriedEnds(rows, profiles.heights(), session);
-  const SightMethod method = bestMethod(a.method, maxError.value, rows.paths.size(), model);
-  if (!model.isRaster && method != SightMethod::descent)
-    return failure(ErrorCode::usage, fmt::format("requires a raster; {} is made of points", a.model),
-                   fmt::format("--method {}", toString(method)));
-  ARETE_TRY(const auto engine, makeSightEngine(method, model, grid, session.context()));
-  ARETE_TRY(auto answers, answerPaths(rows.paths, earth, *engine, profiles, options, session.context()));
-
+Status reportLos(const LosArguments& a, const LosReport& report, LosAnswers& answered, Session& session) {
+  const auto& [model, pairs, earth, maxError, scene] = report;
+  const SightRows& rows = answered.rows;
+  auto& answers = answered.answers;
+  warnOfBuriedEnds(answered, model.georeference.verticalUnit, session);
   std::vector<std::string> blockedBy;
   if (scene) {
     ARETE_TRY(blockedBy, addMeshesInTheWay(*scene, model, rows.paths, earth, answers, session.context()));
@@ -401,7 +352,7 @@ Status answerLos(const LosArguments& a, const LosQuestion& question, Session& se
                {"refraction", a.sight.refractionJson(model)},
                {"nodata", std::string(toString(a.sight.nodata))}};
   maxError.addTo(json);
-  json["method"] = std::string(toString(method));
+  json["method"] = std::string(toString(answered.method));
   if (maxError.relief)
     session.note(fmt::format("terrain within {}", maxError.text(model.georeference.verticalUnit)));
   const bool isOne = a.pairs.empty() && a.points.empty() && a.output.empty();

@@ -14,6 +14,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,7 @@
 #include "io/geo/crs/position_argument.h"
 #include "io/geo/crs/transform.h"
 #include "io/geo/table/point_table.h"
+#include "io/query/extract/batches.h"
 #include "io/query/extract/region_reader.h"
 #include "terrain/sight/fresnel.h"
 #include "terrain/sight/paths.h"
@@ -284,9 +286,11 @@ void warnOfGaps(const std::vector<Answer>& answers, const Session& session) {
 }
 
 /// The terrain that the ways require.
-RequiredError wantedFor(const std::vector<Way>& ways, const SightEarth& earth, const TerrainModel& outline) {
+RequiredError wantedFor(const std::vector<Way>& ways, std::span<const std::uint32_t> batch,
+                        const SightEarth& earth, const TerrainModel& outline) {
   QueryFootprint wanted(outline);
-  for (const Way& way : ways) {
+  for (const std::uint32_t i : batch) {
+    const Way& way = ways[i];
     for (const Vec2 vertex : way.vertices) wanted.add(outline.toPlan(vertex));
     if (const auto track = trackOf(way, earth, outline))
       wanted.addTrack(*track);  // without a track, the answer is an error
@@ -329,6 +333,16 @@ Status drawPng(const ProfileArguments& a, const Answer& answer, double maxError,
   return canvas.savePng(a.png);
 }
 
+/// A part of the model, and the profiles over it.
+struct PartAndProfiles {
+  PartAndProfiles(TerrainModel part, bool hasGrid)
+      : model(std::move(part)),
+        profiles(model, hasGrid && model.isRaster ? std::make_shared<const SightGrid>(model) : nullptr) {}
+
+  const TerrainModel model;
+  const Profiles profiles;
+};
+
 Status runProfile(const ProfileArguments& a, Session& session) {
   if (!a.output.empty() && text::lowerExtension(a.output) != "csv")
     return failure(ErrorCode::usage,
@@ -353,22 +367,26 @@ Status runProfile(const ProfileArguments& a, Session& session) {
   if (!a.png.empty() && ways.size() > 1)
     return failure(ErrorCode::usage, fmt::format("draws one line, not {}", ways.size()), "--png");
   ARETE_TRY(const auto earth, a.sight.makeEarth(outline, session));
-  ARETE_TRY(const TerrainModel model, readWanted(amt, outline, wantedFor(ways, *earth, outline), session));
-
   ARETE_TRY(const TerrainError maxError, terrainErrorOf(a.maxError, amt, session));
   // A grid of the samples serves only profiles of full resolution, which Fresnel zones always need.
   const bool isFull = maxError.value == 0 || a.frequency > 0;
-  const Profiles profiles(model,
-                          isFull && model.isRaster ? std::make_shared<const SightGrid>(model) : nullptr);
   const double wavelength = a.frequency > 0 ? wavelengthMetres(a.frequency) : 0;
-  std::vector<Answer> answers;
+  std::vector<Answer> answers(ways.size());
+  std::vector<Vec2> places;
+  for (const Way& way : ways) places.push_back(way.vertices.empty() ? Vec2{} : way.vertices.front());
+  std::optional<PartAndProfiles> part;  // of the last batch: a picture is of the only one
+  ARETE_CHECK(answerInBatches(places, [&](std::span<const std::uint32_t> batch) -> Status {
+    part.reset();
+    ARETE_TRY(TerrainModel model, readWanted(amt, outline, wantedFor(ways, batch, *earth, outline), session));
+    part.emplace(std::move(model), isFull);
+    for (const std::uint32_t i : batch) {
+      if (session.context().cancelled()) return failure(ErrorCode::interrupted, "the query was stopped");
+      ARETE_TRY(answers[i], answerWay(ways[i], a, maxError.value, *earth, part->profiles));
+    }
+    return {};
+  }));
   std::size_t vertices = 0;
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    if (session.context().cancelled()) return failure(ErrorCode::interrupted, "the query was stopped");
-    ARETE_TRY(auto answer, answerWay(ways[i], a, maxError.value, *earth, profiles));
-    vertices += answer.profile.vertices.size();
-    answers.push_back(std::move(answer));
-  }
+  for (const Answer& answer : answers) vertices += answer.profile.vertices.size();
   if (vertices == 0) ARETE_CHECK(checkDegrees(a, ways, outline));
   if (vertices == 0)
     return failure(
@@ -376,12 +394,12 @@ Status runProfile(const ProfileArguments& a, Session& session) {
         "has no terrain along the line; X,Y are coordinates of its CRS, or longitude,latitude with --lonlat",
         a.model);
   // Typed places keep the CRS that they were typed in; a file's places have become the DEM's.
-  const ProfileTable table(model, a.sight.lonLat && !isFile(a.along) ? toDem.sourceWkt() : dem.crsWkt,
+  const ProfileTable table(outline, a.sight.lonLat && !isFile(a.along) ? toDem.sourceWkt() : dem.crsWkt,
                            wavelength);
   Json json = {{"model", a.model},
                {"verticalUnit", dem.verticalUnit},
-               {"earth", a.sight.earthName(model)},
-               {"refraction", a.sight.refractionJson(model)}};
+               {"earth", a.sight.earthName(outline)},
+               {"refraction", a.sight.refractionJson(outline)}};
   maxError.addTo(json);
   if (ways.front().ends) json["nodata"] = std::string(toString(a.sight.nodata));
   Json lines = Json::array();
@@ -397,7 +415,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
     json["file"] = a.output;
   }
   if (!a.png.empty()) {
-    ARETE_CHECK(drawPng(a, answers.front(), maxError.value, profiles, wavelength));
+    ARETE_CHECK(drawPng(a, answers.front(), maxError.value, part->profiles, wavelength));
     json["picture"] = a.png;
     session.say(fmt::format("{}: a profile of {:.6g} km\n", a.png, answers.front().profile.length / 1000));
   }

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "engine/base/memory_refusal.h"
+
 namespace arete {
 namespace {
 
@@ -16,6 +18,14 @@ tl::unexpected<Error> outOfMemory(std::string_view culprit) noexcept {
     return failure(ErrorCode::outOfMemory, "out of memory", std::string(culprit));
   } catch (...) {
     return failure(ErrorCode::outOfMemory, "out of memory");
+  }
+}
+
+tl::unexpected<Error> refused(const char* sentence, std::string_view culprit) noexcept {
+  try {
+    return failure(ErrorCode::outOfMemory, sentence, std::string(culprit));
+  } catch (...) {
+    return outOfMemory(culprit);
   }
 }
 
@@ -34,6 +44,8 @@ tl::unexpected<Error> noThread(std::string_view culprit) noexcept {
 tl::unexpected<Error> caughtFailure(std::string_view culprit) noexcept {
   try {
     throw;
+  } catch (const MemoryRefusal& refusal) {
+    return refused(refusal.what(), culprit);
   } catch (const std::bad_alloc&) {
     return outOfMemory(culprit);
   } catch (const std::length_error&) {

@@ -15,6 +15,7 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/memory/required_memory.h"
 #include "io/files/open_plain.h"
 
 namespace arete {
@@ -41,6 +42,7 @@ CopiedFile::~CopiedFile() {
 Result<std::shared_ptr<const CopiedFile>> CopiedFile::open(const std::string& path) {
   ARETE_TRY(PlainFile file, openPlain(path));
   const auto size = static_cast<std::size_t>(file.status.st_size);
+  allowReserved(size);
   void* const begin =
       ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (begin == MAP_FAILED)

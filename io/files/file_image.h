@@ -38,8 +38,9 @@ class FileImage {
   /// Why the first part could not be read that could not. Thread-safe.
   virtual std::optional<Error> problem() const { return std::nullopt; }
 
-  /// Gives back the memory of a part, in whole blocks that lie in it; load() reads them anew.
-  /// Precondition: what lies in the part is not used by any thread. O(part).
+  /// Gives back the memory of a part, in whole blocks that lie in it; load() reads them anew. A mapped file
+  /// gives back what lies within 64 KiB of it too, and reads it again by itself. Precondition: what lies in
+  /// the part is not used by any thread. O(part).
   virtual void forget(Part /*part*/) const {}
 
   /// Whether what is loaded comes from a server.

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <system_error>
 
 #include "io/files/open_plain.h"
@@ -35,12 +37,17 @@ void MappedFile::adviseRandomAccess() const {
   ::madvise(const_cast<std::byte*>(bytes_.data()), bytes_.size(), MADV_RANDOM);
 }
 
-// What another part of the mapping needs too, on the first and the last page of memory, stays.
+// The pages stay in the system's cache of files. A fault maps up to 64 KiB around what is touched, so what
+// lies beside the part goes too.
 void MappedFile::forget(Part part) const {
-  constexpr std::size_t kPage = 4096;
-  const auto begin = static_cast<std::size_t>(part.data() - bytes_.data());
-  const std::size_t first = (begin + kPage - 1) / kPage * kPage, end = (begin + part.size()) / kPage * kPage;
-  if (first < end) ::madvise(const_cast<std::byte*>(bytes_.data()) + first, end - first, MADV_DONTNEED);
+  if (part.empty()) return;
+  constexpr std::uintptr_t kAround = std::uintptr_t{1} << 16;
+  const auto addressOf = [](const std::byte* byte) { return reinterpret_cast<std::uintptr_t>(byte); };
+  const std::uintptr_t begin = addressOf(bytes_.data()), end = begin + bytes_.size();
+  const std::uintptr_t first = std::max(addressOf(part.data()) / kAround * kAround, begin);
+  const std::uintptr_t last =
+      std::min((addressOf(part.data()) + part.size() + kAround - 1) / kAround * kAround, end);
+  ::madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);
 }
 
 }  // namespace arete

@@ -17,6 +17,7 @@
 #include "engine/base/caught_failure.h"
 #include "engine/base/morton.h"
 #include "engine/memory/pages.h"
+#include "engine/memory/required_memory.h"
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/mt/hole_limit.h"
 #include "engine/parallel/with_threads.h"
@@ -318,6 +319,9 @@ class SurfaceBuild {
 Result<SurfaceModel> buildSurface(SurfaceMesh source, const SurfaceBuildOptions& options,
                                   const RunContext& context, std::size_t fewEnough,
                                   std::span<const AttributeWeight> weights) try {
+  // What a build takes at the most for each vertex.
+  constexpr std::uint64_t kBytesOfVertex = 450;
+  requireMemory(kBytesOfVertex * source.positions.size(), "take a part of the mesh, or a decimated one");
   return withThreads(
       context, [&] { return SurfaceBuild(options, context, fewEnough, weights).run(std::move(source)); });
 } catch (...) {

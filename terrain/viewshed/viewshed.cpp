@@ -9,12 +9,16 @@
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "engine/memory/required_memory.h"
 #include "terrain/sight/earth.h"
 #include "terrain/viewshed/image_plane.h"
 #include "terrain/viewshed/methods.h"
 
 namespace arete {
 namespace {
+
+/// What the samples, their pyramid and steepness, the answers and the raster of these take for each sample.
+constexpr std::uint64_t kBytesOfSample = 30;
 
 Status check(const ViewshedObserver& observer, const ViewshedOptions& options) {
   const auto bad = [](const char* what, const char* culprit) {
@@ -79,6 +83,7 @@ Result<ViewshedMaker> ViewshedMaker::make(const TerrainModel& model, const Sight
                                           const RunContext& context) try {
   if (!model.isRaster)
     return failure(ErrorCode::unsupported, "viewsheds are of rasters; this model is of points");
+  requireMemory(std::uint64_t{model.columns} * model.rows * kBytesOfSample, "take a part of the terrain");
   ViewshedMaker maker(model, earth, grid ? std::move(grid) : std::make_shared<SightGrid>(model));
   ARETE_TRY(auto engine, makeSightEngine(SightMethod::pyramid, model, maker.grid_, context));
   maker.engine_ = std::move(engine);

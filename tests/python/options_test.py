@@ -18,7 +18,7 @@ EVERYWHERE = {
     "quiet": "warnings are Python's", "progress": "an argument of its own: a function",
     "threads": "of the process", "no-huge-pages": "of the process", "confined": "of services",
     "output": "what save() writes", "format": "of the output", "overwrite": "of the output", "log": "of the terminal",
-    "cache": "of the terminal",
+    "cache": "of the terminal", "memory": "of the process",
 }
 
 # Functions of a command. An option is an argument of one of them.

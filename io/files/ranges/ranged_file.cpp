@@ -11,12 +11,17 @@
 #include <cstring>
 #include <utility>
 
+#include "engine/memory/required_memory.h"
 #include "io/files/network/network_use.h"
 
 namespace arete {
 namespace {
 
 constexpr std::uint64_t kBlockBytes = SpanCache::kBlock, kSpanBytes = SpanCache::kSpan;
+/// The first request: the header, the metadata, the root of the directory of pages and the tables of a usual
+/// model, and its first blocks.
+constexpr std::uint64_t kFirstBytes = std::uint64_t{1} << 16;
+static_assert(kFirstBytes % kBlockBytes == 0);
 /// What one round of requests fetches, and may take in memory beside the file: 32 MiB, of 64 requests at
 /// most.
 constexpr std::uint64_t kRoundBytes = std::uint64_t{1} << 25;
@@ -26,7 +31,7 @@ constexpr int kAbsent = 404, kRemoved = 410, kBeyond = 416;
 /// An answer without a range is a whole file. One of exactly as many bytes as were asked for may as well be
 /// the part, from a server that does not say so: such a server sends one byte where one is asked for.
 bool isUnsaidPart(HttpClient& client, const RetryRules& rules, const RangeAnswer& answer) {
-  if (answer.isRange || answer.bytes.size() != kBlockBytes) return false;
+  if (answer.isRange || answer.bytes.size() != kFirstBytes) return false;
   const RangeAnswer again = requestRange(client, rules, 0, 0);
   return again.problem.empty() && !again.isRange && again.length != answer.length;
 }
@@ -54,7 +59,7 @@ RangedFile::~RangedFile() {
 Result<std::shared_ptr<const RangedFile>> RangedFile::open(Source source, const WebSettings& settings,
                                                            const std::atomic<bool>* cancel) {
   source.client->cancelBy(cancel != nullptr ? cancel : settings.cancel);
-  RangeAnswer first = requestRange(*source.client, source.rules, 0, kBlockBytes - 1);
+  RangeAnswer first = requestRange(*source.client, source.rules, 0, kFirstBytes - 1);
   if (first.problem.empty() && isUnsaidPart(*source.client, source.rules, first))
     first.problem = "the server sends a part of the file and does not say how long the file is";
   const bool isCancelled = source.client->isCancelled();
@@ -69,6 +74,7 @@ Result<std::shared_ptr<const RangedFile>> RangedFile::open(Source source, const 
   if (!first.problem.empty())
     return failure(ErrorCode::unreadable,
                    fmt::format("cannot be read from {}: {}", source.host, first.problem), source.name);
+  allowReserved(first.length);
   void* const begin = first.length > static_cast<std::uint64_t>(PTRDIFF_MAX)
                           ? MAP_FAILED
                           : ::mmap(nullptr, first.length, PROT_READ | PROT_WRITE,

@@ -20,7 +20,7 @@
 
 namespace arete {
 
-/// A file of a server as one range of memory. Address space of its length is reserved; its first 16 KiB are
+/// A file of a server as one range of memory. Address space of its length is reserved; its first 64 KiB are
 /// fetched when it is opened, and other parts when they are loaded, in blocks of 16 KiB: never the whole
 /// where a part is asked for, unless the server gives no parts of files. The parts of one call are fetched
 /// together: near ones by one request (planRequests()), several requests at once. Every answer is held

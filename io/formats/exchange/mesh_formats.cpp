@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "engine/memory/required_memory.h"
 #include "io/files/no_file.h"
 #include "io/files/output_file.h"
 #include "io/files/text/utf8.h"
@@ -207,14 +208,27 @@ bool isMeshFile(const std::filesystem::path& path) {
   return format && format->read && (!format->holds.sharesFile || holdsSurfaces(path));
 }
 
+namespace {
+/// The file and the mesh are in memory together, and the mesh takes up to three times the bytes of the file.
+/// What is in an archive or on a server is bounded as it grows.
+void requireMemoryFor(const std::filesystem::path& path) {
+  constexpr std::uint64_t kOfFile = 4;
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(path, error);
+  if (!error) requireMemory(kOfFile * bytes, "take a smaller mesh, or a part of it");
+}
+}  // namespace
+
 Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context,
                           std::string_view name) try {
+  requireMemoryFor(path);
   return readAs(path, context, name, true);
 } catch (...) {
   return caughtFailure(path.native());
 }
 
 Result<MeshFile> readMeshOrPoints(const std::filesystem::path& path, const RunContext& context) try {
+  requireMemoryFor(path);
   return readAs(path, context, {}, false);
 } catch (...) {
   return caughtFailure(path.native());

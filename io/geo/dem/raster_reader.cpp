@@ -15,6 +15,7 @@
 
 #include "engine/base/caught_failure.h"
 #include "engine/memory/pages.h"
+#include "engine/memory/required_memory.h"
 #include "io/files/text/address_text.h"
 #include "io/geo/dem/mosaic.h"
 #include "io/geo/gdal/support.h"
@@ -66,6 +67,8 @@ Result<RasterRead> readMosaic(const std::vector<std::string>& paths, const Raste
 }  // namespace
 
 Status checkMemory(double bytes, const std::string& what) {
+  ARETE_CHECK(checkBudget(static_cast<std::uint64_t>(std::min(bytes, 1e18)),
+                          "take a part of the DEM or a coarser one"));
   const double usable = double(CPLGetUsablePhysicalRAM());
   if (usable <= 0 || bytes <= usable) return {};
   return failure(ErrorCode::unsupported,

@@ -25,6 +25,7 @@
 #include "engine/base/caught_failure.h"
 #include "engine/criteria/view_error.h"
 #include "engine/cut/cut.h"
+#include "engine/memory/required_memory.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/query/extract/view_footprint.h"
 #include "io/query/request/criterion.h"
@@ -131,8 +132,10 @@ Result<PartAndCut> readForView(const AmtFile& file, const CutRequest& requested,
 
 }  // namespace
 
-Result<PartAndCut> readForExtract(const AmtFile& file, std::span<const ExtractRequest> requests,
-                                  const TerrainModel& outline, const RunContext& context) try {
+namespace {
+
+Result<PartAndCut> readPart(const AmtFile& file, std::span<const ExtractRequest> requests,
+                            const TerrainModel& outline, const RunContext& context) {
   std::vector<CutRequest> criteria;
   std::optional<Region> region;
   for (const ExtractRequest& request : requests) {
@@ -148,6 +151,17 @@ Result<PartAndCut> readForExtract(const AmtFile& file, std::span<const ExtractRe
   ARETE_TRY(const RequiredError required, requiredBy(criteria, region, outline));
   ARETE_TRY(TerrainModel part, file.read({.wanted = required}, context));
   return PartAndCut{std::move(part), std::nullopt};
+}
+
+}  // namespace
+
+Result<PartAndCut> readForExtract(const AmtFile& file, std::span<const ExtractRequest> requests,
+                                  const TerrainModel& outline, const RunContext& context) try {
+  ARETE_TRY(PartAndCut read, readPart(file, requests, outline, context));
+  // What a cut of all nodes that were read takes for each of them, and the mesh that is written of it.
+  constexpr std::uint64_t kBytesOfCut = 90;
+  requireMemory(kBytesOfCut * read.model.mt.nodeCount(), "ask for a smaller part or a larger tolerance");
+  return read;
 } catch (...) {
   return caughtFailure(file.path());
 }

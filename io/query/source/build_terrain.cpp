@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "engine/memory/required_memory.h"
 #include "io/files/text/grouped.h"
 #include "terrain/features/fixed_vertices.h"
 
@@ -17,6 +18,8 @@ namespace {
 
 /// What a build needs at the least; rough terrain takes up to twice as much (terrain/builder/build.h).
 constexpr double kLeastBuildBytesPerSample = 164;
+/// What it needs at the most. A budget is held in any case.
+constexpr double kMostBuildBytesPerSample = 300;
 
 }  // namespace
 
@@ -27,10 +30,15 @@ Status checkBuildMemory(const DemHeightfield& heights, const std::string& path) 
         const double valid = static_cast<double>(
             field.heights.size() - static_cast<std::size_t>(std::ranges::count_if(
                                        field.heights, [](double height) { return std::isnan(height); })));
+        const bool hasBudget = memoryBudget() > 0;
+        // Of a budget the heights are in use already.
+        const double bytes = hasBudget ? valid * kMostBuildBytesPerSample
+                                       : valid * kLeastBuildBytesPerSample +
+                                             static_cast<double>(field.heights.size() * sizeof(double));
         const Status memory = checkMemory(
-            valid * kLeastBuildBytesPerSample + static_cast<double>(field.heights.size() * sizeof(double)),
-            fmt::format("a build of {} samples would", grouped(static_cast<std::uint64_t>(valid))));
+            bytes, fmt::format("a build of {} samples would", grouped(static_cast<std::uint64_t>(valid))));
         if (memory) return {};
+        if (hasBudget) return failure(memory.error().code, memory.error().message, path);
         return failure(memory.error().code,
                        memory.error().message +
                            ": build a part of it (gdal_translate -srcwin) or a coarser DEM (gdalwarp -tr)",

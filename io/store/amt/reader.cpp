@@ -6,11 +6,14 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "engine/base/caught_failure.h"
+#include "engine/memory/required_memory.h"
 #include "engine/mt/node_blocks.h"
+#include "io/store/amt/block_parts.h"
 #include "io/store/amt/file.h"
 #include "io/store/amt/model_columns.h"
 #include "io/store/amt/part.h"
@@ -38,6 +41,10 @@ class AmtOpener {
   AmtFile& file_;
   const AmtContainer& all_;
 };
+
+namespace {
+constexpr std::string_view kPagesNeedLess = "of a model in pages (`paged`) only what is asked for is read";
+}  // namespace
 
 static_assert(sizeof(Vec2) == 16 && sizeof(Sphere) == 16 && sizeof(std::array<std::uint32_t, 3>) == 12);
 
@@ -117,6 +124,8 @@ double AmtFile::errorBeyond(std::uint64_t nodes) const {
 /// A part is read alone where the file's segments have checksums of their own; otherwise everything is loaded
 /// and checked. A failed read of the file is reported before the failure to unpack that it causes.
 Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const RunContext& context) const {
+  // The arrays of a plain file are used where they are mapped, and all of them may be touched.
+  if (!isPacked()) requireMemory(container_.bytes().size(), kPagesNeedLess);
   const bool isPart = options.wanted && options.verify != AmtVerify::none && !isPacked() && hasSegments();
   if (isPart) return readAmtPart(*this, options.wanted, options.verify, context);
   ARETE_CHECK(loadAllButPacked(context));
@@ -124,26 +133,33 @@ Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const 
   if (!isPacked()) return model_.mt;
   const AmtContainer& all = container_;
   const LoadParts load = [&](std::span<const FileImage::Part> parts) {
-    return all.loadParts(parts, context);
+    return all.loadParts(isPaged() && all.owner()->isFar()
+                             ? withBlocksJoined(parts, pageBlocks_, packedNodes_)
+                             : std::vector(parts.begin(), parts.end()),
+                         context);
   };
   Result<MultiTriangulation> mt =
       isPaged() ? unpackMt(*metadata_, {packedDirectory_, packedTables_, pageBlocks_, packedNodes_},
                            options.wanted, context, load)
                 : unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options.wanted, context,
                            load);
+  if (memoryBudget() > 0 && !container_.owner()->isFar()) {
+    container_.owner()->forget(packedNodes_);
+    container_.owner()->forget(pageBlocks_);
+  }
   ARETE_CHECK(container_.loaded());
   if (!mt) return failure(mt.error().code, mt.error().message, path());
   return mt;
 }
 
-Result<std::vector<PageNeed>> AmtFile::pagesFor(const RequiredError& wanted, const RunContext& context) const {
+Result<std::vector<PageNeed>> AmtFile::pagesFor(const RequiredError& wanted,
+                                                const RunContext& context) const {
   if (!isPaged()) return std::vector<PageNeed>();
   const std::array<FileImage::Part, 1> directory = {packedDirectory_};
   ARETE_CHECK(container_.loadParts(directory, context));
-  auto needs = neededPages(*metadata_, {packedDirectory_, packedTables_, pageBlocks_, packedNodes_}, wanted,
-                           [&](std::span<const FileImage::Part> parts) {
-                             return container_.loadParts(parts, context);
-                           });
+  auto needs = neededPages(
+      *metadata_, {packedDirectory_, packedTables_, pageBlocks_, packedNodes_}, wanted,
+      [&](std::span<const FileImage::Part> parts) { return container_.loadParts(parts, context); });
   ARETE_CHECK(container_.loaded());
   if (!needs) return failure(needs.error().code, needs.error().message, path());
   return needs;

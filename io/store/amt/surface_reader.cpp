@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "engine/base/caught_failure.h"
+#include "engine/memory/required_memory.h"
+#include "io/store/amt/block_parts.h"
 #include "io/store/amt/finest_triangles.h"
 #include "io/store/amt/index_check.h"
 #include "io/store/amt/model_columns.h"
@@ -92,7 +94,10 @@ class SurfaceReading {
 
   Status unpackPages() {
     const LoadParts load = [&](std::span<const FileImage::Part> parts) {
-      return all_.loadParts(parts, context_);
+      return all_.loadParts(all_.owner()->isFar() ? withBlocksJoined(parts, bytesOf(amt_tag::kPageBlocks),
+                                                                     bytesOf(amt_tag::kPackedNodes))
+                                                  : std::vector(parts.begin(), parts.end()),
+                            context_);
     };
     Result<UnpackedPages> unpacked =
         unpackSurfaceMt(metadata_,
@@ -232,6 +237,8 @@ Result<SurfaceModel> loadSurfaceAmt(const AmtContainer& container, const AmtRead
     return failure(ErrorCode::unsupported, "is of terrain, and a surface is wanted here", container.path());
   const Result<SurfaceMetadata> metadata = fromSurfaceJson(container.metadata());
   if (!metadata) return container.corrupt(fmt::format("chunk META: {}", metadata.error().message));
+  if (!container.isPaged())
+    requireMemory(container.bytes().size(), "build a smaller surface, or write it in pages");
   return SurfaceReading(container, *metadata, options, context).run();
 } catch (...) {
   return caughtFailure(container.path());

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "engine/base/caught_failure.h"
+#include "engine/memory/required_memory.h"
 #include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/per_thread.h"
 #include "engine/parallel/with_threads.h"
@@ -281,8 +282,14 @@ Result<PackedSurfaceMt> packSurface(const MultiTriangulation& mt, const SurfaceP
 }  // namespace
 }  // namespace packed
 
+namespace {
+/// About what packing takes beside the model.
+constexpr std::uint64_t kBytesOfPackedNode = 150;
+}  // namespace
+
 Result<PackedMt> packMt(const TerrainModel& model, const PackOptions& options,
                         const RunContext& context) try {
+  requireMemory(kBytesOfPackedNode * model.mt.nodeCount(), "write the plain form");
   return withThreads(context, [&] {
     return packed::Packer(model.mt, packed::kindOf(model), options.isPaged, false, context).run();
   });
@@ -292,6 +299,7 @@ Result<PackedMt> packMt(const TerrainModel& model, const PackOptions& options,
 
 Result<PackedSurfaceMt> packSurfaceMt(const MultiTriangulation& mt, const SurfacePackOptions& options,
                                       const RunContext& context, const CarryInPages& carry) try {
+  requireMemory(kBytesOfPackedNode * mt.nodeCount(), "write the plain form");
   return withThreads(context, [&] { return packed::packSurface(mt, options, context, carry); });
 } catch (...) {
   return caughtFailure();

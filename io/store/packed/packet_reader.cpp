@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "engine/base/caught_failure.h"
+#include "engine/memory/required_memory.h"
 #include "engine/parallel/parallel_loops.h"
 #include "engine/parallel/per_thread.h"
 #include "engine/parallel/with_threads.h"
@@ -172,6 +173,16 @@ class Unpacker {
 
 namespace {
 
+/// Refuses what does not fit into the memory budget, before packed nodes are read.
+/// @param bytes  of the packed nodes, which are in memory meanwhile
+Status checkUnpacking(const packed::MtKind& kind, AmtCounts counts, std::uint64_t nodes, std::uint64_t slots,
+                      std::uint64_t borders, std::uint64_t bytes) {
+  counts.nodes = nodes;
+  counts.slots = slots;
+  return checkBudget(packed::Arrays::bytesOf(kind, counts, borders) + bytes,
+                     "ask for a smaller part or a larger tolerance of a model in pages (`paged`)");
+}
+
 Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& counts,
                                   std::span<const std::byte> directoryBytes,
                                   std::span<const std::byte> tableBytes, std::span<const std::byte> nodes,
@@ -200,6 +211,8 @@ Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& c
   const auto tables = tablesOf(tableBytes, packed::kTables);
   if (!tables) return failure(ErrorCode::corrupt, "the tables of the packed nodes are damaged");
   const bool isPart = wanted && !packed::keepRequired(*directory, wanted, kind.scale);
+  ARETE_CHECK(
+      checkUnpacking(kind, counts, directory->nodes(), directory->slots(), directory->borders(), bytes));
   return withThreads(context, [&] {
     return packed::Unpacker(std::move(*directory), *tables, nodes, context, isPart, false, load)
         .run(kind, counts);
@@ -245,10 +258,23 @@ Result<UnpackedPages> unpack(const packed::MtKind& kind, const AmtCounts& counts
   packed::Directory& directory = choice.directory;
   directory.isOfSurface = !kind.hasPlan();
   std::vector<std::span<const std::byte>> parts;
+  // A fault maps 64 KiB of a file, so that small pages far apart take more than their bytes.
+  constexpr std::uint64_t kAround = std::uint64_t{1} << 16;
+  std::uint64_t stated = 0, packedBytes = 0, left = 0;
   for (const packed::Packet& page : directory.packets) {
+    for (const packed::Segment& segment : page.segments) stated += segment.nodes;
+    left += page.borders;
     ARETE_TRY(const auto part, bytesOf(paged, page));
-    if (!part.empty()) parts.push_back(part);
+    if (part.empty()) continue;
+    parts.push_back(part);
+    packedBytes += part.size() + kAround;
   }
+  // How many slots the nodes of a page have is in its headers, which are not read yet: about as many as all.
+  const double slotsOfNode =
+      static_cast<double>(root->slots) / std::max(1.0, static_cast<double>(counts.nodes));
+  ARETE_CHECK(checkUnpacking(kind, counts, stated,
+                             static_cast<std::uint64_t>(static_cast<double>(stated) * slotsOfNode), left,
+                             std::min<std::uint64_t>(packedBytes, paged.nodes.size())));
   if (load) ARETE_CHECK(load(parts));
   const std::uint64_t roots = counts.rootVertices + counts.rootTriangles;
   return withThreads(context, [&]() -> Result<UnpackedPages> {

@@ -435,8 +435,9 @@ TEST_F(OptionsOfBothKinds, WhatEveryCommandTakesIsForBoth) {
   for (const auto& [name, tried] : triedCommands()) {
     if (name == "view") continue;
     for (const std::string& base : {tried.onTerrain, tried.onSurface}) {
-      Words words =
-          split(base + " --json --quiet --progress --threads 2 --no-huge-pages --cache kept:1MB --confined");
+      Words words = split(
+          base +
+          " --json --quiet --progress --threads 2 --no-huge-pages --memory 2G --cache kept:1MB --confined");
       if (name == "extract") words.insert(words.end(), {"--max-error", "2%"});
       const Outcome outcome = run(words);  // --confined is for the whole process
       EXPECT_EQ(outcome.code, 0) << base << "\n" << outcome.err;

@@ -67,6 +67,18 @@ bool Arrays::allocate(const AmtCounts& counts, std::uint64_t borders) {
   return true;
 }
 
+std::uint64_t Arrays::bytesOf(const MtKind& kind, const AmtCounts& counts, std::uint64_t borders) {
+  AmtFacts facts = kind.facts();
+  facts.counts = counts;
+  std::uint64_t bytes = 0;
+  for (const AmtMtColumn& column : amtMtColumns(facts))
+    if (column.coding != AmtCoding::dropped) bytes += amtCountOf(column.per, facts) * column.elementBytes();
+  const std::uint64_t vertices = counts.rootVertices + counts.nodes;
+  if (kind.hasPlan()) bytes += vertices * sizeof(Place<double>);  // of floats half as many
+  return bytes + counts.nodes + (counts.rootTriangles + borders) * sizeof(Border) +
+         (counts.rootTriangles + counts.slots) / 8;
+}
+
 void Arrays::bindColumns() {
   bind(amt_tag::kRootTriangles, rootTriangles);
   bind(amt_tag::kSlotBegin, slotBegin);

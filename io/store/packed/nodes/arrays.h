@@ -105,6 +105,8 @@ struct Arrays : MtKind {
   /// Allocates all arrays, with the sizes that the counts call for, and the borders of the packets.
   /// @return false if there is not enough memory
   bool allocate(const AmtCounts& counts, std::uint64_t borders);
+  /// About the bytes that allocate() takes, and finish() beside them.
+  static std::uint64_t bytesOf(const MtKind& kind, const AmtCounts& counts, std::uint64_t borders);
   /// Sets the typed arrays to the memory of their columns.
   void bindColumns();
   /// Fills the root's borders from rootTriangles.
