@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/memory/required_memory.h"
 #include "io/store/entropy/number_bytes.h"
 #include "io/store/packed/surface/carried_coder.h"
 #include "io/store/packed/surface/carried_io.h"
@@ -164,6 +165,11 @@ class Unpacking {
 
   void allocate() {
     const std::size_t vertices = model_.mt.vertexCount(), ids = model_.mt.triangleIdCount();
+    // The numbers, and what is plain in the pages once more.
+    requireMemory(vertices * sizeof(std::uint32_t) +
+                      ids * (sizeof(std::uint32_t) + (model_.attributes.wedgeCount > 0 ? 12 : 0)) +
+                      2 * carriedBytes(),
+                  "ask for less of the surface");
     model_.vertexOf.assign(vertices, 0);
     model_.faceOf.assign(ids, 0);
     model_.wedgesOf.assign(model_.attributes.wedgeCount > 0 ? ids : 0, {0, 0, 0});
