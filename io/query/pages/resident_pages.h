@@ -30,16 +30,16 @@ struct PageDemand {
 /// The part is always a multitriangulation in itself, with every ancestor of its nodes, so that each cut of
 /// it covers the whole plan: a page that is not there yet makes the cut coarser (Cut::missing) and never
 /// leaves a hole. Where the budget or the bytes of a step do not allow the errors that are needed, the part
-/// allows the least multiple of them, the same everywhere. Steps with one demand lead to a part that depends
-/// neither on the demands before nor on the bytes of a step, and then read nothing. No result depends on
-/// threads.
+/// allows the least multiple of them, the same everywhere. Steps with one demand come to an end: to all
+/// that is needed or, where the budget is too small for it, to the part that the budget and the demand alone
+/// determine. No result depends on threads.
 ///
 /// Not thread-safe: one thread at a time, and no other reads pages of the same open file meanwhile. The parts
 /// are models of their own and stay valid.
 class ResidentPages {
  public:
   static constexpr std::uint64_t kUsualBytes = std::uint64_t{64} << 20;
-  /// About as many nodes are in the part of the beginning.
+  /// At most about so many nodes are in the part of the beginning.
   static constexpr std::uint64_t kOutlineNodes = 8000;
 
   /// Reads a part of some thousand nodes, the coarsest ones. Precondition: the file is in pages.
@@ -89,8 +89,8 @@ class ResidentPages {
   ResidentPages(AmtFile file, std::uint64_t mostBytes) : file_(std::move(file)), mostBytes_(mostBytes) {}
   std::uint64_t newBytesOf(const PageNeed& need) const;
   bool partHas(const std::vector<PageNeed>& pages) const;
-  void makeRoom(std::uint64_t bytes);
-  void forget(std::uint64_t page);
+  void makeRoom(std::uint64_t bytes, const std::vector<PageNeed>& staying);
+  void shorten(std::uint64_t page, std::uint64_t kept);
 
   AmtFile file_;
   std::uint64_t mostBytes_, bytes_ = 0, now_ = 0;

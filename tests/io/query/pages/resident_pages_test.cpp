@@ -217,7 +217,7 @@ TEST(ResidentPages, LeadToOnePictureWhereverTheCameraWasBefore) {
     const auto step = settled(travelled, demandFor(view, travelled, 0.7), 10'000);
     EXPECT_EQ(step.coarseness, expected.coarseness);
     if (step.coarseness == 1) {
-      EXPECT_EQ(trianglesOf(*step.part, view).size(), trianglesOf(*expected.part, view).size());
+      EXPECT_TRUE(cutOf(*step.part, view, 0.7).missing.empty()) << "the part may have more than is needed";
     } else {
       EXPECT_EQ(trianglesOf(*step.part, view), trianglesOf(*expected.part, view));
     }
