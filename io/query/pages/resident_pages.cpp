@@ -123,7 +123,7 @@ class ResidentPages::Stepping {
     ARETE_CHECK(read(choice->pages, choice->newBytes));
     if (!isFinest_) {
       ARETE_TRY(const Choice* const finer, rung(taken - 1));
-      ARETE_CHECK(readSome(finer->pages, true));
+      ARETE_CHECK(readSome(finer->pages));
     }
     step_.coarseness = choice->coarseness;
     if (p_.part_ && p_.partHas(choice->pages)) return {};
@@ -139,7 +139,7 @@ class ResidentPages::Stepping {
     for (const RequiredError* required : {&demand_.around, &demand_.ahead}) {
       if (!*required || step_.bytes >= mostBytes_) continue;
       ARETE_TRY(const Choice choice, chosen(*required, 1));
-      ARETE_CHECK(readSome(choice.pages, false));
+      ARETE_CHECK(readSome(choice.pages));
     }
     return {};
   }
@@ -169,9 +169,9 @@ class ResidentPages::Stepping {
     return p_.file_.container().loadParts(parts, context_);
   }
 
-  /// Reads of pages, in their order, what this step may still read and what there is room for. @param one at
-  /// least
-  Status readSome(const std::vector<PageNeed>& pages, bool one) {
+  /// Reads of pages, in their order, what this step may still read and what there is room for; one where the
+  /// step has read none.
+  Status readSome(const std::vector<PageNeed>& pages) {
     use(pages);
     std::vector<PageNeed> some;
     std::uint64_t bytes = 0;
@@ -182,7 +182,7 @@ class ResidentPages::Stepping {
     for (const PageNeed& need : pages) {
       const std::uint64_t missing = p_.newBytesOf(need);
       if (missing == 0) continue;
-      const bool isFirst = one && some.empty() && step_.bytes == 0;
+      const bool isFirst = some.empty() && step_.bytes == 0;
       if (!isFirst && step_.bytes + bytes + missing > mostBytes_) break;
       if (used + bytes + missing > p_.mostBytes_) break;
       some.push_back(need);
@@ -251,8 +251,8 @@ bool ResidentPages::partHas(const std::vector<PageNeed>& pages) const {
   return true;
 }
 
-// The longest unused first; of those the last in the file, which others depend on least. Then, of pages that stay,
-// what is longer than it needs to be.
+// The longest unused first; of those the last in the file, which others depend on least. Then, of pages that
+// stay, what is longer than it needs to be.
 void ResidentPages::makeRoom(std::uint64_t bytes, const std::vector<PageNeed>& staying) {
   if (bytes_ + bytes <= mostBytes_) return;
   std::vector<std::pair<std::uint64_t, std::uint64_t>> unused;  // step, page from the end
@@ -269,8 +269,8 @@ void ResidentPages::makeRoom(std::uint64_t bytes, const std::vector<PageNeed>& s
   }
 }
 
-// The file gives back whole blocks, so that all up to the next page in memory is given back; where nothing stays, from
-// the end of the page before on.
+// The file gives back whole blocks, so that all up to the next page in memory is given back; where nothing
+// stays, from the end of the page before on.
 void ResidentPages::shorten(std::uint64_t page, std::uint64_t kept) {
   const auto found = resident_.find(page);
   if (found == resident_.end() || found->second.bytes.size() <= kept) return;
