@@ -28,7 +28,7 @@ namespace {
 /// Rungs of the ladder below the needed errors: 2^50 times them, then the root.
 constexpr int kCoarserRungs = 100;
 /// Of the part of the beginning, which a server sends before the first picture.
-constexpr std::uint64_t kMostOutlineBytes = std::uint64_t{384} << 10;
+constexpr std::uint64_t kMostOutlineBytes = std::uint64_t{256} << 10;
 
 std::uint64_t bytesOf(const std::vector<PageNeed>& pages) {
   std::uint64_t sum = 0;
