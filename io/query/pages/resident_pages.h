@@ -39,7 +39,7 @@ struct PageDemand {
 class ResidentPages {
  public:
   static constexpr std::uint64_t kUsualBytes = std::uint64_t{64} << 20;
-  /// At most about so many nodes are in the part of the beginning.
+  /// The part of the beginning has about this many nodes at most.
   static constexpr std::uint64_t kOutlineNodes = 8000;
 
   /// Reads a part of some thousand nodes, the coarsest ones. Precondition: the file is in pages.
@@ -56,8 +56,8 @@ class ResidentPages {
   struct Step {
     std::shared_ptr<const TerrainModel> part;
     bool isNew = false;  ///< another part than after the step before
-    /// The part allows errors so many times as large as those that are needed, at most; 1: it has all that
-    /// is needed. Infinite: nothing but the root is sure.
+    /// The errors that the part allows are at most this multiple of the needed ones; 1: it has all that is
+    /// needed. Infinite: nothing but the root is sure.
     double coarseness = 1;
     std::uint64_t pages = 0, bytes = 0;  ///< that this step read
     /// What the next picture needs and is not in memory after the step.

@@ -121,7 +121,7 @@ ResidentPages::Step settled(ResidentPages& pages, const PageDemand& demand, std:
     auto step = got(pages.step(demand, mostBytes));
     if (step.isDone) return step;
   }
-  ADD_FAILURE() << "there is no end of steps";
+  ADD_FAILURE() << "the steps do not end";
   return got(pages.step(demand, mostBytes));
 }
 
