@@ -12,7 +12,7 @@
 
 namespace arete {
 
-/// A terrain that is read in pages. Its space, its box and home views are those of an outline, which has the
+/// A terrain that is read in pages. Its space, its box and home views come from an outline, which has the
 /// peaks and pits that every level keeps; picks meet the part that is drawn, and boundAt() says how far that
 /// may be from the model. What needs the whole model at full resolution is refused: lines of sight and
 /// viewsheds (terrain() has nothing for their tools), the curved Earth, colours by slope. One thread at a

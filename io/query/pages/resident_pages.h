@@ -45,7 +45,7 @@ class ResidentPages {
   /// Reads a part of some thousand nodes, the coarsest ones. Precondition: the file is in pages.
   ///
   /// @param mostBytes of pages in memory. The pages of the root are there even so.
-  /// Errors: those of AmtFile::read().
+  /// Errors: as AmtFile::read().
   static Result<ResidentPages> open(AmtFile file, std::uint64_t mostBytes = kUsualBytes,
                                     const RunContext& context = {});
 
