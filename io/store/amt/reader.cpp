@@ -143,14 +143,14 @@ Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const 
   return mt;
 }
 
-Result<std::vector<PageNeed>> AmtFile::pagesFor(const RequiredError& wanted, const RunContext& context) const {
+Result<std::vector<PageNeed>> AmtFile::pagesFor(const RequiredError& wanted,
+                                                const RunContext& context) const {
   if (!isPaged()) return std::vector<PageNeed>();
   const std::array<FileImage::Part, 1> directory = {packedDirectory_};
   ARETE_CHECK(container_.loadParts(directory, context));
-  auto needs = neededPages(*metadata_, {packedDirectory_, packedTables_, pageBlocks_, packedNodes_}, wanted,
-                           [&](std::span<const FileImage::Part> parts) {
-                             return container_.loadParts(parts, context);
-                           });
+  auto needs = neededPages(
+      *metadata_, {packedDirectory_, packedTables_, pageBlocks_, packedNodes_}, wanted,
+      [&](std::span<const FileImage::Part> parts) { return container_.loadParts(parts, context); });
   ARETE_CHECK(container_.loaded());
   if (!needs) return failure(needs.error().code, needs.error().message, path());
   return needs;
