@@ -97,7 +97,7 @@ Result<FrameFigures> HeadlessView::draw(const Camera& stated, const RunContext& 
     if (canFit && !fits()) ARETE_CHECK(cutAt(coarse));
     figures->isComplete = false;
   }
-  // A page that is not there is no reason for a coarser cut, so it counts only now.
+  // A missing page does not call for a coarser cut, so it counts only now.
   if (figures->pages && figures->pages->missingTriangles > 0) figures->isComplete = false;
   // The time of drawing ends when the device has finished, and not when the last call returns.
   const Stopwatch watch;

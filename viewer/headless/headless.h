@@ -45,8 +45,8 @@ class HeadlessView {
   Result<FrameFigures> draw(const Camera& camera, const RunContext& context = {});
   /// The picture that was drawn last.
   Image image() const { return target_.image(); }
-  /// The same with legends, scale bar, north arrow and graticule, as the options say. Precondition: draw() for
-  /// the scene as it is. Errors: as Canvas::create().
+  /// The same with legends, scale bar, north arrow and graticule, as the options say. Precondition: draw()
+  /// for the scene as it is. Errors: as Canvas::create().
   Result<Image> picture();
 
   /// From the next picture on: ViewSettings::pageBytes.

@@ -12,10 +12,11 @@
 
 namespace arete {
 
-/// A terrain that is read in pages. Its space, its box and home views are those of an outline, which has the
+/// A terrain that is read in pages. Its space, its box and home views come from an outline, which has the
 /// peaks and pits that every level keeps; picks meet the part that is drawn, and boundAt() says how far that
 /// may be from the model. What needs the whole model at full resolution is refused: lines of sight and
-/// viewsheds (it is no terrain() of tools), the curved Earth, colours by slope. One thread at a time.
+/// viewsheds (terrain() has nothing for their tools), the curved Earth, colours by slope. One thread at a
+/// time.
 class PagedSubject final : public Subject {
  public:
   /// Keeps the model.

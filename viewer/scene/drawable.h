@@ -26,8 +26,9 @@ class Drawable {
   /// The frame that a camera and settings make. Errors: as Subject::viewOf().
   virtual Result<FrameView> frameOf(const Camera& camera, const ViewSettings& settings) const = 0;
 
-  /// Of a model that is read in pages: reads what the picture of a camera needs, as far as the settings allow, or takes
-  /// in what was read meanwhile. A cut follows. Errors: of the file; usage, of the camera; interrupted.
+  /// Of a model that is read in pages: reads what the picture of a camera needs, as far as the settings
+  /// allow, or takes in what was read meanwhile. A cut follows. Errors: of the file; usage, of the camera;
+  /// interrupted.
   virtual Status advance(const Camera& camera, const ViewSettings& settings, const RunContext& context = {}) {
     static_cast<void>(camera), static_cast<void>(settings), static_cast<void>(context);
     return {};

@@ -120,7 +120,7 @@ struct FrameFigures {
   /// which takes the same nodes and does not compute it.
   double jumpPixels = std::numeric_limits<double>::quiet_NaN();
   double cutMilliseconds = 0, drawMilliseconds = 0;
-  bool isShown = true;  ///< false: nothing but the background; of pictures without a window
+  bool isShown = true;                    ///< false: nothing but the background; of pictures without a window
   std::optional<PageFigures> pages = {};  ///< of a model that is read in pages
 };
 

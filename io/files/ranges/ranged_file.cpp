@@ -103,7 +103,7 @@ std::optional<Error> RangedFile::problem() const {
   return problem_;
 }
 
-// A block that lies in the part wholly is no longer marked before its bytes become zeros.
+// The mark of a block that lies in the part wholly goes before its bytes become zeros.
 void RangedFile::forget(Part part) const {
   const auto begin = static_cast<std::uint64_t>(part.data() - bytes_.data());
   const std::uint64_t first = (begin + kBlockBytes - 1) / kBlockBytes,

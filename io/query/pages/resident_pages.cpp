@@ -27,6 +27,14 @@ namespace {
 
 /// Rungs of the ladder below the needed errors: 2^50 times them, then the root.
 constexpr int kCoarserRungs = 100;
+/// Of the part of the beginning, which a server sends before the first picture.
+constexpr std::uint64_t kMostOutlineBytes = std::uint64_t{256} << 10;
+
+std::uint64_t bytesOf(const std::vector<PageNeed>& pages) {
+  std::uint64_t sum = 0;
+  for (const PageNeed& need : pages) sum += need.bytes.size();
+  return sum;
+}
 
 }  // namespace
 
@@ -79,10 +87,8 @@ class ResidentPages::Stepping {
   Result<Choice> chosen(RequiredError required, double coarseness) {
     Choice choice{.required = std::move(required), .pages = {}, .coarseness = coarseness};
     ARETE_TRY(choice.pages, p_.file_.pagesFor(choice.required, context_));
-    for (const PageNeed& need : choice.pages) {
-      choice.bytes += need.bytes.size();
-      choice.newBytes += p_.newBytesOf(need);
-    }
+    choice.bytes = bytesOf(choice.pages);
+    for (const PageNeed& need : choice.pages) choice.newBytes += p_.newBytesOf(need);
     return choice;
   }
 
@@ -117,7 +123,7 @@ class ResidentPages::Stepping {
     ARETE_CHECK(read(choice->pages, choice->newBytes));
     if (!isFinest_) {
       ARETE_TRY(const Choice* const finer, rung(taken - 1));
-      ARETE_CHECK(readSome(finer->pages, true));
+      ARETE_CHECK(readSome(finer->pages));
     }
     step_.coarseness = choice->coarseness;
     if (p_.part_ && p_.partHas(choice->pages)) return {};
@@ -133,7 +139,7 @@ class ResidentPages::Stepping {
     for (const RequiredError* required : {&demand_.around, &demand_.ahead}) {
       if (!*required || step_.bytes >= mostBytes_) continue;
       ARETE_TRY(const Choice choice, chosen(*required, 1));
-      ARETE_CHECK(readSome(choice.pages, false));
+      ARETE_CHECK(readSome(choice.pages));
     }
     return {};
   }
@@ -148,7 +154,7 @@ class ResidentPages::Stepping {
   /// Reads what is not there of pages, together.
   Status read(const std::vector<PageNeed>& pages, std::uint64_t newBytes) {
     if (newBytes == 0) return {};
-    p_.makeRoom(newBytes);
+    p_.makeRoom(newBytes, pages);
     std::vector<FileImage::Part> parts;
     for (const PageNeed& need : pages) {
       const std::uint64_t missing = p_.newBytesOf(need);
@@ -163,9 +169,9 @@ class ResidentPages::Stepping {
     return p_.file_.container().loadParts(parts, context_);
   }
 
-  /// Reads of pages, in their order, what this step may still read and what there is room for. @param one at
-  /// least
-  Status readSome(const std::vector<PageNeed>& pages, bool one) {
+  /// Reads of pages, in their order, what this step may still read and what there is room for; one where the
+  /// step has read none.
+  Status readSome(const std::vector<PageNeed>& pages) {
     use(pages);
     std::vector<PageNeed> some;
     std::uint64_t bytes = 0;
@@ -176,7 +182,7 @@ class ResidentPages::Stepping {
     for (const PageNeed& need : pages) {
       const std::uint64_t missing = p_.newBytesOf(need);
       if (missing == 0) continue;
-      const bool isFirst = one && some.empty() && step_.bytes == 0;
+      const bool isFirst = some.empty() && step_.bytes == 0;
       if (!isFirst && step_.bytes + bytes + missing > mostBytes_) break;
       if (used + bytes + missing > p_.mostBytes_) break;
       some.push_back(need);
@@ -197,9 +203,16 @@ class ResidentPages::Stepping {
 Result<ResidentPages> ResidentPages::open(AmtFile file, std::uint64_t mostBytes,
                                           const RunContext& context) try {
   ResidentPages pages(std::move(file), mostBytes);
-  const double error = pages.file_.errorBeyond(kOutlineNodes);
-  const RequiredError wanted = [error](const Box3&) { return error; };
-  ARETE_TRY(const auto needs, pages.file_.pagesFor(wanted, context));
+  // Nodes are counted by octaves of their errors, of which the last one may have many more.
+  const std::uint64_t most = std::min(kMostOutlineBytes, mostBytes / 2);
+  double error = 0;
+  const RequiredError wanted = [&error](const Box3&) { return error; };
+  std::vector<PageNeed> needs;
+  for (std::uint64_t nodes = kOutlineNodes;; nodes /= 2) {
+    error = nodes > 0 ? pages.file_.errorBeyond(nodes) : std::numeric_limits<double>::infinity();
+    ARETE_TRY(needs, pages.file_.pagesFor(wanted, context));
+    if (nodes == 0 || bytesOf(needs) <= most) break;
+  }
   ARETE_TRY(TerrainModel outline, pages.file_.read({.wanted = wanted}, context));
   pages.outline_ = std::make_shared<const TerrainModel>(std::move(outline));
   pages.part_ = pages.outline_;
@@ -238,8 +251,9 @@ bool ResidentPages::partHas(const std::vector<PageNeed>& pages) const {
   return true;
 }
 
-// The longest unused first; of those the last in the file, which others depend on least.
-void ResidentPages::makeRoom(std::uint64_t bytes) {
+// The longest unused first; of those the last in the file, which others depend on least. Then, of pages that
+// stay, what is longer than it needs to be.
+void ResidentPages::makeRoom(std::uint64_t bytes, const std::vector<PageNeed>& staying) {
   if (bytes_ + bytes <= mostBytes_) return;
   std::vector<std::pair<std::uint64_t, std::uint64_t>> unused;  // step, page from the end
   for (const auto& [page, resident] : resident_)
@@ -247,23 +261,33 @@ void ResidentPages::makeRoom(std::uint64_t bytes) {
   std::ranges::sort(unused);
   for (const auto& [usedAt, fromEnd] : unused) {
     if (bytes_ + bytes <= mostBytes_) return;
-    forget(~fromEnd);
+    shorten(~fromEnd, 0);
+  }
+  for (const PageNeed& need : staying) {
+    if (bytes_ + bytes <= mostBytes_) return;
+    shorten(need.page, need.bytes.size());
   }
 }
 
-// The file gives back whole blocks, so that all between the pages that stay on either side is given back.
-void ResidentPages::forget(std::uint64_t page) {
+// The file gives back whole blocks, so that all up to the next page in memory is given back; where nothing
+// stays, from the end of the page before on.
+void ResidentPages::shorten(std::uint64_t page, std::uint64_t kept) {
   const auto found = resident_.find(page);
-  const std::byte *begin = found->second.bytes.data(), *end = begin + found->second.bytes.size();
-  bytes_ -= found->second.bytes.size();
-  if (found != resident_.begin()) {
+  if (found == resident_.end() || found->second.bytes.size() <= kept) return;
+  const auto bytes = found->second.bytes;
+  const std::byte *begin = bytes.data() + kept, *end = bytes.data() + bytes.size();
+  bytes_ -= bytes.size() - kept;
+  if (kept == 0 && found != resident_.begin()) {
     const auto& before = std::prev(found)->second.bytes;
     begin = std::min(begin, before.data() + before.size());
   }
   if (const auto after = std::next(found); after != resident_.end())
     end = std::max(end, after->second.bytes.data());
   file_.container().owner()->forget({begin, end});
-  resident_.erase(found);
+  if (kept == 0)
+    resident_.erase(found);
+  else
+    found->second.bytes = bytes.first(kept);
 }
 
 }  // namespace arete

@@ -30,22 +30,22 @@ struct PageDemand {
 /// The part is always a multitriangulation in itself, with every ancestor of its nodes, so that each cut of
 /// it covers the whole plan: a page that is not there yet makes the cut coarser (Cut::missing) and never
 /// leaves a hole. Where the budget or the bytes of a step do not allow the errors that are needed, the part
-/// allows the least multiple of them, the same everywhere. Steps with one demand lead to a part that depends
-/// neither on the demands before nor on the bytes of a step, and then read nothing. No result depends on
-/// threads.
+/// allows the least multiple of them, the same everywhere. Steps with one demand come to an end: to all
+/// that is needed or, where the budget is too small for it, to the part that the budget and the demand alone
+/// determine. No result depends on threads.
 ///
 /// Not thread-safe: one thread at a time, and no other reads pages of the same open file meanwhile. The parts
 /// are models of their own and stay valid.
 class ResidentPages {
  public:
   static constexpr std::uint64_t kUsualBytes = std::uint64_t{64} << 20;
-  /// About as many nodes are in the part of the beginning.
+  /// The part of the beginning has about this many nodes at most.
   static constexpr std::uint64_t kOutlineNodes = 8000;
 
   /// Reads a part of some thousand nodes, the coarsest ones. Precondition: the file is in pages.
   ///
   /// @param mostBytes of pages in memory. The pages of the root are there even so.
-  /// Errors: those of AmtFile::read().
+  /// Errors: as AmtFile::read().
   static Result<ResidentPages> open(AmtFile file, std::uint64_t mostBytes = kUsualBytes,
                                     const RunContext& context = {});
 
@@ -56,8 +56,8 @@ class ResidentPages {
   struct Step {
     std::shared_ptr<const TerrainModel> part;
     bool isNew = false;  ///< another part than after the step before
-    /// The part allows errors so many times as large as those that are needed, at most; 1: it has all that
-    /// is needed. Infinite: nothing but the root is sure.
+    /// The errors that the part allows are at most this multiple of the needed ones; 1: it has all that is
+    /// needed. Infinite: nothing but the root is sure.
     double coarseness = 1;
     std::uint64_t pages = 0, bytes = 0;  ///< that this step read
     /// What the next picture needs and is not in memory after the step.
@@ -89,8 +89,8 @@ class ResidentPages {
   ResidentPages(AmtFile file, std::uint64_t mostBytes) : file_(std::move(file)), mostBytes_(mostBytes) {}
   std::uint64_t newBytesOf(const PageNeed& need) const;
   bool partHas(const std::vector<PageNeed>& pages) const;
-  void makeRoom(std::uint64_t bytes);
-  void forget(std::uint64_t page);
+  void makeRoom(std::uint64_t bytes, const std::vector<PageNeed>& staying);
+  void shorten(std::uint64_t page, std::uint64_t kept);
 
   AmtFile file_;
   std::uint64_t mostBytes_, bytes_ = 0, now_ = 0;

@@ -37,7 +37,7 @@ struct DrawnOfPart {
       0;              ///< triangles of the cut that are too coarse because their removers are not there
   double pixels = 0;  ///< the largest error of those, in pixels
 };
-/// Of the saturated cut. O(part), parallel. Errors: those of takeCut().
+/// Of the saturated cut. O(part), parallel. Errors: as takeCut().
 Result<DrawnOfPart> missingInView(const TerrainModel& part, const ViewDemand& demand,
                                   const RunContext& context = {});
 

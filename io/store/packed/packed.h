@@ -79,11 +79,12 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, const packed::P
                                     const RequiredError& wanted, const RunContext& context,
                                     const LoadParts& load);
 
-/// The pages that unpackMt() would use, in the order of the file, without reading one: each comes after those that
-/// it depends on. What is needed where more error is allowed is a part of it.
+/// The pages that unpackMt() would use, in the order of the file, without reading one: each comes after those
+/// that it depends on. What is needed where more error is allowed is a part of it.
 ///
 /// @param load for blocks
-/// Errors, without a culprit: corrupt: a damaged block, a page outside the file. O(blocks used + pages in them).
+/// Errors, without a culprit: corrupt: a damaged block, a page outside the file. O(blocks used + pages in
+/// them).
 Result<std::vector<PageNeed>> neededPages(const AmtMetadata& metadata, const packed::PagedMt& paged,
                                           const RequiredError& wanted, const LoadParts& load);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // arete view of terrain in pages.
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <string>
 #include <vector>
 

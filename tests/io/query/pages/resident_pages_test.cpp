@@ -121,7 +121,7 @@ ResidentPages::Step settled(ResidentPages& pages, const PageDemand& demand, std:
     auto step = got(pages.step(demand, mostBytes));
     if (step.isDone) return step;
   }
-  ADD_FAILURE() << "there is no end of steps";
+  ADD_FAILURE() << "the steps do not end";
   return got(pages.step(demand, mostBytes));
 }
 
@@ -217,7 +217,7 @@ TEST(ResidentPages, LeadToOnePictureWhereverTheCameraWasBefore) {
     const auto step = settled(travelled, demandFor(view, travelled, 0.7), 10'000);
     EXPECT_EQ(step.coarseness, expected.coarseness);
     if (step.coarseness == 1) {
-      EXPECT_EQ(trianglesOf(*step.part, view).size(), trianglesOf(*expected.part, view).size());
+      EXPECT_TRUE(cutOf(*step.part, view, 0.7).missing.empty()) << "the part may have more than is needed";
     } else {
       EXPECT_EQ(trianglesOf(*step.part, view), trianglesOf(*expected.part, view));
     }
