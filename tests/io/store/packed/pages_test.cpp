@@ -21,6 +21,7 @@
 #include "io/amt_fixture.h"
 #include "io/io_fixture.h"
 #include "io/store/amt/file.h"
+#include "io/store/amt/index_check.h"
 #include "io/store/format/metadata.h"
 #include "io/store/packed/packed.h"
 #include "io/store/packed/pages/directory_blocks.h"
@@ -273,6 +274,10 @@ TEST(Pages, AreRefusedOrSurviveWhateverTheirBytesAre) {
         return;
       }
       ++survived;
+      const Status sound = checkMtIndices(*mt, std::uint64_t{model.columns} * model.rows);
+      ASSERT_TRUE(sound) << sound.error().describe();
+      // The checks of a file are those of its indices and a few more, and take longer.
+      if (test::isFull() && survived % 100 != 1) return;
       TerrainModel some = model;
       some.mt = *mt;
       const TemporaryFolder folder;
