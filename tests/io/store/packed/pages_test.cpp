@@ -259,9 +259,9 @@ TEST(Pages, AreNamedWhereABitIsFlippedAndTheRestStaysReadable) {
 /// 31st byte.
 TEST(Pages, AreRefusedOrSurviveWhateverTheirBytesAre) {
   int damaged = 0;
-  for (const TerrainModel& model :
-       {built(build(hills(24, 22, [](double z) { return std::round(z) + 0.0; }))),
-        built(build(hills(150, 4, [](double z) { return std::round(z) + 0.0; })))}) {
+  for (const TerrainModel& model : {built(build(hills(24, 22, [](double z) { return std::round(z) + 0.0; }))),
+                                    built(build(hills(150, 4, [](double z) { return std::round(z) + 0.0; }))),
+                                    built(build(hills(18, 16, [](double z) { return z; })))}) {
     const Paged original(model);
     std::mt19937 random(3);
     int survived = 0, tried = 0;
