@@ -258,23 +258,27 @@ Result<UnpackedPages> unpack(const packed::MtKind& kind, const AmtCounts& counts
   packed::Directory& directory = choice.directory;
   directory.isOfSurface = !kind.hasPlan();
   std::vector<std::span<const std::byte>> parts;
-  // A fault maps 64 KiB of a file, so that small pages far apart take more than their bytes.
+  // A fault maps 64 KiB of a file, so that small pages far apart take more than their bytes. Pages lie in the
+  // order of their numbers.
   constexpr std::uint64_t kAround = std::uint64_t{1} << 16;
-  std::uint64_t stated = 0, packedBytes = 0, left = 0;
+  std::uint64_t stated = 0, windows = 1, behind = 0, left = 0;
   for (const packed::Packet& page : directory.packets) {
     for (const packed::Segment& segment : page.segments) stated += segment.nodes;
     left += page.borders;
     ARETE_TRY(const auto part, bytesOf(paged, page));
     if (part.empty()) continue;
     parts.push_back(part);
-    packedBytes += part.size() + kAround;
+    const auto begin = static_cast<std::uint64_t>(part.data() - paged.nodes.data()),
+               end = begin + part.size();
+    windows += std::max(behind, end / kAround + 1) - std::max(behind, begin / kAround);
+    behind = std::max(behind, end / kAround + 1);
   }
   // How many slots the nodes of a page have is in its headers, which are not read yet: about as many as all.
   const double slotsOfNode =
       static_cast<double>(root->slots) / std::max(1.0, static_cast<double>(counts.nodes));
   ARETE_CHECK(checkUnpacking(kind, counts, stated,
                              static_cast<std::uint64_t>(static_cast<double>(stated) * slotsOfNode), left,
-                             std::min<std::uint64_t>(packedBytes, paged.nodes.size())));
+                             std::min<std::uint64_t>(windows * kAround, paged.nodes.size())));
   if (load) ARETE_CHECK(load(parts));
   const std::uint64_t roots = counts.rootVertices + counts.rootTriangles;
   return withThreads(context, [&]() -> Result<UnpackedPages> {

@@ -99,7 +99,9 @@ def make_questions():
         with open(os.path.join(folder, f"{name}.csv"), "w") as file:
             file.write("x1,y1,h1,x2,y2,h2\n")
             for i in range(lines):
-                a, b = at((i * 0.7548776662) % 1, (i * 0.5698402910) % 1), at((i * 0.3247179572) % 1, (i * 0.8191725134) % 1)
+                u, v, p, q = ((i * step) % 1 for step in (0.7548776662, 0.5698402910, 0.3247179572, 0.8191725134))
+                # A few cross the terrain; many are short, as those of a network of masts.
+                a, b = at(u, v), at(p, q) if name == "few" else at(u + (p - u) / 16, v + (q - v) / 16)
                 file.write(f"{a[0]:.3f},{a[1]:.3f},20,{b[0]:.3f},{b[1]:.3f},10\n")
     x, y = at(0.5, 0.5)
     places = {"middle": f"{x},{y}", "line": "{},{},20:{},{},10".format(*at(0.2, 0.3), *at(0.7, 0.8))}
@@ -172,13 +174,13 @@ class Memory(unittest.TestCase):
         self.holds("info", least=8)
 
     def test_a_height_and_many_heights_are_answered_in_small_budgets(self):
-        self.holds("height", least=8)
-        self.holds("heights", least=24)
+        self.holds("height", least=24)
+        self.holds("heights", least=64 if FULL else 24)
 
     def test_lines_of_sight_are_answered_in_batches(self):
         self.holds("los", least=160 if FULL else 64)
         self.holds("few lines", least=160)
-        self.holds("many lines", least=400 if FULL else 160)
+        self.holds("many lines", least=160)
 
     def test_a_profile_holds_its_budget(self):
         self.holds("profile", least=400 if FULL else 64)
@@ -187,7 +189,7 @@ class Memory(unittest.TestCase):
         self.holds("viewshed", least=1200 if FULL else 160)
 
     def test_cuts_of_pages_hold_their_budgets(self):
-        self.holds("coarse", least=64 if FULL else 24)
+        self.holds("coarse", least=160 if FULL else 24)
         self.holds("budget", least=160 if FULL else 64)
         self.holds("region", least=160 if FULL else 64)
         self.holds("exact region", least=400 if FULL else 64)

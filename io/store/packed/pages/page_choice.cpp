@@ -15,12 +15,16 @@
 #include <utility>
 #include <vector>
 
+#include "engine/memory/required_memory.h"
 #include "io/store/format/checksum.h"
 
 namespace arete::packed {
 namespace {
 
 constexpr std::uint32_t kNotRequired = MultiTriangulation::kBands;
+
+/// What the pages of a leaf take while they are chosen.
+constexpr std::uint64_t kBytesOfLeaf = std::uint64_t{1} << 16;
 
 class Chooser {
  public:
@@ -72,6 +76,8 @@ class Chooser {
 
   /// Reads blocks of one level: the blocks that they refer to; of leaves none, but their pages are kept.
   Result<std::vector<Block>> readLevel(std::vector<Block> level, std::uint32_t height) {
+    if (height == 0)
+      ARETE_CHECK(checkBudget(level.size() * kBytesOfLeaf, "ask for a smaller part or a larger tolerance"));
     std::vector<std::span<const std::byte>> parts;
     for (const Block& block : level) {
       const BlockEntry& e = block.entry;
