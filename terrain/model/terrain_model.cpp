@@ -18,7 +18,7 @@ RasterHeightfield TerrainModel::rasterSamples() const {
   field.sourceChecksum = sourceChecksum;
   field.rawScale = mt.vertices().encoding.scale;
   field.rawOffset = mt.vertices().encoding.offset;
-  requireMemory(std::uint64_t(columns) * rows * sizeof(double));
+  requireMemory(std::uint64_t(columns) * rows * sizeof(double), "take a part of the terrain");
   field.heights.assign(std::size_t(columns) * rows, std::numeric_limits<double>::quiet_NaN());
   for (std::uint32_t v = 0; v < mt.vertexCount(); ++v)
     field.heights[mt.vertices().samples[v]] = mt.vertices().height(VertexId(v));

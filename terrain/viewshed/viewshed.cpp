@@ -18,7 +18,7 @@ namespace arete {
 namespace {
 
 /// What the samples, their pyramid and steepness, the answers and the raster of these take for each sample.
-constexpr std::uint64_t kBytesOfSample = 30;
+constexpr std::uint64_t kBytesOfSample = 26;
 
 Status check(const ViewshedObserver& observer, const ViewshedOptions& options) {
   const auto bad = [](const char* what, const char* culprit) {
