@@ -49,7 +49,7 @@ std::string decimal(std::uint64_t bytes) {
 
 /// What the program takes before it has read anything: itself, and the libraries and tables that it loads on
 /// its way.
-constexpr std::uint64_t kProgram = std::uint64_t{56} << 20;
+constexpr std::uint64_t kProgram = std::uint64_t{52} << 20;
 
 /// More than libraries allocate beside our own bulk.
 constexpr std::uint64_t kRoom = std::uint64_t{4} << 20;

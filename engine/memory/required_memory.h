@@ -11,7 +11,7 @@ namespace arete {
 // The memory budget of the process: this is the one place that knows it. What takes memory in bulk asks here
 // first, and says what would take less.
 
-/// Sets how many bytes the process may take beyond those that it has now, or beyond 56 MiB if that is more:
+/// Sets how many bytes the process may take beyond those that it has now, or beyond 52 MiB if that is more:
 /// the program itself is not counted. Memory that is allocated without a question is limited too: a little
 /// above the budget allocations fail. Call it once, before threads are started.
 ///

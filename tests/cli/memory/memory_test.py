@@ -42,7 +42,7 @@ def are_same_lines(a, b):
 
     def is_same(x, y):
         try:
-            return x == y or abs(float(x) - float(y)) <= 4e-12 * abs(float(x))
+            return x == y or abs(float(x) - float(y)) <= 2e-11 * abs(float(x))
         except ValueError:
             return False
 
