@@ -20,7 +20,7 @@ using AnswerBatch = std::function<Status(std::span<const std::uint32_t> question
 /// each half as large as one that was refused.
 ///
 /// @param places  one for each question, where most of what it needs lies; any coordinates, NaN is allowed
-/// Errors: those of `answer`, or the exception of memory that it throws (outOfMemory), for a single question.
+/// Errors: as `answer`, or the exception of memory that it throws (outOfMemory), for a single question.
 /// O(n log n) and, within a budget, O(batches) calls.
 Status answerInBatches(std::span<const Vec2> places, const AnswerBatch& answer);
 

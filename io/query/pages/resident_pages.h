@@ -66,7 +66,7 @@ class ResidentPages {
     bool isDone = false;              ///< a further step for the same demand changes nothing
   };
   /// @param mostBytes that are read; where a single page has more, that page.
-  /// Errors: those of AmtFile::pagesFor() and AmtFile::read(). O(pages of the directory that the demand
+  /// Errors: as AmtFile::pagesFor() and AmtFile::read(). O(pages of the directory that the demand
   /// meets, times the logarithm of how much coarser the part has to be) and, where the part changes, O(part),
   /// parallel.
   Result<Step> step(const PageDemand& demand, std::uint64_t mostBytes, const RunContext& context = {});

@@ -29,7 +29,7 @@ class ViewOfPages : public Cli {
 };
 
 TEST_F(ViewOfPages, DrawsAPictureWithinItsToleranceOfAPartOfThePages) {
-  const Outcome shot = shoot({"--camera", "130,130,20,0,-20"});
+  const Outcome shot = shoot({"--camera", "503900,5196100,20,0,-20"});
   if (isWithoutOpenGl(shot)) GTEST_SKIP() << shot.err;
   ASSERT_EQ(shot.code, 0) << shot.err;
   const auto figures = shot.json()["screenshot"]["figures"];
@@ -79,7 +79,7 @@ TEST_F(ViewOfPages, FliesWithABudgetAFrameAndGivesTheFiguresOfEach) {
 
 TEST_F(ViewOfPages, SaysSoWhereTheBudgetOfMemoryIsTooSmallForItsTolerance) {
   const Outcome shot =
-      shoot({"--page-memory", "1", "--pixel-error", "0.001", "--camera", "130,130,20,0,-20"});
+      shoot({"--page-memory", "1", "--pixel-error", "0.001", "--camera", "503900,5196100,20,0,-20"});
   if (isWithoutOpenGl(shot)) GTEST_SKIP() << shot.err;
   ASSERT_EQ(shot.code, 0) << shot.err;
   const auto figures = shot.json()["screenshot"]["figures"];
