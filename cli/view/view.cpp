@@ -23,6 +23,7 @@
 #include "cli/view/viewed.h"
 #include "cli/view/window_script.h"
 #include "engine/base/stopwatch.h"
+#include "engine/memory/required_memory.h"
 #include "io/files/shell_text.h"
 #include "io/geo/crs/data_unit.h"
 #include "io/geo/crs/longitude_turns.h"
@@ -288,8 +289,12 @@ Status showThenOthers(const ViewArguments& a, GlfwWindow& shown, const Viewed& f
   }
 }
 
+/// What the driver of the device takes, which asks no question.
+constexpr std::uint64_t kBytesOfDevice = std::uint64_t{96} << 20;
+
 Status runView(ViewArguments a, Session& session) {
   ARETE_CHECK(a.completePictures());
+  ARETE_CHECK(checkBudget(kBytesOfDevice, "`extract` makes a mesh without a device"));
   std::optional<AmtContainer> file;
   if (isModelFile(a.model)) {
     ARETE_TRY(file, openModelFile(a.model));

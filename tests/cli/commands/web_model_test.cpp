@@ -21,6 +21,12 @@ class WebModelCommand : public Arguments {
     ASSERT_EQ(run({"extract", "ball.amt", "-o", "small.ply", "--max-error", "2%", "-q"}).code, 0);
     ASSERT_EQ(run({"convert", "dem.amt", "-o", "packed.amt", "--packed", "-q"}).code, 0);
   }
+  /// Makes packed.amt larger than what the first request brings.
+  void packLarge() const {
+    makeRaster("large.tif", "fractal", 170, 150);
+    ASSERT_EQ(run({"build", "large.tif", "-o", "packed.amt", "--packed", "-q"}).code, 0);
+    ASSERT_GT(read("packed.amt").size(), 100'000u);
+  }
   struct Ball : Balls {
     using Balls::ball;
     void TestBody() override {}
@@ -116,6 +122,7 @@ TEST_F(WebModelCommand, InfoReadsTheBeginningAlone) {
 }
 
 TEST_F(WebModelCommand, FetchesOnceWithACache) {
+  packLarge();
   HttpServer server(served(), {});
   const std::vector<std::string> words = {
       "info", server.address("packed.amt"), "--curve", "5", "--cache", "kept:5MB", "--json"};
@@ -158,6 +165,7 @@ TEST_F(WebModelCommand, DoesNotShowWhatAnAddressHides) {
 }
 
 TEST_F(WebModelCommand, EndsOnASignal) {
+  packLarge();
   HttpServer server(served(), [](const std::string&, int number) {
     HttpFault fault;
     fault.isStalled = number > 1;
