@@ -143,6 +143,7 @@ def make(folder, arete):
     run("convert", "scan.ply", "-o", "original.obj")
     run("mesh", "decimate", "scan.ply", "-o", "small.ply", "--max-triangles", "10%")
     run("build", "dem.tif", "-o", "dem.amt")
+    run("convert", "dem.amt", "-o", "served.amt", "--paged")
     run("build", "scan.ply", "-o", "scan.amt")
     run("extract", "scan.amt", "-o", "small.glb", "--max-error", "2%")
     run("extract", "dem.amt", "-o", "tin.ply", "--max-error", "5")
