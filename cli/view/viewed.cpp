@@ -31,6 +31,16 @@
 namespace arete {
 namespace {
 
+/// Null where none are stated.
+Result<std::shared_ptr<const TerrainColors>> statedColors(const ViewArguments& a, const TerrainModel& model,
+                                                          Session& session) {
+  if (!a.appearance.colors.isStated()) return nullptr;
+  Warnings said;
+  ARETE_TRY(const TerrainColors colors, a.appearance.colors.of(a.appearance.color, model, said));
+  session.warn(said, a.appearance.colors.ramp);
+  return std::make_shared<const TerrainColors>(colors);
+}
+
 TerrainDrawable::Options terrainOptions(const ViewArguments& a) {
   return {.path = a.detail.isCutByProcessor() ? CutPath::processor : CutPath::device,
           .heights = {.mostBytes = std::uint64_t(a.appearance.groundMebibytes) << 20}};
@@ -55,12 +65,7 @@ Result<Viewed> viewedTerrain(const ViewArguments& a, std::shared_ptr<const Terra
   if (const std::string word = a.appearance.colors.wordOfSea(a.appearance.color, *model);
       !word.empty() && a.appearance.drapes.empty())
     session.warn(Warnings{{WarningCode::display, word}}, a.model);
-  if (a.appearance.colors.isStated()) {
-    Warnings said;
-    ARETE_TRY(const TerrainColors colors, a.appearance.colors.of(a.appearance.color, *model, said));
-    session.warn(said, a.appearance.colors.ramp);
-    viewed.colors = std::make_shared<const TerrainColors>(colors);
-  }
+  ARETE_TRY(viewed.colors, statedColors(a, *model, session));
   ARETE_TRY(StatedLayers readLayers, StatedLayers::read(a.appearance, model, session));
   const auto layers = std::make_shared<const StatedLayers>(std::move(readLayers));
   viewed.layers = layers;
@@ -120,12 +125,7 @@ Result<Viewed> viewedPages(const ViewArguments& a, std::unique_ptr<ResidentPages
   }
   if (const std::string word = a.appearance.colors.wordOfSea(a.appearance.color, *outline); !word.empty())
     session.warn(Warnings{{WarningCode::display, word}}, a.model);
-  if (a.appearance.colors.isStated()) {
-    Warnings said;
-    ARETE_TRY(const TerrainColors colors, a.appearance.colors.of(a.appearance.color, *outline, said));
-    session.warn(said, a.appearance.colors.ramp);
-    viewed.colors = std::make_shared<const TerrainColors>(colors);
-  }
+  ARETE_TRY(viewed.colors, statedColors(a, *outline, session));
   const std::shared_ptr<ResidentPages> pages = std::move(opened);
   viewed.addModel = [&a, &session, pages, subject](Scene& scene) -> Status {
     ARETE_TRY(PagedDrawable made,

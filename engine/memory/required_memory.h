@@ -17,7 +17,7 @@ namespace arete {
 ///
 /// @param bytes  0: as many as the machine has (the default).
 void setMemoryBudget(std::uint64_t bytes) noexcept;
-/// @return 0 where there is none
+/// What setMemoryBudget() was given; 0 without a budget.
 std::uint64_t memoryBudget() noexcept;
 
 /// The bytes in physical memory beyond those that setMemoryBudget() leaves out, pages of mapped files

@@ -24,30 +24,6 @@ std::vector<T> reordered(const std::vector<T>& values, std::span<const std::uint
   return next;
 }
 
-/// Numbers wedges as the corners name them first, those of no corner last. @return by new wedge, the old one
-std::vector<std::uint32_t> numberWedges(const MultiTriangulation& mt, std::uint32_t wedges,
-                                        std::vector<std::array<std::uint32_t, 3>>& wedgesOf) {
-  std::vector<std::uint32_t> newOf(wedges, MeshAttributes::kNone), oldOf;
-  oldOf.reserve(wedges);
-  for (std::uint32_t t = 0; t < wedgesOf.size(); ++t) {
-    if (const NodeId creator = mt.creator(TriangleId(t));
-        creator.isValid() && mt.remover(TriangleId(t)) == creator) {
-      wedgesOf[t] = {0, 0, 0};  // a slot that is no triangle
-      continue;
-    }
-    for (std::uint32_t& w : wedgesOf[t]) {
-      if (newOf[w] == MeshAttributes::kNone) {
-        newOf[w] = static_cast<std::uint32_t>(oldOf.size());
-        oldOf.push_back(w);
-      }
-      w = newOf[w];
-    }
-  }
-  for (std::uint32_t w = 0; w < wedges; ++w)
-    if (newOf[w] == MeshAttributes::kNone) oldOf.push_back(w);
-  return oldOf;
-}
-
 }  // namespace
 
 SurfaceModel renumbered(const SurfaceModel& model, const MultiTriangulation& mt,
@@ -72,8 +48,32 @@ SurfaceModel renumbered(const SurfaceModel& model, const MultiTriangulation& mt,
   reorder(result.attributes.vertexAttributes, vertexOf);
   if (!model.hasWedges()) return result;
   result.wedgesOf = reordered(model.wedgesOf, triangleOf);
-  reorder(result.attributes.wedgeAttributes, numberWedges(mt, model.attributes.wedgeCount, result.wedgesOf));
+  WedgeNumbering numbering(model.attributes.wedgeCount);
+  for (std::uint32_t t = 0; t < result.wedgesOf.size(); ++t) {
+    const NodeId creator = mt.creator(TriangleId(t));
+    if (creator.isValid() && mt.remover(TriangleId(t)) == creator)
+      result.wedgesOf[t] = {0, 0, 0};  // a slot that is no triangle
+    else
+      numbering.number(result.wedgesOf[t]);
+  }
+  std::move(numbering).reorder(result.attributes.wedgeAttributes);
   return result;
+}
+
+void WedgeNumbering::number(std::array<std::uint32_t, 3>& corners) {
+  for (std::uint32_t& w : corners) {
+    if (newOf_[w] == MeshAttributes::kNone) {
+      newOf_[w] = named();
+      oldOf_.push_back(w);
+    }
+    w = newOf_[w];
+  }
+}
+
+void WedgeNumbering::reorder(std::vector<Attribute>& wedgeAttributes) && {
+  for (std::uint32_t w = 0; w < newOf_.size(); ++w)
+    if (newOf_[w] == MeshAttributes::kNone) oldOf_.push_back(w);
+  arete::reorder(wedgeAttributes, oldOf_);
 }
 
 }  // namespace arete

@@ -20,6 +20,7 @@
 #include "io/store/packed/surface/carried_coder.h"
 #include "io/store/packed/surface/carried_io.h"
 #include "surface/model/face_successors.h"
+#include "surface/model/renumbered.h"
 
 namespace arete::packed {
 namespace {
@@ -39,26 +40,10 @@ void forTrianglesOfPages(const MultiTriangulation& mt, const Directory& pages, c
 
 /// Numbers the wedges as the pages name them first, those of no corner last. @return how many have a corner
 std::uint32_t numberWedges(SurfaceModel& model, const Directory& pages) {
-  constexpr std::uint32_t kNone = MeshAttributes::kNone;
-  std::vector<std::uint32_t> newOf(model.attributes.wedgeCount, kNone), oldOf;
-  forTrianglesOfPages(model.mt, pages, [&](std::uint32_t t) {
-    for (std::uint32_t& w : model.wedgesOf[t]) {
-      if (newOf[w] == kNone) {
-        newOf[w] = static_cast<std::uint32_t>(oldOf.size());
-        oldOf.push_back(w);
-      }
-      w = newOf[w];
-    }
-  });
-  const auto named = static_cast<std::uint32_t>(oldOf.size());
-  for (std::uint32_t w = 0; w < newOf.size(); ++w)
-    if (newOf[w] == kNone) oldOf.push_back(w);
-  for (Attribute& attribute : model.attributes.wedgeAttributes) {
-    Attribute next = emptyLike(attribute);
-    next.values.reserve(attribute.values.size());
-    for (const std::uint32_t w : oldOf) next.append(attribute.element(w));
-    attribute = std::move(next);
-  }
+  WedgeNumbering numbering(model.attributes.wedgeCount);
+  forTrianglesOfPages(model.mt, pages, [&](std::uint32_t t) { numbering.number(model.wedgesOf[t]); });
+  const std::uint32_t named = numbering.named();
+  std::move(numbering).reorder(model.attributes.wedgeAttributes);
   return named;
 }
 

@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -25,6 +24,7 @@
 #include "engine/mt/multitriangulation.h"
 #include "io/store/entropy/numbers.h"
 #include "io/store/packed/nodes/layout.h"
+#include "io/store/packed/surface/displacement_numbers.h"
 #include "io/store/packed/surface/symbol_bytes.h"
 #include "io/store/packed/surface/vertex_numbers.h"
 #include "surface/model/face_successors.h"
@@ -33,7 +33,7 @@
 namespace arete::packed {
 
 inline constexpr unsigned kCarriedSpreads = kVertexSpreads, kCarriedFaceClasses = 24,
-                          kCarriedWedgeClasses = 3, kCarriedLengths = 9, kCarriedReaches = 4;
+                          kCarriedWedgeClasses = 3;
 enum CarriedTable : unsigned {
   kCarriedVertexTable = 0,                                      // by the spread of the link's numbers
   kCarriedFaceTable = kCarriedVertexTable + kCarriedSpreads,    // by the symbol before
@@ -41,9 +41,9 @@ enum CarriedTable : unsigned {
   kCarriedLinkWedgeTable = kCarriedHeirTable + 2,               // by how many wedges may be meant
   kCarriedApexWedgeTable = kCarriedLinkWedgeTable + kCarriedWedgeClasses,
   kCarriedOtherWedgeTable = kCarriedApexWedgeTable + kCarriedWedgeClasses,
-  kCarriedDirectionTable,                                         // by the bits of the link's mean length
-  kCarriedReachTable = kCarriedDirectionTable + kCarriedLengths,  // by the reach before
-  kCarriedTables = kCarriedReachTable + kCarriedReaches
+  kCarriedDirectionTable,                                           // by the bits of the link's mean length
+  kCarriedReachTable = kCarriedDirectionTable + kDirectionLengths,  // by the reach before
+  kCarriedTables = kCarriedReachTable + kReachClasses
 };
 
 /// Symbols: below kOther, which of the candidates.
@@ -71,7 +71,7 @@ class CarriedCoder {
       std::uint32_t& number = model_.vertexOf[v];
       before = number = moved(before, codeSigned(io_, kSymbols, kCarriedVertexTable + kCarriedSpreads - 1,
                                                  behind(number, before)));
-      if (rule_.hasDisplacement) direction(v, {});
+      if (rule_.hasDisplacement) codeDirection(model_.displacement, v, {}, kCarriedDirectionTable, io_);
     }
     newFaces_.clear();
     for (std::uint32_t t = 0; t < mt_.rootTriangleCount(); ++t)
@@ -89,7 +89,8 @@ class CarriedCoder {
     for (std::uint32_t n = run.firstNode; n < end; ++n) {
       const auto link = mt_.link(NodeId(n));
       codeVertexNumber(model_.vertexOf, link, mt_.apex(NodeId(n)).index(), kCarriedVertexTable, io_, around_);
-      if (rule_.hasDisplacement) direction(mt_.apex(NodeId(n)).index(), link);
+      if (rule_.hasDisplacement)
+        codeDirection(model_.displacement, mt_.apex(NodeId(n)).index(), link, kCarriedDirectionTable, io_);
     }
     newFaces_.clear();
     firstOfRun_ = mt_.rootTriangleCount() + run.firstSlot;
@@ -125,24 +126,6 @@ class CarriedCoder {
     const std::uint32_t a = model_.vertexOf[corners[0]], b = model_.vertexOf[corners[1]],
                         c = model_.vertexOf[corners[2]];
     return rule_.ordersByLargest ? std::max({a, b, c}) : std::min({a, b, c});
-  }
-
-  void direction(std::uint32_t v, std::span<const std::uint32_t> link) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      int sum = 0, length = 0;
-      for (const std::uint32_t u : link) {
-        sum += model_.displacement.directions[u][axis];
-        length += std::abs(model_.displacement.directions[u][axis]);
-      }
-      const int count = static_cast<int>(link.size()), predicted = count > 0 ? sum / count : 0;
-      const unsigned bits = count > 0
-                                ? static_cast<unsigned>(std::bit_width(static_cast<unsigned>(length / count)))
-                                : kCarriedLengths - 1;
-      std::int8_t& value = model_.displacement.directions[v][axis];
-      // Modulo 256, so that damaged bytes are numbers as well.
-      value = static_cast<std::int8_t>(predicted + codeSigned(io_, kSymbols, kCarriedDirectionTable + bits,
-                                                              std::int64_t{value} - predicted));
-    }
   }
 
   /// What is known of the face of a triangle while a run's are coded: its number, or, of one that is new in
@@ -293,12 +276,8 @@ class CarriedCoder {
   }
 
   void ofTriangle(std::uint32_t t) {
-    if (rule_.hasDisplacement && mt_.errorCode(TriangleId(t)) != 0) {
-      std::uint8_t& reach = model_.displacement.reaches[t];
-      reach = static_cast<std::uint8_t>(
-          io_.code(kSymbols, kCarriedReachTable + reachBefore_, [&] { return reach; }));
-      reachBefore_ = reach == 0 ? 0 : reach < 128 ? 1 : reach < 254 ? 2 : 3;
-    }
+    if (rule_.hasDisplacement && mt_.errorCode(TriangleId(t)) != 0)
+      codeReach(model_.displacement.reaches[t], reachBefore_, kCarriedReachTable, io_);
     const std::size_t ids = mt_.triangleIdCount(), levels = 1 + model_.attributeDistances.size();
     for (AttributeErrors& errors : model_.attributeErrors)
       for (std::size_t level = 0; level < levels; ++level)

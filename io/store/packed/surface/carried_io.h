@@ -67,28 +67,17 @@ inline void setWedgeValues(MeshAttributes& a, std::size_t row, std::span<const s
 
 /// Collects what a segment carries. The bytes of a segment: the number of the next new wedge; how many bytes
 /// the symbols take, and the raw bits; then these, and the values.
-class CarriedWriterIo {
+class CarriedWriterIo : public SymbolRecorder {
  public:
   CarriedWriterIo(const MeshAttributes& attributes, std::uint32_t nextWedge)
       : attributes_(attributes), firstWedge_(nextWedge), nextWedge_(nextWedge) {}
 
-  template <class Actual>
-  unsigned code(SymbolStream, unsigned table, const Actual& actual) {
-    const auto symbol = static_cast<unsigned>(actual());
-    symbols_.push_back({static_cast<std::uint8_t>(table), static_cast<std::uint8_t>(symbol)});
-    return symbol;
-  }
-  std::uint64_t raw(int bits, std::uint64_t actual) {
-    raw_.write(actual, bits);
-    return actual;
-  }
   void bytes(std::span<std::byte> values) { values_.insert(values_.end(), values.begin(), values.end()); }
   void face(std::uint32_t number) { addFaceValues(attributes_, number, values_); }
   void wedge(std::uint32_t number) { addWedgeValues(attributes_, number, values_); }
   std::uint32_t nextWedge() const { return nextWedge_; }
   std::uint32_t takeNextWedge() { return nextWedge_++; }
 
-  std::span<const RansSymbol> symbols() const { return symbols_; }
   std::vector<std::byte> encoded(std::span<const RansTable> tables) {
     const std::vector<std::byte> coded = ransEncode(symbols_, tables), raw = raw_.take();
     NumberWriter out;
@@ -103,8 +92,6 @@ class CarriedWriterIo {
  private:
   const MeshAttributes& attributes_;
   std::uint32_t firstWedge_, nextWedge_;
-  std::vector<RansSymbol> symbols_;
-  BitWriter raw_;
   std::vector<std::byte> values_;
 };
 

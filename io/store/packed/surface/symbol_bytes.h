@@ -18,10 +18,9 @@ namespace arete::packed {
 /// All symbols are of one stream.
 enum SymbolStream : unsigned { kSymbols };
 
-class SymbolWriter {
+/// Keeps what a writer codes.
+class SymbolRecorder {
  public:
-  explicit SymbolWriter(unsigned tables) : tables_(tables) {}
-
   template <class Actual>
   unsigned code(SymbolStream, unsigned table, const Actual& actual) {
     const auto symbol = static_cast<unsigned>(actual());
@@ -32,13 +31,21 @@ class SymbolWriter {
     raw_.write(actual, bits);
     return actual;
   }
+  std::span<const RansSymbol> symbols() const { return symbols_; }
+
+ protected:
+  std::vector<RansSymbol> symbols_;
+  BitWriter raw_;
+};
+
+class SymbolWriter : public SymbolRecorder {
+ public:
+  explicit SymbolWriter(unsigned tables) : tables_(tables) {}
 
   std::vector<std::byte> take();
 
  private:
   unsigned tables_;
-  std::vector<RansSymbol> symbols_;
-  BitWriter raw_;
 };
 
 class SymbolReader {
