@@ -51,7 +51,7 @@ TEST(BuildPoints, GivesTheSameBytesForAnyNumberOfThreads) {
 TEST(BuildPoints, KeepsEveryLawInTilesAndTheSameBytesForAnyNumberOfThreads) {
   for (const PointFamily& family : pointFamilies())
     for (const HoleShape shape : {HoleShape::delaunay, HoleShape::dataDependent}) {
-      const PointHeightfield field = family.make(test::isBrief() ? 1000 : 3000, 5);
+      const PointHeightfield field = family.make(test::isFull() ? 3000 : 1000, 5);
       RunContext context;
       context.threads = 1;
       const auto one = buildInTiles(field, withShape(shape), tilesOf(100), context);

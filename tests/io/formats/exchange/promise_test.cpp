@@ -62,7 +62,7 @@ const std::vector<RealDem>& realDems() {
   return all;
 }
 
-constexpr std::size_t kLarge = 4'000'000, kMedium = 1'100'000, kSmall = 130'000;
+constexpr std::size_t kLarge = 4'000'000, kMedium = 400'000, kSmall = 130'000;
 
 struct Case {
   RealDem dem;
@@ -152,7 +152,7 @@ TEST_P(Promise, IsKeptByFittedHeights) {
     return;
   }
   if (!isFull() && field->size() > kMedium)
-    GTEST_SKIP() << "fits on a DEM of more than 1.1 million samples run with ./dev test --full";
+    GTEST_SKIP() << "fits on a DEM of more than 400 000 samples run with ./dev test --full";
   BuildOptions options;
   options.shape = GetParam().shape;
   const auto model = build(*field, options);
@@ -178,7 +178,7 @@ TEST_P(Promise, RestsOnAModelThatKeepsEveryLawAndIsTheSameForAnyThreads) {
     return;
   }
   if (!isFull() && field->size() > kMedium)
-    GTEST_SKIP() << "laws and threads on a DEM of more than 1.1 million samples run with ./dev test --full";
+    GTEST_SKIP() << "laws and threads on a DEM of more than 400 000 samples run with ./dev test --full";
   BuildOptions options;
   options.shape = GetParam().shape;
   const test::TemporaryFolder folder;
