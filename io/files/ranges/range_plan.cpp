@@ -19,8 +19,9 @@ std::vector<ByteRange> joinedRanges(std::vector<ByteRange> ranges) {
   return joined;
 }
 
-// The shortest gaps are closed first: those that are short, and while the requests are many, as many bytes of
-// longer ones as the wanted bytes allow.
+// The shortest gaps are closed first: short ones as far as their budget goes, so that ranges which lie
+// scattered do not fetch many times their bytes; and while the requests are many, as many bytes of longer
+// ones as the wanted bytes allow.
 std::vector<ByteRange> planRequests(const std::vector<ByteRange>& ranges, const RangeRules& rules) {
   if (ranges.empty()) return {};
   const auto gapBehind = [&](std::size_t i) { return ranges[i + 1].begin - ranges[i].end; };
@@ -30,14 +31,14 @@ std::vector<ByteRange> planRequests(const std::vector<ByteRange>& ranges, const 
   std::uint64_t wanted = 0;
   for (const ByteRange& range : ranges) wanted += range.size();
   double spare = rules.moreBytes * static_cast<double>(wanted);
+  double shortSpare = static_cast<double>(rules.gapsBytes) + rules.gapsShare * static_cast<double>(wanted);
   std::size_t requests = ranges.size();
   std::vector<bool> isClosed(gaps.size());
   for (const std::size_t i : gaps) {
     const std::uint64_t gap = gapBehind(i);
-    if (gap >= rules.gap) {
-      spare -= static_cast<double>(gap);
-      if (requests <= rules.fewRequests || spare < 0) break;
-    }
+    double& left = gap < rules.gap ? shortSpare : spare;
+    left -= static_cast<double>(gap);
+    if (left < 0 || (gap >= rules.gap && requests <= rules.fewRequests)) break;
     isClosed[i] = true;
     --requests;
   }

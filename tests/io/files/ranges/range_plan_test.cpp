@@ -36,6 +36,19 @@ TEST(RangePlan, JoinsManyFarRangesForAtMostTwoFifthsOfTheWantedBytesMore) {
   EXPECT_EQ(planRequests({many.begin(), many.begin() + 5}).size(), 5u) << "five are few";
 }
 
+// Segments of pages that a moving camera needs lie scattered: what lies between is not fetched over and over.
+TEST(RangePlan, FetchesBetweenScatteredRangesALimitedShareOfTheirBytes) {
+  Ranges scattered;
+  for (std::uint64_t i = 0; i < 100; ++i) scattered.push_back({i * 60'000, i * 60'000 + 5000});
+  const RangeRules rules;
+  std::uint64_t fetched = 0;
+  for (const ByteRange& range : planRequests(scattered, rules)) fetched += range.size();
+  EXPECT_LE(static_cast<double>(fetched),
+            static_cast<double>(rules.gapsBytes) + (1 + rules.gapsShare) * 500'000);
+  EXPECT_GT(fetched, 500'000u + 4 * 55'000) << "as far as the share goes, requests are saved";
+  EXPECT_EQ(planRequests({scattered.begin(), scattered.begin() + 3}).size(), 1u) << "few are joined";
+}
+
 TEST(RangePlan, CutsLongRangesIntoRequestsOfEightMebibytes) {
   const std::uint64_t end = (std::uint64_t{3} << 23) + 5;
   const Ranges planned = planRequests({{7, end}});
