@@ -3,7 +3,8 @@
 // The triangles of the growing front that fail the criterion are in a heap, keyed by the order. The first
 // one's remover is applied, and before it its missing ancestors, one modification at a time: parents have
 // smaller indices, so a rising list keeps the set closed after each. Their triangles are counted before (a
-// node adds two, one on a border), so the budget is never exceeded.
+// node adds two, one on a border), so the budget is never exceeded. Equal keys go by the place of the vertex
+// that refines, so that a file which numbers the same nodes otherwise (packed, in pages) has the same cut.
 //
 // Worst first, the walk passes through least cuts: when the worst severity left falls below all it was
 // before, to s, every member was required by a triangle worse than s, so the set is the least one for
@@ -17,7 +18,9 @@
 #include <cmath>
 #include <limits>
 #include <queue>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "engine/cut/front.h"
 #include "engine/cut/least_cut.h"
@@ -34,9 +37,25 @@ constexpr std::uint64_t kShortWalk = 256;
 struct Waiting {
   RefineKey key;
   std::uint32_t triangle;
-  bool operator<(const Waiting& other) const {  // the top of the heap is the smallest key
-    return key != other.key ? key > other.key : triangle > other.triangle;
+};
+
+/// Of two triangles, whether the first is refined later. The top of a heap in this order is refined first.
+class IsLater {
+ public:
+  explicit IsLater(const MultiTriangulation& mt) : mt_(&mt) {}
+  bool operator()(const Waiting& a, const Waiting& b) const {
+    if (a.key != b.key) return a.key > b.key;
+    const NodeId ofA = mt_->remover(TriangleId(a.triangle)), ofB = mt_->remover(TriangleId(b.triangle));
+    if (ofA != ofB) {
+      const Vec3 p = mt_->position(mt_->apex(ofA)), q = mt_->position(mt_->apex(ofB));
+      const auto place = [](const Vec3& at) { return std::tie(at.x, at.y, at.z); };
+      if (place(p) != place(q)) return place(p) > place(q);
+    }
+    return a.triangle > b.triangle;
   }
+
+ private:
+  const MultiTriangulation* mt_;
 };
 
 bool isWorstFirst(const CutOptions& options) {
@@ -50,7 +69,8 @@ class Walk {
         criterion_(criterion),
         options_(options),
         isWorstFirst_(isWorstFirst(options)),
-        cut_{{}, true} {}
+        cut_{{}, true},
+        heap_(IsLater(mt)) {}
 
   /// @param start A state that the walk passes through.
   Result<NodeCut> run(const MemberSet& start, const RunContext& context) {
@@ -137,7 +157,7 @@ class Walk {
   const WorstFirst worstFirst_;
   const bool isWorstFirst_;
   NodeCut cut_;
-  std::priority_queue<Waiting> heap_;
+  std::priority_queue<Waiting, std::vector<Waiting>, IsLater> heap_;
   std::vector<std::uint32_t> entered_;
   std::size_t best_ = 0;
   double leastWorst_ = std::numeric_limits<double>::infinity();

@@ -17,7 +17,9 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "engine/base/vector_clones.h"
 #include "engine/mt/node_blocks.h"
@@ -48,34 +50,63 @@ MemberSet membersFor(std::uint32_t certain, std::uint32_t end, const IsIn& isIn)
                    });
 }
 
-/// The nodes of a larger code, and those of this code before `tiesEnd`.
-MemberSet uniformMembers(const MultiTriangulation& mt, Code code, std::uint32_t tiesEnd) {
+/// The nodes of a larger code, and these of the code itself, rising.
+MemberSet uniformMembers(const MultiTriangulation& mt, Code code, const std::vector<std::uint32_t>& ofCode) {
   const auto& saturated = mt.arrays().saturatedError;
   const std::uint32_t band = MultiTriangulation::bandOf(code);
   return membersFor(mt.bandBegin(band), mt.bandEnd(band), [&](std::uint32_t n) {
-    return saturated[n] > code || (saturated[n] == code && n < tiesEnd);
+    return saturated[n] > code || (saturated[n] == code && std::ranges::binary_search(ofCode, n));
   });
+}
+
+/// The nodes of a code that a budget has room for, rising. Each comes behind its parents of this code, and
+/// among as many generations of them in the order of places, so that the result does not depend on how nodes
+/// are numbered.
+std::vector<std::uint32_t> firstOfCode(const MultiTriangulation& mt, Code code, std::uint32_t budget) {
+  const auto& saturated = mt.arrays().saturatedError;
+  const std::uint32_t band = MultiTriangulation::bandOf(code);
+  struct Tie {
+    std::uint32_t generation;
+    Vec3 place;
+    std::uint32_t node;
+    auto order() const { return std::tie(generation, place.x, place.y, place.z, node); }
+  };
+  std::vector<Tie> ties;
+  for (std::uint32_t n = mt.bandBegin(band); n < mt.bandEnd(band); ++n) {
+    if (saturated[n] != code) continue;
+    std::uint32_t generation = 0;
+    for (const std::uint32_t t : mt.floor(NodeId(n))) {
+      const NodeId parent = mt.creator(TriangleId(t));
+      if (!parent.isValid() || saturated[parent.index()] != code) continue;
+      generation = std::max(generation,
+                            std::ranges::lower_bound(ties, parent.index(), {}, &Tie::node)->generation + 1);
+    }
+    ties.push_back({generation, mt.position(mt.apex(NodeId(n))), n});
+  }
+  std::ranges::sort(ties, {}, &Tie::order);
+  std::vector<std::uint32_t> first;
+  for (const Tie& tie : ties) {
+    if (added(mt, tie.node) > budget) break;
+    budget -= added(mt, tie.node);
+    first.push_back(tie.node);
+  }
+  std::ranges::sort(first);
+  return first;
 }
 
 SaturatedMembers uniformCut(const MultiTriangulation& mt, double maxError,
                             std::optional<std::uint32_t> maxTriangles) {
   const auto& saturated = mt.arrays().saturatedError;
   const Code code = mt.scale().floorCode(maxError);
-  if (!maxTriangles) return {uniformMembers(mt, code, 0), true};
+  if (!maxTriangles) return {uniformMembers(mt, code, {}), true};
   const std::uint32_t end = mt.bandEnd(MultiTriangulation::bandOf(code));
   std::vector<std::uint32_t> addedBy(std::size_t(OutwardScale::kMaxCode) + 1, 0);
   for (std::uint32_t n = 0; n < end; ++n) addedBy[saturated[n]] += added(mt, n);
   std::uint32_t left = *maxTriangles - mt.rootTriangleCount();
   Code last = OutwardScale::kMaxCode;  // of which only some may fit
   for (; last > code && addedBy[last] <= left; --last) left -= addedBy[last];
-  if (last == code) return {uniformMembers(mt, code, 0), true};
-  std::uint32_t n = mt.bandBegin(MultiTriangulation::bandOf(last));
-  for (;; ++n) {
-    if (saturated[n] != last) continue;
-    if (added(mt, n) > left) break;
-    left -= added(mt, n);
-  }
-  return {uniformMembers(mt, last, n), false};
+  if (last == code) return {uniformMembers(mt, code, {}), true};
+  return {uniformMembers(mt, last, firstOfCode(mt, last, left)), false};
 }
 
 /// Searches from cluster groups to clusters to nodes, and descends only where there may be members. Accesses

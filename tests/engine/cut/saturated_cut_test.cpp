@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <tuple>
 #include <vector>
 
 #include "engine/cut_promises.h"
@@ -90,13 +91,26 @@ TEST(SaturatedCut, IsEveryNodeWhoseErrorExceedsWhatItsSphereAllows) {
       }
 }
 
+/// How many ancestors of the same saturated error the longest chain above each node has.
+std::vector<std::uint32_t> generationsOf(const MultiTriangulation& mt) {
+  std::vector<std::uint32_t> generation(mt.nodeCount(), 0);
+  for (std::uint32_t n = 0; n < mt.nodeCount(); ++n)
+    for (const std::uint32_t t : mt.floor(NodeId(n)))
+      if (const NodeId parent = mt.creator(TriangleId(t));
+          parent.isValid() && mt.saturatedError(parent) == mt.saturatedError(NodeId(n)))
+        generation[n] = std::max(generation[n], generation[parent.index()] + 1);
+  return generation;
+}
+
 TEST(SaturatedCut, UnderABudgetIsTheWorstNodesThatFit) {
   for (const FamilyModel& s : familyModels()) {
     const MultiTriangulation& mt = s.model.mt;
     std::vector<std::uint32_t> order(mt.nodeCount());
     std::iota(order.begin(), order.end(), 0u);
-    std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
-      return mt.arrays().saturatedError[a] > mt.arrays().saturatedError[b];
+    const std::vector<std::uint32_t> generation = generationsOf(mt);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t n) {
+      const Vec3 place = mt.position(mt.apex(NodeId(n)));
+      return std::tuple(-mt.saturatedError(NodeId(n)), generation[n], place.x, place.y, place.z);
     });
     const std::uint32_t roots = mt.rootTriangleCount(), finest = mt.finestTriangleCount();
     for (const double part : {0.0, 0.03, 0.2, 0.71, 1.0})

@@ -125,6 +125,26 @@ TEST(Pages, HoldWhatThePackedFormHoldsAndPackToTheSameBytes) {
   }
 }
 
+// Heights in whole units have many equal errors, and nodes are numbered anew.
+TEST(Pages, HaveTheCutsOfThePlainModelWithinAnyBudgetHoweverManyErrorsAreEqual) {
+  std::vector<TerrainModel> models = pagedModels();
+  for (const RasterFamily& family : rasterFamilies()) models.push_back(built(build(family.make(40, 30, 5))));
+  for (const TerrainModel& model : models) {
+    const auto back = Paged(model).read();
+    ASSERT_TRUE(back) << back.error().describe();
+    const std::uint32_t roots = model.mt.rootTriangleCount(), finest = model.mt.finestTriangleCount();
+    for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated})
+      for (std::uint32_t i = 0; i <= 12; ++i) {
+        const CutOptions options{.method = method, .maxTriangles = roots + (finest - roots) / 13 * i};
+        const auto plain = takeCut(model.mt, UniformError(0), options);
+        const auto paged = takeCut(*back, UniformError(0), options);
+        ASSERT_TRUE(plain && paged);
+        EXPECT_TRUE(triangleSet(model.mt, *plain) == triangleSet(*back, *paged))
+            << model.source << ", at most " << *options.maxTriangles;
+      }
+  }
+}
+
 TEST(Pages, ThatAPlaceNeedsHaveItsCutsAndNothingMissing) {
   for (const TerrainModel& model : pagedModels()) {
     Paged paged(model);
