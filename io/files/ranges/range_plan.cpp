@@ -19,9 +19,8 @@ std::vector<ByteRange> joinedRanges(std::vector<ByteRange> ranges) {
   return joined;
 }
 
-// The shortest gaps are closed first: short ones as far as their budget goes, so that ranges which lie
-// scattered do not fetch many times their bytes; and while the requests are many, as many bytes of longer
-// ones as the wanted bytes allow.
+// The shortest gaps are closed first, as far as their budget goes, so that ranges which lie scattered do not
+// fetch many times their bytes.
 std::vector<ByteRange> planRequests(const std::vector<ByteRange>& ranges, const RangeRules& rules) {
   if (ranges.empty()) return {};
   const auto gapBehind = [&](std::size_t i) { return ranges[i + 1].begin - ranges[i].end; };
@@ -30,13 +29,11 @@ std::vector<ByteRange> planRequests(const std::vector<ByteRange>& ranges, const 
   std::ranges::stable_sort(gaps, {}, gapBehind);
   std::uint64_t wanted = 0;
   for (const ByteRange& range : ranges) wanted += range.size();
-  double spare = rules.moreBytes * static_cast<double>(wanted);
-  double shortSpare = static_cast<double>(rules.gapsBytes) + rules.gapsShare * static_cast<double>(wanted);
+  double left = static_cast<double>(rules.gapsBytes) + rules.gapsShare * static_cast<double>(wanted);
   std::size_t requests = ranges.size();
   std::vector<bool> isClosed(gaps.size());
   for (const std::size_t i : gaps) {
     const std::uint64_t gap = gapBehind(i);
-    double& left = gap < rules.gap ? shortSpare : spare;
     left -= static_cast<double>(gap);
     if (left < 0 || (gap >= rules.gap && requests <= rules.fewRequests)) break;
     isClosed[i] = true;

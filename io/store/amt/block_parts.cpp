@@ -9,9 +9,9 @@ namespace {
 using Bytes = std::span<const std::byte>;
 
 /// A directory that is fetched at once: of about 20 million samples at the most.
-constexpr std::size_t kSmallDirectory = std::size_t{1} << 20;
+constexpr std::size_t kSmallDirectory = std::size_t{3} << 19;
 /// Of the pages a part of the first ones, which hold the largest nodes, goes with it.
-constexpr std::size_t kFirstPart = 256, kMostOfFirst = std::size_t{704} << 10;
+constexpr std::size_t kFirstPart = 192, kMostOfFirst = std::size_t{9} << 17;
 /// Between two blocks that are fetched together.
 constexpr std::size_t kGap = std::size_t{1} << 18;
 

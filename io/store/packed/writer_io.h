@@ -95,10 +95,15 @@ class WriterIo {
 
   bool listed(const Run& run, std::vector<std::uint32_t>& seeds) {
     std::vector<Entry> entries;
-    for (const std::uint32_t n : listed_[run.band]) entries.push_back(entryOf(mt_.floor(NodeId(n))[0]));
-    std::sort(entries.begin(), entries.end(), [](const Entry& x, const Entry& y) {
-      return std::tie(x.from, x.place) < std::tie(y.from, y.place);
-    });
+    // Of a floor the first triangle in the order of packets is the seed, however the model numbers them.
+    const auto order = [](const Entry& e) { return std::tie(e.from, e.place); };
+    for (const std::uint32_t n : listed_[run.band]) {
+      const std::span<const std::uint32_t> floor = mt_.floor(NodeId(n));
+      Entry first = entryOf(floor[0]);
+      for (const std::uint32_t t : floor.subspan(1)) first = std::ranges::min(first, entryOf(t), {}, order);
+      entries.push_back(first);
+    }
+    std::ranges::sort(entries, {}, order);
     seeds.clear();
     std::uint32_t from = 0, place = 0;
     for (const Entry& e : entries) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The wider the nodes of a packet reach, the more packets depend on each other. A node's reach is the width
-// of its star; its class is the number of widths (each four times the one before) that it or any of its
-// descendants exceeds, so no node has a parent of a lower class. The highest class is packet 0. Each other
-// class has tiles, four times as wide as those of the class below. A node's rectangle is the union of its own
-// tile and of the rectangles of its parents of the same class, rounded outwards to at most 2 x 2 tiles of
-// some level (the least one for which so few suffice, and no less than the parents'). Reaches are a fraction
-// of a tile and most parents are of a higher class than their children, so most rectangles are one tile. A
-// packet is the nodes of one class and rectangle.
+// of its star; its class is the number of widths (each a fixed multiple of the one before) that it or any of
+// its descendants exceeds, so no node has a parent of a lower class. Of pages it rises with the saturated
+// error too, which no descendant exceeds either, so that the nodes of a coarse cut lie together in few pages.
+// The highest class is packet 0. Each other class has tiles, as many times as wide as the tiles of the class
+// below. A node's rectangle is the union of its own tile and of the rectangles of its parents of the same
+// class, rounded outwards to at most 2 x 2 tiles of some level (the least one for which so few suffice, and
+// no less than the parents'). Reaches are a fraction of a tile and most parents are of a higher class than
+// their children, so most rectangles are one tile. A packet is the nodes of one class and rectangle.
 //
 // Packets of one class are in Morton order of the last corner of their rectangles. This corner is not before
 // that of any part of the rectangle, so a packet comes soon after those that it depends on.
@@ -33,9 +34,7 @@
 namespace arete::packed {
 namespace {
 
-/// The width of a tile in tiles of the class below, and its binary logarithm.
-constexpr int kClassStep = 4, kLevelsPerClass = 2;
-constexpr int kMostClasses = 12;
+constexpr int kMostClasses = 24;
 
 /// The place of a vertex, by which nodes are put into packets. The third coordinate of one of a heightfield
 /// is 0.
@@ -93,6 +92,10 @@ struct Tiling {
   int classes = 0;       ///< number of classes below that of packet 0
   bool hasLayers = false;
   double reachesPerTile = 8;
+  int levelsPerClass = 2;
+
+  /// The width of a tile in tiles of the class below.
+  double step() const { return std::exp2(levelsPerClass); }
 };
 
 /// Classes of about as many nodes each; nodes without error are one of their own.
@@ -105,6 +108,22 @@ void findBandClasses(const std::array<std::uint32_t, MultiTriangulation::kBands>
     above += perBand[band];
   }
   directory.bandClass[0] = kClasses - 1;
+}
+
+/// Per band, the least class of its nodes, which falls with the bands.
+std::array<std::uint8_t, MultiTriangulation::kBands> leastClasses(
+    const std::array<std::uint32_t, MultiTriangulation::kBands>& perBand, std::uint32_t nodes,
+    double shareOfClassOne, const Tiling& tiling) {
+  std::array<std::uint8_t, MultiTriangulation::kBands> least{};
+  std::uint64_t sofar = 0;
+  for (std::uint32_t band = MultiTriangulation::kBands; band-- > 0;) {
+    sofar += perBand[band];
+    double most = shareOfClassOne * nodes;
+    for (; least[band] < tiling.classes && static_cast<double>(sofar) <= most;
+         most /= tiling.step() * tiling.step())
+      ++least[band];
+  }
+  return least;
 }
 
 /// The area of the triangles that stay.
@@ -124,6 +143,7 @@ Tiling tilingOf(const MultiTriangulation& mt, const MtKind& kind, const PlanRule
   Tiling tiling;
   tiling.hasLayers = !kind.hasPlan();
   tiling.reachesPerTile = rule.reachesPerTile;
+  tiling.levelsPerClass = rule.levelsPerClass;
   double width = std::max(kind.columns, kind.rows);
   if (kind.hasPlan() && kind.isLattice) {
     tiling.size = rule.tileSamples;
@@ -142,7 +162,7 @@ Tiling tilingOf(const MultiTriangulation& mt, const MtKind& kind, const PlanRule
     if (!std::isfinite(size) || !(size > 0)) return tiling;
     tiling.size = size;
   }
-  for (double size = tiling.size; size < width && tiling.classes < kMostClasses; size *= kClassStep)
+  for (double size = tiling.size; size < width && tiling.classes < kMostClasses; size *= tiling.step())
     ++tiling.classes;
   return tiling;
 }
@@ -150,7 +170,7 @@ Tiling tilingOf(const MultiTriangulation& mt, const MtKind& kind, const PlanRule
 /// The largest values of a node and all its descendants.
 struct Descent {
   std::uint16_t error = 0;  ///< saturated, as by the recorder
-  std::uint8_t reach = 0;   ///< class
+  std::uint8_t reach = 0;   ///< class of its reach
 };
 
 /// The values of a node alone.
@@ -163,7 +183,7 @@ Descent ownOf(const MultiTriangulation& mt, NodeId n, const Tiling& tiling) {
   for (const std::uint32_t v : mt.link(n)) box.include(placeOf(a.vertices, VertexId(v)));
   const double width = box.longestSide();
   double most = tiling.size / tiling.reachesPerTile;
-  for (; own.reach < tiling.classes && width > most; most *= kClassStep) ++own.reach;
+  for (; own.reach < tiling.classes && width > most; most *= tiling.step()) ++own.reach;
   return own;
 }
 
@@ -247,7 +267,7 @@ class Tiler {
     const auto tileOf = [&](double x, double origin) {
       return static_cast<std::int32_t>((x - origin) / tiling_.size);
     };
-    Tiles tiles{.level = kLevelsPerClass * reach, .reach = reach};
+    Tiles tiles{.level = tiling_.levelsPerClass * reach, .reach = reach};
     tiles.begin = {tileOf(p.x, tiling_.origin.x), tileOf(p.y, tiling_.origin.y), 0};
     tiles.end = {tiles.begin[0] + 1, tiles.begin[1] + 1, 0};
     if (tiling_.hasLayers) {
@@ -336,15 +356,19 @@ void includeFloor(const MultiTriangulation& mt, NodeId n, Box3& box) {
   }
 }
 
-/// Cuts the runs of a packet into segments. What is left for the last one stays with the one before it where
-/// it is less than a quarter of a segment.
+/// Cuts the runs of a packet into segments: each at least as long as all before it together, so that a reader
+/// takes no more than about twice the nodes that it needs, of few segments. What is left for the last one
+/// stays with the one before it where it is less than half of a segment.
 void cutIntoSegments(Packet& packet, std::uint32_t segmentNodes) {
   packet.segments.assign(1, {});
-  std::uint32_t left = 0;
+  std::uint32_t before = 0, left = 0;
   for (const Run& run : packet.runs) left += run.nodes;
   for (const Run& run : packet.runs) {
-    if (packet.segments.back().nodes >= segmentNodes && segmentNodes > 0 && 4 * left >= segmentNodes)
+    const std::uint32_t least = std::max(segmentNodes, before);
+    if (segmentNodes > 0 && packet.segments.back().nodes >= least && 2 * std::uint64_t{left} >= least) {
+      before += packet.segments.back().nodes;
       packet.segments.emplace_back();
+    }
     Segment& segment = packet.segments.back();
     if (segment.runs++ == 0) segment.firstBand = run.band;
     segment.nodes += run.nodes;
@@ -413,7 +437,7 @@ Plan planPackets(const MultiTriangulation& mt, const MtKind& kind, const PlanRul
   {
     const Tiling tiling = tilingOf(mt, kind, rule);
     const Parents parents(mt, plan.owners);
-    const auto descents = descentsOf(mt, parents, tiling);
+    auto descents = descentsOf(mt, parents, tiling);
     plan.band.resize(nodes);
     std::array<std::uint32_t, MultiTriangulation::kBands> perBand{};
     for (std::uint32_t n = 0; n < nodes; ++n) {
@@ -421,6 +445,11 @@ Plan planPackets(const MultiTriangulation& mt, const MtKind& kind, const PlanRul
       ++perBand[plan.band[n]];
     }
     findBandClasses(perBand, nodes, plan.directory);
+    if (rule.shareOfClassOne > 0) {
+      const auto least = leastClasses(perBand, nodes, rule.shareOfClassOne, tiling);
+      for (std::uint32_t n = 0; n < nodes; ++n)
+        descents[n].reach = std::max(descents[n].reach, least[plan.band[n]]);
+    }
     Tiler tiler(mt, parents, tiling);
     tiler.run(descents);
     order = tiler.order();

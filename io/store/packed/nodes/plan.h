@@ -18,14 +18,21 @@ struct PlanRule {
   double tileSamples = 128;
   /// The width of a tile in reaches: the largest reach of its class.
   double reachesPerTile = 8;
-  /// A segment ends with the run that brings it to this number of nodes; 0: a packet is one segment.
+  /// The binary logarithm of the width of a tile in tiles of the class below.
+  int levelsPerClass = 2;
+  /// Nodes of large errors are of higher classes too: the largest bands together whose nodes are at most this
+  /// share of all are of class 1 at least; of class 2 if they are at most so many times less as its tiles are
+  /// larger, and so on. 0: classes are of reaches alone.
+  double shareOfClassOne = 0;
+  /// A segment ends with the run that brings it to this number of nodes, and to as many as all segments
+  /// before it have; 0: a packet is one segment.
   std::uint32_t segmentNodes = 0;
 
   bool isPaged() const { return segmentNodes > 0; }
 };
-/// Pages: what lies at a point, with all ancestors, is in half as many bytes as with the other rule. Tiles of
-/// 48 samples make that an eighth less, and the directory twice as long.
-inline constexpr PlanRule kPageRule{64, 4, 400};
+/// Pages (docs/decisions/0063): a coarse question finds its nodes together, and reads few others.
+inline constexpr PlanRule kPageRule{
+    .tileSamples = 64, .reachesPerTile = 4, .levelsPerClass = 1, .shareOfClassOne = 0.05, .segmentNodes = 64};
 
 /// The packet and band of each node of a model.
 struct Plan {
