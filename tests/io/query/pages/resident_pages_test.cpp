@@ -51,8 +51,8 @@ struct Filed {
     for (const PageNeed& need : got(file().pagesFor({}))) bytes += need.bytes.size();
   }
   AmtFile file() const { return *openAmt(folder.file("model.amt")); }
-  ResidentPages open(std::uint64_t mostBytes = ResidentPages::kUsualBytes) const {
-    return *ResidentPages::open(file(), mostBytes);
+  TerrainPages open(std::uint64_t mostBytes = TerrainPages::kUsualBytes) const {
+    return *TerrainPages::open(file(), mostBytes);
   }
   TemporaryFolder folder;
   TerrainModel whole;
@@ -78,7 +78,7 @@ View viewFrom(double x, double y, double above, double pitch = -0.5) {
   return view;
 }
 
-PageDemand demandFor(const View& view, const ResidentPages& pages, double pixels = 2) {
+PageDemand demandFor(const View& view, const TerrainPages& pages, double pixels = 2) {
   return demandOf({.view = view, .pixels = pixels}, *pages.outline());
 }
 
@@ -116,7 +116,7 @@ std::vector<std::array<double, 9>> trianglesOf(const TerrainModel& model, const 
 }
 
 /// Steps until nothing changes any more.
-ResidentPages::Step settled(ResidentPages& pages, const PageDemand& demand, std::uint64_t mostBytes) {
+TerrainPages::Step settled(TerrainPages& pages, const PageDemand& demand, std::uint64_t mostBytes) {
   for (int i = 0; i < 20'000; ++i) {
     auto step = got(pages.step(demand, mostBytes));
     if (step.isDone) return step;
@@ -126,7 +126,7 @@ ResidentPages::Step settled(ResidentPages& pages, const PageDemand& demand, std:
 }
 
 TEST(ResidentPages, HaveAllThatAPictureNeedsAfterOneStepThatMayReadIt) {
-  ResidentPages pages = mountains().open();
+  TerrainPages pages = mountains().open();
   Random random(3);
   for (int i = 0; i < 12; ++i) {
     const View view = viewFrom(random.between(0, 1), random.between(0, 1), random.between(0.001, 0.8));
@@ -134,14 +134,14 @@ TEST(ResidentPages, HaveAllThatAPictureNeedsAfterOneStepThatMayReadIt) {
     EXPECT_EQ(step.coarseness, 1);
     EXPECT_EQ(step.missingPages, 0u);
     EXPECT_TRUE(cutOf(*step.part, view).missing.empty()) << i;
-    EXPECT_EQ(got(missingInView(*step.part, {.view = view, .pixels = 2})).missing, 0u);
+    EXPECT_EQ(got(missingInView(step.part->mt, {.view = view, .pixels = 2})).missing, 0u);
   }
 }
 
 TEST(ResidentPages, CoverTheWholePlanInEveryStepWhilePagesAreLate) {
   const Filed& filed = mountains();
   const double whole = areaOf(filed.whole, frontOfPrefix(filed.whole.mt, 0));
-  ResidentPages pages = filed.open(filed.bytes / 3);
+  TerrainPages pages = filed.open(filed.bytes / 3);
   Random random(4);
   for (int i = 0; i < 60; ++i) {
     const View view = viewFrom(random.between(0, 1), random.between(0, 1), random.between(0.001, 0.5));
@@ -154,7 +154,7 @@ TEST(ResidentPages, CoverTheWholePlanInEveryStepWhilePagesAreLate) {
 TEST(ResidentPages, CoverThePlanWhenTheCameraRisesAfterALongTimeNearTheGround) {
   const Filed& filed = mountains();
   const double whole = areaOf(filed.whole, frontOfPrefix(filed.whole.mt, 0));
-  ResidentPages pages = filed.open(filed.bytes / 8);
+  TerrainPages pages = filed.open(filed.bytes / 8);
   for (int i = 0; i < 20; ++i)
     ASSERT_TRUE(pages.step(demandFor(viewFrom(0.02 * i, 0.5, 0.001, -0.1), pages), kAny));
   const View far = viewFrom(0.5, -0.5, 1.5, -0.8);
@@ -165,7 +165,7 @@ TEST(ResidentPages, CoverThePlanWhenTheCameraRisesAfterALongTimeNearTheGround) {
 TEST(ResidentPages, StayWithinTheirBudget) {
   const Filed& filed = mountains();
   for (const std::uint64_t budget : {filed.bytes / 20, filed.bytes / 6, filed.bytes / 2}) {
-    ResidentPages pages = filed.open(budget);
+    TerrainPages pages = filed.open(budget);
     Random random(5);
     for (int i = 0; i < 40; ++i) {
       const View view = viewFrom(random.between(0, 1), random.between(0, 1), random.between(0.001, 0.5));
@@ -178,7 +178,7 @@ TEST(ResidentPages, StayWithinTheirBudget) {
 TEST(ResidentPages, ReadNothingMoreForACameraThatStandsStillHoweverSmallTheBudget) {
   const Filed& filed = mountains();
   for (const std::uint64_t part : {30u, 10u, 3u, 1u}) {
-    ResidentPages pages = filed.open(filed.bytes / part);
+    TerrainPages pages = filed.open(filed.bytes / part);
     const View view = viewFrom(0.4, 0.1, 0.02);
     PageDemand demand = demandFor(view, pages, 0.3);
     demand.ahead = demandFor(viewFrom(0.6, 0.3, 0.02), pages, 0.3).needed;
@@ -193,7 +193,7 @@ TEST(ResidentPages, ReadNothingMoreForACameraThatStandsStillHoweverSmallTheBudge
 }
 
 TEST(ResidentPages, ComeToTheirEndByStepsOfOneByteToo) {
-  ResidentPages pages = mountains().open();
+  TerrainPages pages = mountains().open();
   const View view = viewFrom(0.5, 0.2, 0.05);
   PageDemand demand = demandFor(view, pages);
   demand.around = {};
@@ -207,9 +207,9 @@ TEST(ResidentPages, LeadToOnePictureWhereverTheCameraWasBefore) {
   const Filed& filed = mountains();
   const View view = viewFrom(0.3, 0.3, 0.03);
   for (const std::uint64_t budget : {filed.bytes / 12, filed.bytes}) {
-    ResidentPages fresh = filed.open(budget);
+    TerrainPages fresh = filed.open(budget);
     const auto expected = settled(fresh, demandFor(view, fresh, 0.7), kAny);
-    ResidentPages travelled = filed.open(budget);
+    TerrainPages travelled = filed.open(budget);
     Random random(6);
     for (int i = 0; i < 15; ++i)
       ASSERT_TRUE(travelled.step(
@@ -226,7 +226,7 @@ TEST(ResidentPages, LeadToOnePictureWhereverTheCameraWasBefore) {
 
 TEST(ResidentPages, AreTheSameForAnyNumberOfThreads) {
   const Filed& filed = mountains();
-  ResidentPages one = filed.open(filed.bytes / 5), four = filed.open(filed.bytes / 5);
+  TerrainPages one = filed.open(filed.bytes / 5), four = filed.open(filed.bytes / 5);
   Random random(7);
   for (int i = 0; i < 12; ++i) {
     const View view = viewFrom(random.between(0, 1), random.between(0, 1), random.between(0.001, 0.3));
@@ -240,7 +240,7 @@ TEST(ResidentPages, AreTheSameForAnyNumberOfThreads) {
 
 TEST(ResidentPages, OfAStepAreNoMoreBytesThanItMayReadOrOnePage) {
   const Filed& filed = mountains();
-  ResidentPages pages = filed.open();
+  TerrainPages pages = filed.open();
   std::uint64_t largest = 0;
   for (const PageNeed& need : got(filed.file().pagesFor({})))
     largest = std::max<std::uint64_t>(largest, need.bytes.size());
@@ -257,7 +257,7 @@ TEST(ResidentPages, ReadAheadOfACameraThatMovesSoThatLessIsMissingThen) {
   const View from = viewFrom(0.2, 0.2, 0.02), to = viewFrom(0.6, 0.5, 0.02);
   std::array<std::uint64_t, 2> read{};
   for (const std::size_t expects : {0u, 1u}) {
-    ResidentPages pages = filed.open();
+    TerrainPages pages = filed.open();
     PageDemand demand = demandFor(from, pages);
     if (expects == 1) demand.ahead = demandFor(to, pages).needed;
     ASSERT_TRUE(pages.step(demand, kAny));
