@@ -63,7 +63,7 @@ void SurfaceDrawable::replace(SurfacePart part) {
   assets_->drawn = std::move(part.drawn);
   front_ = std::move(part.front);
   part_ = std::move(part.model);
-  hasFront_ = true;
+  hasFront_ = isReplaced_ = true;
   ranges_.clear();
   own_ = {};
   displaced_ = {};
@@ -111,6 +111,9 @@ Result<FrameFigures> SurfaceDrawable::cut(const Camera& camera, const ViewSettin
   upload(std::move(taken.changes));
   hasFront_ = true;
   pixels_ = taken.figures.pixels;
+  // How far vertices are from where the last front had them is not known.
+  if (std::exchange(isReplaced_, false))
+    taken.figures.jumpPixels = std::numeric_limits<double>::quiet_NaN();
   return taken.figures;
 }
 

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -23,6 +22,7 @@
 #include "engine/cut/cut.h"
 #include "io/amt_fixture.h"
 #include "io/io_fixture.h"
+#include "io/query/pages/pages_fixture.h"
 #include "io/query/pages/view_demand.h"
 #include "terrain/model/plan_box.h"
 
@@ -30,15 +30,10 @@ namespace arete {
 namespace {
 
 using test::built;
+using test::got;
+using test::kAnyBytes;
+using test::settled;
 using test::TemporaryFolder;
-
-template <class T>
-T got(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().describe());
-  return std::move(*result);
-}
-
-constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
 
 /// One file of mountains in pages, and its model.
 struct Filed {
@@ -115,22 +110,12 @@ std::vector<std::array<double, 9>> trianglesOf(const TerrainModel& model, const 
   return all;
 }
 
-/// Steps until nothing changes any more.
-TerrainPages::Step settled(TerrainPages& pages, const PageDemand& demand, std::uint64_t mostBytes) {
-  for (int i = 0; i < 20'000; ++i) {
-    auto step = got(pages.step(demand, mostBytes));
-    if (step.isDone) return step;
-  }
-  ADD_FAILURE() << "the steps do not end";
-  return got(pages.step(demand, mostBytes));
-}
-
 TEST(ResidentPages, HaveAllThatAPictureNeedsAfterOneStepThatMayReadIt) {
   TerrainPages pages = mountains().open();
   Random random(3);
   for (int i = 0; i < 12; ++i) {
     const View view = viewFrom(random.between(0, 1), random.between(0, 1), random.between(0.001, 0.8));
-    const auto step = got(pages.step(demandFor(view, pages), kAny));
+    const auto step = got(pages.step(demandFor(view, pages), kAnyBytes));
     EXPECT_EQ(step.coarseness, 1);
     EXPECT_EQ(step.missingPages, 0u);
     EXPECT_TRUE(cutOf(*step.part, view).missing.empty()) << i;
@@ -156,7 +141,7 @@ TEST(ResidentPages, CoverThePlanWhenTheCameraRisesAfterALongTimeNearTheGround) {
   const double whole = areaOf(filed.whole, frontOfPrefix(filed.whole.mt, 0));
   TerrainPages pages = filed.open(filed.bytes / 8);
   for (int i = 0; i < 20; ++i)
-    ASSERT_TRUE(pages.step(demandFor(viewFrom(0.02 * i, 0.5, 0.001, -0.1), pages), kAny));
+    ASSERT_TRUE(pages.step(demandFor(viewFrom(0.02 * i, 0.5, 0.001, -0.1), pages), kAnyBytes));
   const View far = viewFrom(0.5, -0.5, 1.5, -0.8);
   const auto step = got(pages.step(demandFor(far, pages), 1));
   EXPECT_NEAR(areaOf(*step.part, cutOf(*step.part, far)), whole, 1e-9 * whole);
@@ -169,7 +154,7 @@ TEST(ResidentPages, StayWithinTheirBudget) {
     Random random(5);
     for (int i = 0; i < 40; ++i) {
       const View view = viewFrom(random.between(0, 1), random.between(0, 1), random.between(0.001, 0.5));
-      const auto step = got(pages.step(demandFor(view, pages, 0.5), i % 2 == 0 ? kAny : 20'000));
+      const auto step = got(pages.step(demandFor(view, pages, 0.5), i % 2 == 0 ? kAnyBytes : 20'000));
       EXPECT_LE(step.residentBytes, budget) << i;
     }
   }
@@ -184,7 +169,7 @@ TEST(ResidentPages, ReadNothingMoreForACameraThatStandsStillHoweverSmallTheBudge
     demand.ahead = demandFor(viewFrom(0.6, 0.3, 0.02), pages, 0.3).needed;
     const auto last = settled(pages, demand, 30'000);
     for (int i = 0; i < 3; ++i) {
-      const auto step = got(pages.step(demand, kAny));
+      const auto step = got(pages.step(demand, kAnyBytes));
       EXPECT_EQ(step.bytes, 0u);
       EXPECT_FALSE(step.isNew);
       EXPECT_EQ(step.coarseness, last.coarseness);
@@ -208,7 +193,7 @@ TEST(ResidentPages, LeadToOnePictureWhereverTheCameraWasBefore) {
   const View view = viewFrom(0.3, 0.3, 0.03);
   for (const std::uint64_t budget : {filed.bytes / 12, filed.bytes}) {
     TerrainPages fresh = filed.open(budget);
-    const auto expected = settled(fresh, demandFor(view, fresh, 0.7), kAny);
+    const auto expected = settled(fresh, demandFor(view, fresh, 0.7), kAnyBytes);
     TerrainPages travelled = filed.open(budget);
     Random random(6);
     for (int i = 0; i < 15; ++i)
@@ -260,9 +245,9 @@ TEST(ResidentPages, ReadAheadOfACameraThatMovesSoThatLessIsMissingThen) {
     TerrainPages pages = filed.open();
     PageDemand demand = demandFor(from, pages);
     if (expects == 1) demand.ahead = demandFor(to, pages).needed;
-    ASSERT_TRUE(pages.step(demand, kAny));
-    ASSERT_TRUE(pages.step(demand, kAny));
-    read[expects] = got(pages.step(demandFor(to, pages), kAny)).bytes;
+    ASSERT_TRUE(pages.step(demand, kAnyBytes));
+    ASSERT_TRUE(pages.step(demand, kAnyBytes));
+    read[expects] = got(pages.step(demandFor(to, pages), kAnyBytes)).bytes;
   }
   EXPECT_LT(read[1], read[0] / 2);
 }
