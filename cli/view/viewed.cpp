@@ -128,8 +128,7 @@ Result<Viewed> viewedPages(const ViewArguments& a, std::unique_ptr<TerrainPages>
   ARETE_TRY(viewed.colors, statedColors(a, *outline, session));
   const std::shared_ptr<TerrainPages> pages = std::move(opened);
   viewed.addModel = [&a, &session, pages, subject](Scene& scene) -> Status {
-    ARETE_TRY(PagedTerrain made,
-              drawPaged(std::move(*pages), subject, terrainOptions(a), session.context()));
+    ARETE_TRY(PagedTerrain made, drawPaged(std::move(*pages), subject, terrainOptions(a), session.context()));
     return scene.add(std::make_unique<PagedTerrain>(std::move(made)));
   };
   return viewed;
@@ -183,8 +182,8 @@ Result<Viewed> viewedPages(const ViewArguments& a, std::unique_ptr<SurfacePages>
   const std::shared_ptr<const SurfaceModel> outline = opened->outline();
   ARETE_TRY(const Turn turn, a.viewpoint.turnAngles());
   const SurfaceFacts& facts = opened->file().facts();
-  const auto subject = std::make_shared<PagedSurfaceSubject>(outline, ZUpFrame(*outline, a.viewpoint.up), turn,
-                                                             facts.vertices);
+  const auto subject = std::make_shared<PagedSurfaceSubject>(outline, ZUpFrame(*outline, a.viewpoint.up),
+                                                             turn, facts.vertices);
   Viewed viewed{.subject = subject,
                 .finestTriangles = outline->finestTriangles(),
                 .files = {a.model},

@@ -7,8 +7,9 @@
 
 namespace arete {
 
-/// The ball about a finite box of a model's coordinates, in metric space, for BoundedCriterion::allowedError().
-/// Floats hold the numbers of a ball to a part in 2^24, so it is larger by some parts in a million. O(1).
+/// The ball about a finite box of a model's coordinates, in metric space, for
+/// BoundedCriterion::allowedError(). Floats hold the numbers of a ball to a part in 2^24, so it is larger by
+/// some parts in a million. O(1).
 inline Sphere ballAboutBox(const Box3& box, const MetricFrame& metric) {
   const Vec3 low = metric.toMetric(box.low), high = metric.toMetric(box.high);
   const Vec3 middle = (low + high) / 2.0;

@@ -16,8 +16,8 @@ namespace arete::shapes {
 inline SurfaceMesh paintedRock(std::uint32_t vertices, std::vector<std::byte> png) {
   SurfaceMesh mesh(generateAsteroid({.vertices = vertices, .seed = 4}));
   const auto count = static_cast<std::uint32_t>(mesh.positions.size());
-  Attribute color{.name = "color", .meaning = AttributeMeaning::color, .type = ScalarType::uint8,
-                  .components = 3};
+  Attribute color{
+      .name = "color", .meaning = AttributeMeaning::color, .type = ScalarType::uint8, .components = 3};
   Attribute normal{.name = "normal", .meaning = AttributeMeaning::normal, .components = 3};
   for (const Vec3& p : mesh.positions) {
     const auto shade = [](double x) { return std::floor(127.5 + 127 * std::sin(9 * x)); };

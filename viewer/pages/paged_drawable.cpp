@@ -56,8 +56,7 @@ struct PagedDrawable<Model>::State {
     ARETE_TRY(PictureDemand picture, Kind::demandOf(shown, camera, settings));
     if (last) picture.demand.expected = viewAhead(last->view, picture.demand.view, kPicturesAhead);
     if (const auto& level = settings.level)
-      picture.demand.error =
-          level->triangles > 0 ? pages.file().errorBeyond(level->triangles) : level->error;
+      picture.demand.error = level->triangles > 0 ? pages.file().errorBeyond(level->triangles) : level->error;
     return picture;
   }
   void add(const typename ResidentPages<Model>::Step& step) {
@@ -206,7 +205,7 @@ Result<FrameView> PagedDrawable<Model>::frameOf(const Camera& camera, const View
 }
 template <class Model>
 Status PagedDrawable<Model>::draw(const Camera& camera, const ViewSettings& settings,
-                           std::span<const Layer> layers) {
+                                  std::span<const Layer> layers) {
   ARETE_CHECK(state_->subject->check(settings));
   return state_->shown.draw(camera, settings, layers);
 }
@@ -232,7 +231,7 @@ bool PagedDrawable<Model>::isShown() const {
 }
 template <class Model>
 std::optional<double> PagedDrawable<Model>::drawnError(const Pick& pick, const Camera& camera, Vec2 pixel,
-                                                const ViewSettings& settings) const {
+                                                       const ViewSettings& settings) const {
   return state_->shown.drawnError(pick, camera, pixel, settings);
 }
 template <class Model>

@@ -13,9 +13,9 @@
 namespace arete {
 
 /// Draws a model of which the pages are read that the camera needs. What is drawn is always a cut of a part
-/// that covers the whole model, so that a page that is late makes the picture coarser in its place, and leaves
-/// neither a hole nor a crack. A part takes the place of another between two pictures; vertices that were on
-/// the move are at rest or move anew after it.
+/// that covers the whole model, so that a page that is late makes the picture coarser in its place, and
+/// leaves neither a hole nor a crack. A part takes the place of another between two pictures; vertices that
+/// were on the move are at rest or move anew after it.
 ///
 /// Where a picture waits for its cut (ViewSettings::waits), advance() reads at most ViewSettings::pageBytes,
 /// and pictures depend on the cameras before them alone. Else a thread of its own reads, unpacks and makes

@@ -40,8 +40,7 @@ Result<PictureDemand> PagedKind<SurfaceModel>::demandOf(const Shown& shown, cons
 
 Result<SurfacePart> PagedKind<SurfaceModel>::ready(const Shown& shown,
                                                    std::shared_ptr<const SurfaceModel> part,
-                                                   const PictureDemand& picture,
-                                                   const RunContext& context) {
+                                                   const PictureDemand& picture, const RunContext& context) {
   return shown.ready(std::move(part), *picture.front, context);
 }
 

@@ -7,7 +7,8 @@ namespace arete {
 namespace {
 
 /// A form that keeps its model.
-std::shared_ptr<const SurfaceForm> formOf(std::shared_ptr<const SurfaceModel> model, const ZUpFrame& upright) {
+std::shared_ptr<const SurfaceForm> formOf(std::shared_ptr<const SurfaceModel> model,
+                                          const ZUpFrame& upright) {
   struct Kept {
     Kept(std::shared_ptr<const SurfaceModel> m, const ZUpFrame& frame)
         : model(std::move(m)), form(*model, frame) {}

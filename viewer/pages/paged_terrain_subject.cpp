@@ -34,11 +34,12 @@ Vec3 PagedTerrainSubject::drawn(const Vec3& metric, const ViewSettings& settings
 }
 
 Camera PagedTerrainSubject::home(HomeView view, const Camera& picture, const ViewSettings& settings,
-                          const CoveredEdges& covered) const {
+                                 const CoveredEdges& covered) const {
   return outline_->home(view, picture, settings, covered);
 }
 
-std::optional<Pick> PagedTerrainSubject::pick(const Camera& camera, Vec2 pixel, const ViewSettings& settings) const {
+std::optional<Pick> PagedTerrainSubject::pick(const Camera& camera, Vec2 pixel,
+                                              const ViewSettings& settings) const {
   return part_->pick(camera, pixel, settings);
 }
 

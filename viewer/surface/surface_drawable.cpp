@@ -112,8 +112,7 @@ Result<FrameFigures> SurfaceDrawable::cut(const Camera& camera, const ViewSettin
   hasFront_ = true;
   pixels_ = taken.figures.pixels;
   // How far vertices are from where the last front had them is not known.
-  if (std::exchange(isReplaced_, false))
-    taken.figures.jumpPixels = std::numeric_limits<double>::quiet_NaN();
+  if (std::exchange(isReplaced_, false)) taken.figures.jumpPixels = std::numeric_limits<double>::quiet_NaN();
   return taken.figures;
 }
 

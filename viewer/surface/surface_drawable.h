@@ -97,7 +97,7 @@ class SurfaceDrawable final : public Drawable {
   std::shared_ptr<SurfaceAssets> assets_;
   std::shared_ptr<const SurfaceModel> part_;  // that is drawn; null: the subject's model
   std::shared_ptr<MorphingFront> front_;
-  std::shared_ptr<CutWorker> worker_;  // null: none was needed yet
+  std::shared_ptr<CutWorker> worker_;           // null: none was needed yet
   bool hasFront_ = false, isReplaced_ = false;  // isReplaced_: since the last cut
   GlQuery anySample_ = makeQuery(GL_ANY_SAMPLES_PASSED), anyBlended_ = makeQuery(GL_ANY_SAMPLES_PASSED);
   bool hasDrawnBlended_ = false;     // in the last picture

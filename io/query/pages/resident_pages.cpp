@@ -128,8 +128,7 @@ class ResidentPages<Model>::Stepping {
     }
     step_.coarseness = choice->coarseness;
     if (p_.part_ && p_.partHas(choice->pages)) return {};
-    ARETE_TRY(Model part,
-              p_.file_.read({.verify = AmtVerify::none, .wanted = choice->required}, context_));
+    ARETE_TRY(Model part, p_.file_.read({.verify = AmtVerify::none, .wanted = choice->required}, context_));
     p_.part_ = std::make_shared<const Model>(std::move(part));
     p_.partPages_ = choice->pages;
     step_.isNew = true;

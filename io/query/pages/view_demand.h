@@ -6,8 +6,8 @@
 
 #include "engine/base/result.h"
 #include "engine/criteria/view.h"
-#include "engine/parallel/run_context.h"
 #include "engine/mt/multitriangulation.h"
+#include "engine/parallel/run_context.h"
 #include "io/query/pages/resident_pages.h"
 #include "surface/model/surface_model.h"
 #include "terrain/model/terrain_model.h"

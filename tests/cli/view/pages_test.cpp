@@ -165,5 +165,25 @@ TEST_F(ViewOfSurfacePages, SaysWhichPageIsDamaged) {
   EXPECT_FALSE(exists("view.png"));
 }
 
+TEST_F(ViewOfSurfacePages, OfARealScanReadsLessForWhatIsNear) {
+  const std::string scan = realData("meshes/horse.ply");
+  if (scan.empty()) GTEST_SKIP() << "the horse is not here (set ARETE_DATA)";
+  ASSERT_EQ(run({"build", scan, "-o", "paged.amt", "--paged", "-q", "--overwrite"}).code, 0);
+  const Outcome all = shoot({});
+  if (isWithoutOpenGl(all)) GTEST_SKIP() << all.err;
+  ASSERT_EQ(all.code, 0) << all.err;
+  const Outcome narrow = shoot({"--camera", "0.0957,-0.1574,0.0428,-0.0406,0.0374,-0.0437,1"});
+  ASSERT_EQ(narrow.code, 0) << narrow.err;
+  std::uint64_t bytes[2] = {};
+  for (const Outcome* const shot : {&all, &narrow}) {
+    const auto figures = shot->json()["screenshot"]["figures"];
+    EXPECT_EQ(figures["pixelError"], 1.0);
+    EXPECT_EQ(figures["pages"]["missingTriangles"], 0);
+    bytes[shot == &all ? 0 : 1] = figures["pages"]["bytes"].get<std::uint64_t>();
+  }
+  EXPECT_GT(bytes[0], 0u);
+  EXPECT_LT(bytes[1], fs::file_size(path("paged.amt")) / 2);
+}
+
 }  // namespace
 }  // namespace arete::cli_test

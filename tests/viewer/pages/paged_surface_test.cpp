@@ -103,7 +103,7 @@ ViewSettings unshaded() {
 
 /// Pixels of the background that what is drawn has all around: a star-shaped rock has none.
 int enclosedIn(const FrameTarget& target, const Drawable& drawable, const Camera& camera,
-            const ViewSettings& settings) {
+               const ViewSettings& settings) {
   const auto frame = drawable.frameOf(camera, settings);
   const std::vector<float> depths = target.depths(frame->drawnNear, frame->depthReach);
   std::vector<bool> isOutside(depths.size());

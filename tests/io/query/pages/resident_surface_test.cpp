@@ -196,8 +196,8 @@ TEST(ResidentSurface, NamesThePageWhoseBytesAreDamagedAndGoesOnWithTheOthers) {
   std::string bytes = test::readAll(rock().folder.file("rock.amt"));
   bytes[nodes.offset + nodes.bytes - 3] ^= 4;
   test::writeAll(folder.file("damaged.amt"), bytes);
-  SurfacePages pages =
-      got(SurfacePages::open(got(PagedSurfaceFile::open(got(AmtContainer::open(folder.file("damaged.amt")))))));
+  SurfacePages pages = got(
+      SurfacePages::open(got(PagedSurfaceFile::open(got(AmtContainer::open(folder.file("damaged.amt")))))));
   const ViewDemand all{.view = aroundRock(0, 0, 1), .pixels = 1, .error = 0};
   const auto step = pages.step(demandOf(all, *pages.outline()), kAnyBytes);
   ASSERT_FALSE(step);
