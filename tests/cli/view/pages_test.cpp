@@ -168,7 +168,9 @@ TEST_F(ViewOfSurfacePages, SaysWhichPageIsDamaged) {
 TEST_F(ViewOfSurfacePages, OfARealScanReadsLessForWhatIsNear) {
   const std::string scan = realData("meshes/horse.ply");
   if (scan.empty()) GTEST_SKIP() << "the horse is not here (set ARETE_DATA)";
-  ASSERT_EQ(run({"build", scan, "-o", "paged.amt", "--paged", "-q", "--overwrite"}).code, 0);
+  fs::remove(path("paged.amt"));
+  const Outcome built = run({"build", scan, "-o", "paged.amt", "--paged", "-q"});
+  ASSERT_EQ(built.code, 0) << built.err;
   const Outcome all = shoot({});
   if (isWithoutOpenGl(all)) GTEST_SKIP() << all.err;
   ASSERT_EQ(all.code, 0) << all.err;
