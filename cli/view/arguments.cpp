@@ -147,23 +147,20 @@ void DetailArguments::addTo(CLI::App& command, OptionKinds& kinds) {
           ->check(finiteAbove(0))
           ->type_name("MS")
           ->group(group));
-  kinds.ofTerrain(
-      command
-          .add_option("--page-memory", pageMebibytes,
-                      "Of a file in pages: MiB of pages in memory, which are read as the camera needs them "
-                      "(default 64); 0: all of the model is read first")
-          ->check(CLI::Range(std::int64_t(0), std::int64_t(1) << 20))
-          ->type_name("MIB")
-          ->group(group));
-  kinds.ofTerrain(
-      command
-          .add_option(
-              "--page-budget", pageKibibytes,
-              "Of a file in pages: KiB of pages that are read before a frame of --frames or --film at "
-              "most (default: as many as the frame needs)")
-          ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 30))
-          ->type_name("KIB")
-          ->group(group));
+  command
+      .add_option("--page-memory", pageMebibytes,
+                  "Of a file in pages: MiB of pages in memory, which are read as the camera needs them "
+                  "(default 64); 0: all of the model is read first")
+      ->check(CLI::Range(std::int64_t(0), std::int64_t(1) << 20))
+      ->type_name("MIB")
+      ->group(group);
+  command
+      .add_option("--page-budget", pageKibibytes,
+                  "Of a file in pages: KiB of pages that are read before a frame of --frames or --film at "
+                  "most (default: as many as the frame needs)")
+      ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 30))
+      ->type_name("KIB")
+      ->group(group);
   command.add_flag("--no-geomorph", isFixed, "Do not move new vertices gradually to their place")
       ->group(group);
 }

@@ -76,7 +76,9 @@ std::string buildCommandOf(const std::string& path) {
 }
 
 ModelKind kindOf(const Opened& opened) {
-  return std::holds_alternative<SurfaceModel>(opened) ? ModelKind::surface : ModelKind::terrain;
+  const bool isSurface = std::holds_alternative<SurfaceModel>(opened) ||
+                         std::holds_alternative<std::unique_ptr<SurfacePages>>(opened);
+  return isSurface ? ModelKind::surface : ModelKind::terrain;
 }
 
 /// Options that are not for a kind of model.
@@ -103,6 +105,8 @@ Status refuseForScenes(const ViewArguments& a, const OpenScene& scene) {
 /// Why a model in pages is to be read whole, as words of a message; empty: it need not be.
 std::string needOfWhole(const ViewArguments& a) {
   const AppearanceArguments& look = a.appearance;
+  if (!a.viewpoint.beside.empty()) return "--beside";
+  if (look.hasInk()) return "--color " + look.color;
   if (look.isCurved) return "--curvature";
   if (!look.drapes.empty()) return "--drape";
   if (!look.layers.empty()) return "--layer";
@@ -118,16 +122,27 @@ struct Opening {
   bool isBuilt = false;  ///< of a DEM or a mesh, in memory
 };
 
-/// @param pageBytes of a terrain in pages that stays in its file; 0: it is read whole
+/// Opens a model that stays in its file.
+template <class Model>
+Result<Opening> openPages(typename ResidentPages<Model>::File file, std::uint64_t pageBytes,
+                          const RunContext& context) {
+  ARETE_TRY(auto pages, ResidentPages<Model>::open(std::move(file), pageBytes, context));
+  return Opening{.opened = std::make_unique<ResidentPages<Model>>(std::move(pages))};
+}
+
+/// @param pageBytes of a model in pages that stays in its file; 0: it is read whole
 Result<Opening> open(const std::string& path, std::optional<AmtContainer> file, std::uint64_t pageBytes,
                      const RunContext& context) {
   const auto asOpened = [](Model model) {
     return std::visit([](auto&& one) { return Opened(std::move(one)); }, std::move(model));
   };
+  if (file && pageBytes > 0 && file->isOfSurface()) {
+    ARETE_TRY(PagedSurfaceFile surface, PagedSurfaceFile::open(std::move(*file)));
+    return openPages<SurfaceModel>(std::move(surface), pageBytes, context);
+  }
   if (file && pageBytes > 0) {
     ARETE_TRY(AmtFile terrain, openAmt(std::move(*file)));
-    ARETE_TRY(ResidentPages pages, ResidentPages::open(std::move(terrain), pageBytes, context));
-    return Opening{.opened = std::make_unique<ResidentPages>(std::move(pages))};
+    return openPages<TerrainModel>(std::move(terrain), pageBytes, context);
   }
   if (file) {
     ARETE_TRY(Model model, readModel(std::move(*file), context));
@@ -151,7 +166,7 @@ Result<std::optional<Opened>> openModelOf(const ViewArguments& a, std::optional<
   const Stopwatch watch;
   const bool mayBuild = !file && !isSceneFile(a.model);
   std::uint64_t pageBytes = 0;
-  if (file && file->isPaged() && !file->isOfSurface() && a.viewpoint.beside.empty()) {
+  if (file && file->isPaged()) {
     const std::string need = needOfWhole(a);
     if (need.empty())
       pageBytes = std::uint64_t(a.detail.pageMebibytes) << 20;

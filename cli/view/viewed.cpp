@@ -93,7 +93,7 @@ Result<Viewed> viewedTerrain(const ViewArguments& a, std::shared_ptr<const Terra
 }
 
 /// Of a stated camera, the ground below it read for its height.
-Result<Camera> cameraOverPages(const ViewArguments& a, const ResidentPages& pages, Session& session) {
+Result<Camera> cameraOverPages(const ViewArguments& a, const TerrainPages& pages, Session& session) {
   const TerrainModel& outline = *pages.outline();
   ARETE_TRY(const auto toDem, transformOfPlaces(a.viewpoint.isLonLat, outline));
   ARETE_TRY(const Vec2 place, readCameraPlace("--camera", a.viewpoint.camera, toDem));
@@ -109,9 +109,9 @@ Result<Camera> cameraOverPages(const ViewArguments& a, const ResidentPages& page
   return stated.camera;
 }
 
-Result<Viewed> viewedPages(const ViewArguments& a, std::unique_ptr<ResidentPages> opened, Session& session) {
+Result<Viewed> viewedPages(const ViewArguments& a, std::unique_ptr<TerrainPages> opened, Session& session) {
   const std::shared_ptr<const TerrainModel> outline = opened->outline();
-  const auto subject = std::make_shared<PagedSubject>(outline);
+  const auto subject = std::make_shared<PagedTerrainSubject>(outline);
   ARETE_CHECK(checkGroundUnits(outline->georeference, {a.appearance.hazeWithUnit}));
   Viewed viewed{.subject = subject,
                 .finestTriangles = opened->file().summary().finestTriangles,
@@ -126,11 +126,10 @@ Result<Viewed> viewedPages(const ViewArguments& a, std::unique_ptr<ResidentPages
   if (const std::string word = a.appearance.colors.wordOfSea(a.appearance.color, *outline); !word.empty())
     session.warn(Warnings{{WarningCode::display, word}}, a.model);
   ARETE_TRY(viewed.colors, statedColors(a, *outline, session));
-  const std::shared_ptr<ResidentPages> pages = std::move(opened);
+  const std::shared_ptr<TerrainPages> pages = std::move(opened);
   viewed.addModel = [&a, &session, pages, subject](Scene& scene) -> Status {
-    ARETE_TRY(PagedDrawable made,
-              PagedDrawable::create(std::move(*pages), subject, terrainOptions(a), session.context()));
-    return scene.add(std::make_unique<PagedDrawable>(std::move(made)));
+    ARETE_TRY(PagedTerrain made, drawPaged(std::move(*pages), subject, terrainOptions(a), session.context()));
+    return scene.add(std::make_unique<PagedTerrain>(std::move(made)));
   };
   return viewed;
 }
@@ -151,6 +150,13 @@ Result<std::optional<Camera>> statedCamera(const ViewArguments& a, const CameraS
   return std::optional(camera);
 }
 
+/// The camera that is stated of a surface by itself.
+Result<std::optional<Camera>> cameraAt(const ViewArguments& a, const SurfaceSubject& subject) {
+  const Similarity there = placed(subject.placement(), nullptr);
+  return statedCamera(a, subject.space(),
+                      [&](const Vec3& p) { return there(subject.upright().fromFile(p)); });
+}
+
 Result<Viewed> viewedSurface(const ViewArguments& a, SurfaceModel opened) {
   const auto model = std::make_shared<const SurfaceModel>(std::move(opened));
   const auto form = std::make_shared<const SurfaceForm>(*model, ZUpFrame(*model, a.viewpoint.up));
@@ -168,10 +174,27 @@ Result<Viewed> viewedSurface(const ViewArguments& a, SurfaceModel opened) {
     if (!ink) ink.error().culprit = "--color " + ink.error().culprit;
     ARETE_CHECK(ink);
   }
-  const Similarity placedThere = placed(subject->placement(), nullptr);
-  ARETE_TRY(viewed.camera, statedCamera(a, subject->space(), [&](const Vec3& p) {
-              return placedThere(subject->upright().fromFile(p));
-            }));
+  ARETE_TRY(viewed.camera, cameraAt(a, *subject));
+  return viewed;
+}
+
+Result<Viewed> viewedPages(const ViewArguments& a, std::unique_ptr<SurfacePages> opened) {
+  const std::shared_ptr<const SurfaceModel> outline = opened->outline();
+  ARETE_TRY(const Turn turn, a.viewpoint.turnAngles());
+  const SurfaceFacts& facts = opened->file().facts();
+  const auto subject = std::make_shared<PagedSurfaceSubject>(outline, ZUpFrame(*outline, a.viewpoint.up),
+                                                             turn, facts.vertices);
+  Viewed viewed{.subject = subject,
+                .finestTriangles = outline->finestTriangles(),
+                .files = {a.model},
+                .isOfPages = true,
+                .addModel = {}};
+  ARETE_TRY(viewed.camera, cameraAt(a, *subject));
+  const std::shared_ptr<SurfacePages> pages = std::move(opened);
+  viewed.addModel = [pages, subject](Scene& scene) -> Status {
+    ARETE_TRY(PagedSurface made, drawPaged(std::move(*pages), subject));
+    return scene.add(std::make_unique<PagedSurface>(std::move(made)));
+  };
   return viewed;
 }
 
@@ -316,8 +339,10 @@ Result<Viewed> viewedScene(const ViewArguments& a, OpenScene opened, Session& se
 Result<Viewed> viewedOf(const ViewArguments& a, Opened opened, Session& session) {
   if (auto* terrain = std::get_if<TerrainModel>(&opened))
     return viewedTerrain(a, std::make_shared<const TerrainModel>(std::move(*terrain)), session);
-  if (auto* pages = std::get_if<std::unique_ptr<ResidentPages>>(&opened))
+  if (auto* pages = std::get_if<std::unique_ptr<TerrainPages>>(&opened))
     return viewedPages(a, std::move(*pages), session);
+  if (auto* pages = std::get_if<std::unique_ptr<SurfacePages>>(&opened))
+    return viewedPages(a, std::move(*pages));
   if (auto* surface = std::get_if<SurfaceModel>(&opened)) return viewedSurface(a, std::move(*surface));
   return viewedScene(a, std::get<OpenScene>(std::move(opened)), session);
 }

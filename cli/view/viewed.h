@@ -33,7 +33,7 @@ struct Viewed {
   std::vector<std::string> files = {};               ///< by object; empty of a terrain
   std::shared_ptr<const TerrainColors> colors = {};  ///< that are stated
   std::shared_ptr<const StatedLayers> layers = {};   ///< over a terrain
-  bool isOfPages = false;                            ///< a terrain that is read as the camera needs it
+  bool isOfPages = false;                            ///< a model that is read as the camera needs it
   FillScene addModel;                                ///< keeps the model
   WriteHeights heightsOfContours = {};               ///< as addModel; empty of a surface
   /// Of the heights on the device; null until the model is added, and of a surface.
@@ -43,7 +43,8 @@ struct Viewed {
 };
 
 /// What `arete view` opens.
-using Opened = std::variant<TerrainModel, SurfaceModel, OpenScene, std::unique_ptr<ResidentPages>>;
+using Opened = std::variant<TerrainModel, SurfaceModel, OpenScene, std::unique_ptr<TerrainPages>,
+                            std::unique_ptr<SurfacePages>>;
 
 /// Reads what the arguments name for it: the camera, colours, layers. Errors: usage and of the files, by
 /// option.

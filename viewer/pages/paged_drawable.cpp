@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The thread that reads has the pages to itself while it makes a step; the thread that draws touches them
-// only when it waits for its picture, and then no step is under way. A step is handed over behind a lock. The
+// The thread that reads has the pages to itself while it makes a step, and the part that comes out is made
+// ready there for the picture that asked for it; the thread that draws touches pages only when it waits for
+// its picture, and then no step is under way. A step is handed over behind a lock. The
 // next one is posted when the last was taken in and was not the end of its demand, or the camera has moved.
 #include "viewer/pages/paged_drawable.h"
 
@@ -31,23 +32,34 @@ bool isSame(const View& a, const View& b) {
          a.heightPixels == b.heightPixels && a.parallelHeight == b.parallelHeight;
 }
 
+/// Whether both ask for one picture, whatever is expected after it.
+bool isSame(const ViewDemand& a, const ViewDemand& b) {
+  return isSame(a.view, b.view) && a.pixels == b.pixels && a.stretch == b.stretch && a.error == b.error;
+}
+
 }  // namespace
 
-struct PagedDrawable::State {
-  State(ResidentPages resident, std::shared_ptr<PagedSubject> seen, TerrainDrawable drawable)
-      : pages(std::move(resident)), subject(std::move(seen)), shown(std::move(drawable)) {}
+template <class Model>
+struct PagedDrawable<Model>::State {
+  State(ResidentPages<Model> resident, std::shared_ptr<PagedSubject> seen, Shown drawable)
+      : pages(std::move(resident)),
+        subject(std::move(seen)),
+        shown(std::move(drawable)),
+        part(pages.outline()) {}
   ~State() {
     ends = true;
     worker.stop(this);
   }
 
-  /// The demand of a picture, with what is expected after it.
-  ViewDemand demandOf(const FrameView& frame) {
-    ViewDemand demand{.view = frame.view, .pixels = frame.pixels, .stretch = frame.stretch};
-    if (last) demand.expected = viewAhead(last->view, frame.view, kPicturesAhead);
-    return demand;
+  /// The demand of a picture, with what is expected after it. Errors: as Kind::demandOf().
+  Result<PictureDemand> demandOf(const Camera& camera, const ViewSettings& settings) const {
+    ARETE_TRY(PictureDemand picture, Kind::demandOf(shown, camera, settings));
+    if (last) picture.demand.expected = viewAhead(last->view, picture.demand.view, kPicturesAhead);
+    if (const auto& level = settings.level)
+      picture.demand.error = level->triangles > 0 ? pages.file().errorBeyond(level->triangles) : level->error;
+    return picture;
   }
-  void add(const ResidentPages::Step& step) {
+  void add(const typename ResidentPages<Model>::Step& step) {
     figures.pages += step.pages;
     figures.bytes += step.bytes;
     figures.missingPages = step.missingPages;
@@ -56,114 +68,126 @@ struct PagedDrawable::State {
     coarseness = step.coarseness;
   }
 
-  ResidentPages pages;
+  ResidentPages<Model> pages;
   std::shared_ptr<PagedSubject> subject;
-  TerrainDrawable shown;
-  std::optional<ViewDemand> last;  // of the picture before
+  Shown shown;
+  std::shared_ptr<const Model> part;  // that is drawn
+  std::optional<ViewDemand> last;     // of the picture before
   PageFigures figures;
   double coarseness = std::numeric_limits<double>::infinity();
   bool isDone = false;  // the last step was the end of its demand
 
   std::mutex mutex;
-  std::optional<Result<ResidentPages::Step>> done;  // by the worker
-  bool isBusy = false;                              // a step is posted and was not taken in
+  std::optional<Result<Done>> done;  // by the worker
+  bool isBusy = false;               // a step is posted and was not taken in
   std::atomic<bool> ends{false};
   CutWorker worker;  // the first to go
 };
 
-PagedDrawable::PagedDrawable(std::unique_ptr<State> state) : state_(std::move(state)) {}
-PagedDrawable::PagedDrawable(PagedDrawable&&) noexcept = default;
-PagedDrawable& PagedDrawable::operator=(PagedDrawable&&) noexcept = default;
-PagedDrawable::~PagedDrawable() = default;
+template <class Model>
+PagedDrawable<Model>::PagedDrawable(ResidentPages<Model> pages, std::shared_ptr<PagedSubject> subject,
+                                    Shown shown)
+    : state_(std::make_unique<State>(std::move(pages), std::move(subject), std::move(shown))) {}
+template <class Model>
+PagedDrawable<Model>::PagedDrawable(PagedDrawable&&) noexcept = default;
+template <class Model>
+PagedDrawable<Model>& PagedDrawable<Model>::operator=(PagedDrawable&&) noexcept = default;
+template <class Model>
+PagedDrawable<Model>::~PagedDrawable() = default;
 
-Result<PagedDrawable> PagedDrawable::create(ResidentPages pages, std::shared_ptr<PagedSubject> subject,
-                                            TerrainDrawable::Options options, const RunContext& context) {
-  options.heights.isOfDrawn = true;
-  ARETE_TRY(TerrainDrawable shown, TerrainDrawable::create(subject->outline(), options, context));
-  return PagedDrawable(std::make_unique<State>(std::move(pages), std::move(subject), std::move(shown)));
+template <class Model>
+auto PagedDrawable<Model>::stepOf(State& s, const PageDemand& demand, std::uint64_t mostBytes,
+                                  const PictureDemand& picture, const RunContext& context) -> Result<Done> {
+  Done done;
+  ARETE_TRY(done.step, s.pages.step(demand, mostBytes, context));
+  if (done.step.isNew) {
+    ARETE_TRY(done.ready, Kind::ready(s.shown, done.step.part, picture, context));
+  }
+  return done;
 }
 
-Status PagedDrawable::take(const ResidentPages::Step& step, const RunContext& context) {
+template <class Model>
+void PagedDrawable<Model>::take(Done done, const RunContext& context) {
   State& s = *state_;
-  s.add(step);
-  s.isDone = step.isDone;
-  if (!step.isNew) return {};
-  auto part = subjectOf(step.part);
-  s.subject->show(part);
-  s.shown.replace(std::move(part), context);
-  return {};
+  s.add(done.step);
+  s.isDone = done.step.isDone;
+  if (!done.ready) return;
+  s.part = done.step.part;
+  Kind::show(std::move(*done.ready), *s.subject, s.shown, context);
 }
 
-Status PagedDrawable::advance(const Camera& camera, const ViewSettings& settings, const RunContext& context) {
+template <class Model>
+Status PagedDrawable<Model>::advance(const Camera& camera, const ViewSettings& settings,
+                                     const RunContext& context) {
   State& s = *state_;
   ARETE_CHECK(s.subject->check(settings));
-  ARETE_TRY(const FrameView frame, frameOf(camera, settings));
+  ARETE_TRY(const PictureDemand picture, s.demandOf(camera, settings));
   s.figures = {.missingPages = s.figures.missingPages,
                .missingBytes = s.figures.missingBytes,
                .residentBytes = s.figures.residentBytes};
-  const ViewDemand demand = s.demandOf(frame);
-  const bool isNew = !s.last || !isSame(s.last->view, demand.view) || s.last->pixels != demand.pixels ||
-                     s.last->stretch != demand.stretch;
+  const ViewDemand& demand = picture.demand;
+  const bool isNew = !s.last || !isSame(*s.last, demand);
   s.last = demand;
   if (isNew) s.isDone = false;
   if (settings.waits) {
     s.worker.stop(&s);
     s.isBusy = false;
     if (auto left = std::exchange(s.done, std::nullopt)) {
-      ARETE_TRY(const ResidentPages::Step step, std::move(*left));
-      ARETE_CHECK(take(step, context));
+      ARETE_TRY(Done done, std::move(*left));
+      take(std::move(done), context);
     }
     const std::uint64_t most =
         settings.pageBytes > 0 ? settings.pageBytes : std::numeric_limits<std::uint64_t>::max();
     ViewDemand asked = demand;
-    for (int i = 0; i <= kHalvings; ++i, asked.pixels /= 2) {
+    for (int i = 0; i <= kHalvings; ++i) {
       // Nothing is read ahead for a picture that takes what it needs.
       PageDemand pages = arete::demandOf(asked, *s.pages.outline());
       if (settings.pageBytes == 0) pages.ahead = {};
-      ARETE_TRY(const ResidentPages::Step step, s.pages.step(pages, most, context));
-      ARETE_CHECK(take(step, context));
-      if (step.coarseness > 1 || settings.pageBytes > 0) break;
-      ARETE_TRY(const DrawnOfPart drawn, missingInView(*step.part, demand, context));
+      ARETE_TRY(Done done, stepOf(s, pages, most, picture, context));
+      take(std::move(done), context);
+      if (s.coarseness > 1 || settings.pageBytes > 0) break;
+      ARETE_TRY(const DrawnOfPart drawn, missingInView(s.part->mt, demand, context));
       if (drawn.missing == 0) break;
+      asked.pixels /= 2;
+      if (asked.error) *asked.error /= 2;
     }
     return {};
   }
-  std::optional<Result<ResidentPages::Step>> done;
+  std::optional<Result<Done>> done;
   {
     const std::lock_guard lock(s.mutex);
     std::swap(done, s.done);
     if (done) s.isBusy = false;
   }
   if (done) {
-    ARETE_TRY(const ResidentPages::Step step, std::move(*done));
-    ARETE_CHECK(take(step, context));
+    ARETE_TRY(Done taken, std::move(*done));
+    take(std::move(taken), context);
     if (isNew) s.isDone = false;
   }
   if (s.isBusy || s.isDone) return {};
   s.isBusy = true;
-  s.worker.post(&s, [&s, demand] {
+  s.worker.post(&s, [&s, picture] {
     const RunContext background{.progress = {}, .cancel = &s.ends};
     const bool isFar = s.pages.file().container().owner()->isFar();
-    auto step = s.pages.step(arete::demandOf(demand, *s.pages.outline()),
-                             isFar ? kFarBytesOfAStep : kBytesOfAStep, background);
+    auto step = stepOf(s, arete::demandOf(picture.demand, *s.pages.outline()),
+                       isFar ? kFarBytesOfAStep : kBytesOfAStep, picture, background);
     const std::lock_guard lock(s.mutex);
     s.done = std::move(step);
   });
   return {};
 }
 
-Result<FrameFigures> PagedDrawable::cut(const Camera& camera, const ViewSettings& settings,
-                                        const RunContext& context) {
+template <class Model>
+Result<FrameFigures> PagedDrawable<Model>::cut(const Camera& camera, const ViewSettings& settings,
+                                               const RunContext& context) {
   State& s = *state_;
   ARETE_CHECK(s.subject->check(settings));
   ARETE_TRY(FrameFigures figures, s.shown.cut(camera, settings, context));
   if (settings.waits) {
-    ARETE_TRY(const FrameView frame, frameOf(camera, settings));
-    ARETE_TRY(const DrawnOfPart drawn,
-              missingInView(s.shown.model(),
-                            {.view = frame.view, .pixels = frame.pixels, .stretch = frame.stretch}, context));
+    ARETE_TRY(const PictureDemand picture, s.demandOf(camera, settings));
+    ARETE_TRY(const DrawnOfPart drawn, missingInView(s.part->mt, picture.demand, context));
     s.figures.missingTriangles = drawn.missing;
-    if (drawn.missing > 0) figures.pixels = std::max(figures.pixels, drawn.pixels + frame.morphPixels);
+    if (drawn.missing > 0) figures.pixels = std::max(figures.pixels, drawn.pixels + picture.morphPixels);
   } else {
     figures.pixels *= s.coarseness;
   }
@@ -171,41 +195,83 @@ Result<FrameFigures> PagedDrawable::cut(const Camera& camera, const ViewSettings
   return figures;
 }
 
-const Subject& PagedDrawable::subject() const {
+template <class Model>
+const Subject& PagedDrawable<Model>::subject() const {
   return *state_->subject;
 }
-Result<FrameView> PagedDrawable::frameOf(const Camera& camera, const ViewSettings& settings) const {
+template <class Model>
+Result<FrameView> PagedDrawable<Model>::frameOf(const Camera& camera, const ViewSettings& settings) const {
   return state_->shown.frameOf(camera, settings);
 }
-Status PagedDrawable::draw(const Camera& camera, const ViewSettings& settings,
-                           std::span<const Layer> layers) {
+template <class Model>
+Status PagedDrawable<Model>::draw(const Camera& camera, const ViewSettings& settings,
+                                  std::span<const Layer> layers) {
   ARETE_CHECK(state_->subject->check(settings));
   return state_->shown.draw(camera, settings, layers);
 }
-void PagedDrawable::drawBackground(const ViewSettings& settings) {
+template <class Model>
+Status PagedDrawable<Model>::drawBlended(const Camera& camera, const ViewSettings& settings) {
+  return state_->shown.drawBlended(camera, settings);
+}
+template <class Model>
+std::optional<Turn> PagedDrawable<Model>::turn() const {
+  return state_->shown.turn();
+}
+template <class Model>
+void PagedDrawable<Model>::setTurn(const Turn& turn) {
+  state_->shown.setTurn(turn);
+}
+template <class Model>
+void PagedDrawable<Model>::drawBackground(const ViewSettings& settings) {
   state_->shown.drawBackground(settings);
 }
-bool PagedDrawable::isShown() const {
+template <class Model>
+bool PagedDrawable<Model>::isShown() const {
   return state_->shown.isShown();
 }
-std::optional<double> PagedDrawable::drawnError(const Pick& pick, const Camera& camera, Vec2 pixel,
-                                                const ViewSettings& settings) const {
+template <class Model>
+std::optional<double> PagedDrawable<Model>::drawnError(const Pick& pick, const Camera& camera, Vec2 pixel,
+                                                       const ViewSettings& settings) const {
   return state_->shown.drawnError(pick, camera, pixel, settings);
 }
-bool PagedDrawable::keepsBudget(const ViewSettings& settings) const {
+template <class Model>
+bool PagedDrawable<Model>::keepsBudget(const ViewSettings& settings) const {
   return state_->shown.keepsBudget(settings);
 }
-std::uint32_t PagedDrawable::capacity() const {
+template <class Model>
+std::uint32_t PagedDrawable<Model>::capacity() const {
   return state_->shown.capacity();
 }
-std::string PagedDrawable::deviceRefusal() const {
+template <class Model>
+std::string PagedDrawable<Model>::deviceRefusal() const {
   return state_->shown.deviceRefusal();
 }
-Warnings PagedDrawable::warnings() const {
+template <class Model>
+Warnings PagedDrawable<Model>::warnings() const {
   return state_->shown.warnings();
 }
-const TerrainDrawable& PagedDrawable::shown() const {
+template <class Model>
+auto PagedDrawable<Model>::shown() const -> const Shown& {
   return state_->shown;
+}
+template <class Model>
+const Model& PagedDrawable<Model>::part() const {
+  return *state_->part;
+}
+
+template class PagedDrawable<TerrainModel>;
+template class PagedDrawable<SurfaceModel>;
+
+Result<PagedTerrain> drawPaged(TerrainPages pages, std::shared_ptr<PagedTerrainSubject> subject,
+                               TerrainDrawable::Options options, const RunContext& context) {
+  options.heights.isOfDrawn = true;
+  ARETE_TRY(TerrainDrawable shown, TerrainDrawable::create(subject->outline(), options, context));
+  return PagedTerrain(std::move(pages), std::move(subject), std::move(shown));
+}
+
+Result<PagedSurface> drawPaged(SurfacePages pages, std::shared_ptr<PagedSurfaceSubject> subject) {
+  ARETE_TRY(SurfaceDrawable shown, SurfaceDrawable::create(subject->model(), subject));
+  return PagedSurface(std::move(pages), std::move(subject), std::move(shown));
 }
 
 }  // namespace arete

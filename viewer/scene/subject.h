@@ -39,6 +39,8 @@ struct Pick {
   /// The stored error of the triangle of the drawn cut there, in the unit of the model's errors; nothing: not
   /// known.
   std::optional<double> drawnError = {};
+  /// Of a part of a surface: the error of its finest triangle there, where the whole has finer ones.
+  double finestError = 0;
 };
 
 /// What a model is made of, at full resolution.

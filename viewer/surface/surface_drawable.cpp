@@ -33,11 +33,41 @@ Result<std::shared_ptr<SurfaceAssets>> SurfaceAssets::create(const SurfaceModel&
 SurfaceDrawable::SurfaceDrawable(std::shared_ptr<SurfaceAssets> assets,
                                  std::shared_ptr<SurfaceSubject> subject)
     : subject_(std::move(subject)), assets_(std::move(assets)) {
+  front_ = frontOf(subject_->model(), assets_->drawn);
+}
+
+std::shared_ptr<MorphingFront> SurfaceDrawable::frontOf(const SurfaceModel& model,
+                                                        std::shared_ptr<const DrawnVertices> drawn) const {
   std::vector<bool> isBlended;
   for (const DrawnMaterial& m : assets_->materials.materials())
     isBlended.push_back(m.alpha == DrawnMaterial::Alpha::blended);
-  front_ = std::make_shared<MorphingFront>(subject_->model(), subject_->upright(), assets_->drawn,
-                                           std::move(isBlended));
+  return std::make_shared<MorphingFront>(model, subject_->upright(), std::move(drawn), std::move(isBlended));
+}
+
+Result<SurfacePart> SurfaceDrawable::ready(std::shared_ptr<const SurfaceModel> model,
+                                           const MorphingFront::Asked& asked,
+                                           const RunContext& context) const {
+  SurfacePart part{.model = std::move(model), .drawn = {}, .front = {}};
+  part.drawn = std::make_shared<const DrawnVertices>(drawnVertices(*part.model, subject_->upright()));
+  part.front = frontOf(*part.model, part.drawn);
+  ARETE_CHECK(part.front->update(asked, context));
+  return part;
+}
+
+// The indices in graphics memory are of vertices that are gone; those of the new front come with the next
+// cut.
+void SurfaceDrawable::replace(SurfacePart part) {
+  stopWork();
+  assets_->vertices = {};
+  assets_->vertices = uploadSurface(*part.drawn);
+  assets_->drawn = std::move(part.drawn);
+  front_ = std::move(part.front);
+  part_ = std::move(part.model);
+  hasFront_ = isReplaced_ = true;
+  ranges_.clear();
+  own_ = {};
+  displaced_ = {};
+  ink_.reset();
 }
 
 // The model may end with the object, and the thread reads it.
@@ -49,9 +79,8 @@ void SurfaceDrawable::stopWork() {
   if (worker_ && front_) worker_->stop(front_.get());
 }
 
-Result<FrameFigures> SurfaceDrawable::cut(const Camera& camera, const ViewSettings& settings,
-                                          const RunContext& context) {
-  ARETE_CHECK(subject_->check(settings));
+Result<MorphingFront::Asked> SurfaceDrawable::askedBy(const Camera& camera,
+                                                      const ViewSettings& settings) const {
   ARETE_TRY(const View view, subject_->viewOf(camera, settings));
   const View own = viewedBy(subject_->pose(settings), view);
   MorphingFront::Asked asked;
@@ -60,6 +89,13 @@ Result<FrameFigures> SurfaceDrawable::cut(const Camera& camera, const ViewSettin
   if (settings.maxTriangles > 0) asked.maxTriangles = settings.maxTriangles;
   asked.level = settings.level;
   asked.moves = settings.isGeomorphed;
+  return asked;
+}
+
+Result<FrameFigures> SurfaceDrawable::cut(const Camera& camera, const ViewSettings& settings,
+                                          const RunContext& context) {
+  ARETE_CHECK(subject_->check(settings));
+  ARETE_TRY(MorphingFront::Asked asked, askedBy(camera, settings));
   if (settings.waits || !hasFront_) {
     stopWork();
     ARETE_CHECK(front_->update(asked, context));
@@ -75,6 +111,8 @@ Result<FrameFigures> SurfaceDrawable::cut(const Camera& camera, const ViewSettin
   upload(std::move(taken.changes));
   hasFront_ = true;
   pixels_ = taken.figures.pixels;
+  // How far vertices are from where the last front had them is not known.
+  if (std::exchange(isReplaced_, false)) taken.figures.jumpPixels = std::numeric_limits<double>::quiet_NaN();
   return taken.figures;
 }
 

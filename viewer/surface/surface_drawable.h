@@ -30,6 +30,13 @@ struct SurfaceAssets {
   SurfacePainter painter;
 };
 
+/// A part of a surface, ready to be drawn.
+struct SurfacePart {
+  std::shared_ptr<const SurfaceModel> model;
+  std::shared_ptr<const DrawnVertices> drawn;
+  std::shared_ptr<MorphingFront> front;  ///< of the model, which is kept longer
+};
+
 /// Draws one surface in an OpenGL context, for one camera at a time, where its subject is placed. Each cut
 /// starts from the last one (viewer/fronts/morphing_front.h); if a picture does not wait for it, another
 /// thread takes it, and the last whole one is drawn.
@@ -41,6 +48,16 @@ class SurfaceDrawable final : public Drawable {
   SurfaceDrawable(std::shared_ptr<SurfaceAssets> assets, std::shared_ptr<SurfaceSubject> subject);
   SurfaceDrawable(SurfaceDrawable&&) = default;
   ~SurfaceDrawable() override;
+  /// What a picture asks of the front. Errors: as Subject::viewOf().
+  Result<MorphingFront::Asked> askedBy(const Camera& camera, const ViewSettings& settings) const;
+  /// Makes a part ready, its cut taken as it is asked for: without OpenGL, on any thread, but not while
+  /// another one replaces. Errors: as MorphingFront::update(). O(part).
+  Result<SurfacePart> ready(std::shared_ptr<const SurfaceModel> model, const MorphingFront::Asked& asked,
+                            const RunContext& context = {}) const;
+  /// Draws another model of the same surface from the next cut on, a part of the whole as a rule. Materials
+  /// and their pictures stay on the device; vertices are sent anew. Precondition: one metric space, and no
+  /// other drawable has these assets. O(vertices).
+  void replace(SurfacePart part);
   const SurfaceSubject& subject() const override { return *subject_; }
   Result<FrameView> frameOf(const Camera& camera, const ViewSettings& settings) const override;
   Result<FrameFigures> cut(const Camera& camera, const ViewSettings& settings,
@@ -72,13 +89,16 @@ class SurfaceDrawable final : public Drawable {
   /// Sends what changed.
   void upload(FrontChanges&& changes);
   void stopWork();
+  std::shared_ptr<MorphingFront> frontOf(const SurfaceModel& model,
+                                         std::shared_ptr<const DrawnVertices> drawn) const;
   VertexStreams restingStreams() const;
 
   std::shared_ptr<SurfaceSubject> subject_;
   std::shared_ptr<SurfaceAssets> assets_;
+  std::shared_ptr<const SurfaceModel> part_;  // that is drawn; null: the subject's model
   std::shared_ptr<MorphingFront> front_;
-  std::shared_ptr<CutWorker> worker_;  // null: none was needed yet
-  bool hasFront_ = false;
+  std::shared_ptr<CutWorker> worker_;           // null: none was needed yet
+  bool hasFront_ = false, isReplaced_ = false;  // isReplaced_: since the last cut
   GlQuery anySample_ = makeQuery(GL_ANY_SAMPLES_PASSED), anyBlended_ = makeQuery(GL_ANY_SAMPLES_PASSED);
   bool hasDrawnBlended_ = false;     // in the last picture
   double pixels_ = 1;                // of the last cut

@@ -30,6 +30,10 @@ class SurfacePicker {
   std::string materialOf(TriangleId triangle) const;
   /// What its face belongs to and carries, as "object wall, group north, class 6"; empty: nothing.
   std::string partsOf(TriangleId triangle) const;
+  /// The error of a triangle of the finest front of a part that the whole model refines; 0 of others.
+  double missingErrorOf(TriangleId triangle) const {
+    return model_.mt.isRemoverMissing(triangle) ? model_.mt.error(triangle) : 0;
+  }
 
  private:
   const SurfaceModel& model_;

@@ -42,7 +42,32 @@ Placement aboutTheMiddle(const Vec3& middle, const Turn& turn) {
   return {.pivot = middle, .anchor = middle, .turn = turn};
 }
 
+/// The largest error of triangles of a part that the whole model refines.
+double largestMissingError(const MultiTriangulation& mt) {
+  double largest = 0;
+  for (std::uint32_t t = 0; t < mt.triangleIdCount(); ++t)
+    if (mt.isRemoverMissing(TriangleId(t))) largest = std::max(largest, mt.error(TriangleId(t)));
+  return largest;
+}
+
+void grow(MetricBox& box, double by) {
+  box.low = box.low - Vec3{by, by, by};
+  box.high = box.high + Vec3{by, by, by};
+}
+
 }  // namespace
+
+// No place of the source is farther from the triangle that stands for it than the triangle's error.
+SurfaceForm::SurfaceForm(const SurfaceModel& shown, const ZUpFrame& frame)
+    : model(shown),
+      upright(frame),
+      largestError(shown.mt.largestError()),
+      beyond(shown.finestOfWhole ? largestMissingError(shown.mt) : 0),
+      shape(uprightShape(shown, frame)),
+      picker(shown, frame) {
+  largestError = std::max(largestError, beyond);
+  grow(shape.box, beyond);
+}
 
 View viewedBy(const Similarity& placed, const View& view) {
   const Similarity back = placed.inverse();
@@ -71,7 +96,6 @@ SurfaceSubject::SurfaceSubject(std::shared_ptr<const SurfaceForm> form, const Pl
       form_(std::move(form)),
       scene_(scene),
       isPlaced_(true),
-      largestError_(form_->model.mt.largestError()),
       unit_(form_->model.verticalUnit) {
   place(placement);
 }
@@ -95,6 +119,7 @@ HomeShape SurfaceSubject::shape() const {
     box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
   }
+  grow(box, form_->beyond * there.scale());
   return shape;
 }
 
@@ -102,13 +127,15 @@ Result<View> SurfaceSubject::viewOf(const Camera& camera, const ViewSettings& se
   return scene_ ? scene_->viewOf(camera, settings) : arete::viewOf(camera, space_);
 }
 
-double SurfaceSubject::boundAt(const Pick&, double allowed) const {
-  return std::min(allowed, largestError_ * placement_.scale);
+// Of a part the triangle of a cut there may be its finest one, whatever is allowed.
+double SurfaceSubject::boundAt(const Pick& pick, double allowed) const {
+  return std::min(std::max(allowed, pick.finestError * placement_.scale),
+                  form_->largestError * placement_.scale);
 }
 
 SubjectFacts SurfaceSubject::facts() const {
   const SurfaceModel& m = model();
-  return {m.mt.vertexCount(), m.mt.finestTriangleCount(), m.attributes.materials.size(), largestError_};
+  return {m.mt.vertexCount(), m.finestTriangles(), m.attributes.materials.size(), form_->largestError};
 }
 
 Vec3 SurfaceSubject::inFile(const Vec3& metric) const {
@@ -139,7 +166,7 @@ std::optional<Pick> SurfaceSubject::pick(const Camera& camera, Vec2 pixel,
   const Similarity pose = this->pose(settings), back = pose.inverse();
   const Vec3 direction = directionOfPixel(*view, space_.isMirrored(), pixel);
   const Vec3 origin = originOfPixel(*view, space_.isMirrored(), pixel, depthReach(*view, *this, settings));
-  const auto found = form_->picker.along(back(origin), back.direction(direction));
+  const auto found = picker().along(back(origin), back.direction(direction));
   if (!found) return std::nullopt;
   const Vec3 inFile = upright().toFile(found->place), metric = placed(placement_, scene_)(found->place);
   Pick pick;
@@ -147,8 +174,9 @@ std::optional<Pick> SurfaceSubject::pick(const Camera& camera, Vec2 pixel,
   const Vec3 way = origin + found->length * pose.scale() * unit(direction) - view->eye;
   pick.metres = norm(way);
   pick.depth = dot(way, view->forward);
-  pick.material = form_->picker.materialOf(found->triangle);
-  pick.parts = form_->picker.partsOf(found->triangle);
+  pick.material = picker().materialOf(found->triangle);
+  pick.parts = picker().partsOf(found->triangle);
+  pick.finestError = picker().missingErrorOf(found->triangle);
   pick.inObject = inFile;
   if (isPlaced_) {
     pick.xy = space_.xy(metric);

@@ -15,13 +15,14 @@ namespace arete {
 
 /// What all objects of one surface share: the model in upright space (ZUpFrame), without a place.
 struct SurfaceForm {
-  /// Precondition: the model outlives this. O(vertices).
-  SurfaceForm(const SurfaceModel& shown, const ZUpFrame& frame)
-      : model(shown), upright(frame), shape(uprightShape(shown, frame)), picker(shown, frame) {}
+  /// Precondition: the model outlives this. O(vertices); of a part of a model O(its triangles).
+  SurfaceForm(const SurfaceModel& shown, const ZUpFrame& frame);
 
   const SurfaceModel& model;
   ZUpFrame upright;
-  HomeShape shape;
+  double largestError;  ///< of any triangle that the model, or that it is a part of, refines
+  double beyond;        ///< how far a model may reach beyond the points of its part; 0 of a whole one
+  HomeShape shape;      ///< the box has all of the model, also of a part
   SurfacePicker picker;
 };
 
@@ -29,7 +30,7 @@ struct SurfaceForm {
 /// upwards from its middle, in the file's unit. In a scene it stands where its placement says. Home views
 /// look along the axes, as homeLook(), but for the overview, which shows three sides: the front, its left and
 /// the top, from as far above as fills the picture. What is in front looks south.
-class SurfaceSubject final : public Subject {
+class SurfaceSubject : public Subject {
  public:
   /// By itself. Precondition: the model outlives this. O(vertices).
   SurfaceSubject(const SurfaceModel& model, const ZUpFrame& upright);
@@ -82,6 +83,10 @@ class SurfaceSubject final : public Subject {
   /// From upright space to where it is drawn.
   Similarity pose(const ViewSettings& settings) const { return placedAsDrawn(placement_, scene_, settings); }
 
+ protected:
+  /// What picks meet.
+  virtual const SurfacePicker& picker() const { return form_->picker; }
+
  private:
   /// As placed.
   HomeShape shape() const;
@@ -90,7 +95,6 @@ class SurfaceSubject final : public Subject {
   Placement placement_;
   const Subject* scene_ = nullptr;
   bool isPlaced_ = false;
-  double largestError_;
   std::string unit_;
   mutable std::string inkName_;
   mutable std::shared_ptr<const TriangleInk> ink_;  // that was asked for last

@@ -38,7 +38,8 @@ std::uint64_t bytesOf(const std::vector<PageNeed>& pages) {
 
 }  // namespace
 
-class ResidentPages::Stepping {
+template <class Model>
+class ResidentPages<Model>::Stepping {
  public:
   Stepping(ResidentPages& pages, const PageDemand& demand, std::uint64_t mostBytes, const RunContext& context)
       : p_(pages), demand_(demand), mostBytes_(mostBytes), context_(context), rungs_(kCoarserRungs + 3) {}
@@ -127,9 +128,8 @@ class ResidentPages::Stepping {
     }
     step_.coarseness = choice->coarseness;
     if (p_.part_ && p_.partHas(choice->pages)) return {};
-    ARETE_TRY(TerrainModel part,
-              p_.file_.read({.verify = AmtVerify::none, .wanted = choice->required}, context_));
-    p_.part_ = std::make_shared<const TerrainModel>(std::move(part));
+    ARETE_TRY(Model part, p_.file_.read({.verify = AmtVerify::none, .wanted = choice->required}, context_));
+    p_.part_ = std::make_shared<const Model>(std::move(part));
     p_.partPages_ = choice->pages;
     step_.isNew = true;
     return {};
@@ -200,8 +200,9 @@ class ResidentPages::Stepping {
   bool isFinest_ = false;  // no finer rung fits into the budget
 };
 
-Result<ResidentPages> ResidentPages::open(AmtFile file, std::uint64_t mostBytes,
-                                          const RunContext& context) try {
+template <class Model>
+Result<ResidentPages<Model>> ResidentPages<Model>::open(File file, std::uint64_t mostBytes,
+                                                        const RunContext& context) try {
   ResidentPages pages(std::move(file), mostBytes);
   // Nodes are counted by octaves of their errors, of which the last one may have many more.
   const std::uint64_t most = std::min(kMostOutlineBytes, mostBytes / 2);
@@ -213,8 +214,8 @@ Result<ResidentPages> ResidentPages::open(AmtFile file, std::uint64_t mostBytes,
     ARETE_TRY(needs, pages.file_.pagesFor(wanted, context));
     if (nodes == 0 || bytesOf(needs) <= most) break;
   }
-  ARETE_TRY(TerrainModel outline, pages.file_.read({.wanted = wanted}, context));
-  pages.outline_ = std::make_shared<const TerrainModel>(std::move(outline));
+  ARETE_TRY(Model outline, pages.file_.read({.wanted = wanted}, context));
+  pages.outline_ = std::make_shared<const Model>(std::move(outline));
   pages.part_ = pages.outline_;
   pages.partPages_ = needs;
   for (const PageNeed& need : needs) {
@@ -227,21 +228,24 @@ Result<ResidentPages> ResidentPages::open(AmtFile file, std::uint64_t mostBytes,
   return caughtFailure();
 }
 
-Result<ResidentPages::Step> ResidentPages::step(const PageDemand& demand, std::uint64_t mostBytes,
-                                                const RunContext& context) try {
+template <class Model>
+auto ResidentPages<Model>::step(const PageDemand& demand, std::uint64_t mostBytes, const RunContext& context)
+    -> Result<Step> try {
   return Stepping(*this, demand, mostBytes, context).run();
 } catch (...) {
   return caughtFailure(file_.path());
 }
 
-std::uint64_t ResidentPages::newBytesOf(const PageNeed& need) const {
+template <class Model>
+std::uint64_t ResidentPages<Model>::newBytesOf(const PageNeed& need) const {
   const auto found = resident_.find(need.page);
   const std::uint64_t there = found == resident_.end() ? 0 : found->second.bytes.size();
   return need.bytes.size() > there ? need.bytes.size() - there : 0;
 }
 
 // Both lists rise by page.
-bool ResidentPages::partHas(const std::vector<PageNeed>& pages) const {
+template <class Model>
+bool ResidentPages<Model>::partHas(const std::vector<PageNeed>& pages) const {
   auto has = partPages_.begin();
   for (const PageNeed& need : pages) {
     while (has != partPages_.end() && has->page < need.page) ++has;
@@ -253,7 +257,8 @@ bool ResidentPages::partHas(const std::vector<PageNeed>& pages) const {
 
 // The longest unused first; of those the last in the file, which others depend on least. Then, of pages that
 // stay, what is longer than it needs to be.
-void ResidentPages::makeRoom(std::uint64_t bytes, const std::vector<PageNeed>& staying) {
+template <class Model>
+void ResidentPages<Model>::makeRoom(std::uint64_t bytes, const std::vector<PageNeed>& staying) {
   if (bytes_ + bytes <= mostBytes_) return;
   std::vector<std::pair<std::uint64_t, std::uint64_t>> unused;  // step, page from the end
   for (const auto& [page, resident] : resident_)
@@ -271,7 +276,8 @@ void ResidentPages::makeRoom(std::uint64_t bytes, const std::vector<PageNeed>& s
 
 // The file gives back whole blocks, so that all up to the next page in memory is given back; where nothing
 // stays, from the end of the page before on.
-void ResidentPages::shorten(std::uint64_t page, std::uint64_t kept) {
+template <class Model>
+void ResidentPages<Model>::shorten(std::uint64_t page, std::uint64_t kept) {
   const auto found = resident_.find(page);
   if (found == resident_.end() || found->second.bytes.size() <= kept) return;
   const auto bytes = found->second.bytes;
@@ -289,5 +295,8 @@ void ResidentPages::shorten(std::uint64_t page, std::uint64_t kept) {
   else
     found->second.bytes = bytes.first(kept);
 }
+
+template class ResidentPages<TerrainModel>;
+template class ResidentPages<SurfaceModel>;
 
 }  // namespace arete

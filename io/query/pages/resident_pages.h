@@ -4,13 +4,18 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
+#include "io/query/pages/paged_surface_file.h"
 #include "io/store/amt/file.h"
 #include "io/store/format/page_need.h"
 #include "io/store/format/required_error.h"
+#include "surface/model/surface_model.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {
@@ -28,7 +33,7 @@ struct PageDemand {
 /// longest ago.
 ///
 /// The part is always a multitriangulation in itself, with every ancestor of its nodes, so that each cut of
-/// it covers the whole plan: a page that is not there yet makes the cut coarser (Cut::missing) and never
+/// it covers the whole model: a page that is not there yet makes the cut coarser (Cut::missing) and never
 /// leaves a hole. Where the budget or the bytes of a step do not allow the errors that are needed, the part
 /// allows the least multiple of them, the same everywhere. Steps with one demand come to an end: to all
 /// that is needed or, where the budget is too small for it, to the part that the budget and the demand alone
@@ -36,8 +41,12 @@ struct PageDemand {
 ///
 /// Not thread-safe: one thread at a time, and no other reads pages of the same open file meanwhile. The parts
 /// are models of their own and stay valid.
+///
+/// Model: TerrainModel or SurfaceModel.
+template <class Model>
 class ResidentPages {
  public:
+  using File = std::conditional_t<std::is_same_v<Model, TerrainModel>, AmtFile, PagedSurfaceFile>;
   static constexpr std::uint64_t kUsualBytes = std::uint64_t{64} << 20;
   /// The part of the beginning has about this many nodes at most.
   static constexpr std::uint64_t kOutlineNodes = 8000;
@@ -45,16 +54,16 @@ class ResidentPages {
   /// Reads a part of some thousand nodes, the coarsest ones. Precondition: the file is in pages.
   ///
   /// @param mostBytes of pages in memory. The pages of the root are there even so.
-  /// Errors: as AmtFile::read().
-  static Result<ResidentPages> open(AmtFile file, std::uint64_t mostBytes = kUsualBytes,
+  /// Errors: as File::read().
+  static Result<ResidentPages> open(File file, std::uint64_t mostBytes = kUsualBytes,
                                     const RunContext& context = {});
 
   /// The part of the beginning, which stays.
-  const std::shared_ptr<const TerrainModel>& outline() const { return outline_; }
-  const AmtFile& file() const { return file_; }
+  const std::shared_ptr<const Model>& outline() const { return outline_; }
+  const File& file() const { return file_; }
 
   struct Step {
-    std::shared_ptr<const TerrainModel> part;
+    std::shared_ptr<const Model> part;
     bool isNew = false;  ///< another part than after the step before
     /// The errors that the part allows are at most this multiple of the needed ones; 1: it has all that is
     /// needed. Infinite: nothing but the root is sure.
@@ -66,7 +75,7 @@ class ResidentPages {
     bool isDone = false;              ///< a further step for the same demand changes nothing
   };
   /// @param mostBytes that are read; where a single page has more, that page.
-  /// Errors: as AmtFile::pagesFor() and AmtFile::read(). O(pages of the directory that the demand
+  /// Errors: as File::pagesFor() and File::read(). O(pages of the directory that the demand
   /// meets, times the logarithm of how much coarser the part has to be) and, where the part changes, O(part),
   /// parallel.
   Result<Step> step(const PageDemand& demand, std::uint64_t mostBytes, const RunContext& context = {});
@@ -86,17 +95,22 @@ class ResidentPages {
   };
   class Stepping;
 
-  ResidentPages(AmtFile file, std::uint64_t mostBytes) : file_(std::move(file)), mostBytes_(mostBytes) {}
+  ResidentPages(File file, std::uint64_t mostBytes) : file_(std::move(file)), mostBytes_(mostBytes) {}
   std::uint64_t newBytesOf(const PageNeed& need) const;
   bool partHas(const std::vector<PageNeed>& pages) const;
   void makeRoom(std::uint64_t bytes, const std::vector<PageNeed>& staying);
   void shorten(std::uint64_t page, std::uint64_t kept);
 
-  AmtFile file_;
+  File file_;
   std::uint64_t mostBytes_, bytes_ = 0, now_ = 0;
   std::map<std::uint64_t, Resident> resident_;  // by page, which is the order of the file
-  std::shared_ptr<const TerrainModel> outline_, part_;
+  std::shared_ptr<const Model> outline_, part_;
   std::vector<PageNeed> partPages_;  // that part_ was made of
 };
+
+extern template class ResidentPages<TerrainModel>;
+extern template class ResidentPages<SurfaceModel>;
+using TerrainPages = ResidentPages<TerrainModel>;
+using SurfacePages = ResidentPages<SurfaceModel>;
 
 }  // namespace arete

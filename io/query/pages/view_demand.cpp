@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A view is widened by pixels at its sides, so that a pixel stays as large as it is.
+// A view is widened by pixels at its sides, so that a pixel stays as large as it is. What differs between the
+// kinds of models is the error that a view requires of a box: of terrain a box of the plan is a column of all
+// heights.
 #include "io/query/pages/view_demand.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "engine/criteria/ball_about_box.h"
 #include "engine/criteria/view_error.h"
 #include "engine/cut/cut.h"
 #include "engine/mt/exaggerated_mt.h"
@@ -46,19 +49,36 @@ TerrainModel stretched(const TerrainModel& model, double stretch) {
   return drawn;
 }
 
-}  // namespace
-
-PageDemand demandOf(const ViewDemand& demand, const TerrainModel& outline) {
-  const TerrainModel drawn = stretched(outline, demand.stretch);
-  const auto required = [&](const View& view, double pixels) {
-    return requiredInView(ViewError({.view = view, .pixels = pixels}, drawn.mt.metric()), drawn);
-  };
+/// The demand of what views require.
+///
+/// @param required maps a view and its tolerance to the error that they require of boxes
+template <class Required>
+PageDemand demandBy(const ViewDemand& demand, const Required& required) {
+  if (demand.error) return {.needed = [error = *demand.error](const Box3&) { return error; }};
   PageDemand pages{.needed = required(demand.view, demand.pixels)};
   // The smaller of both in every box: a ball of the wider view may be seen from another side of it.
   pages.around = [needed = pages.needed, wide = required(widened(demand.view), kFiner * demand.pixels)](
                      const Box3& box) { return std::min(needed(box), wide(box)); };
   if (demand.expected) pages.ahead = required(widened(*demand.expected), demand.pixels);
   return pages;
+}
+
+}  // namespace
+
+PageDemand demandOf(const ViewDemand& demand, const TerrainModel& outline) {
+  const TerrainModel drawn = stretched(outline, demand.stretch);
+  return demandBy(demand, [&](const View& view, double pixels) {
+    return requiredInView(ViewError({.view = view, .pixels = pixels}, drawn.mt.metric()), drawn);
+  });
+}
+
+PageDemand demandOf(const ViewDemand& demand, const SurfaceModel& outline) {
+  const MetricFrame metric = outline.mt.metric();
+  return demandBy(demand, [&](const View& view, double pixels) -> RequiredError {
+    return [error = ViewError({.view = view, .pixels = pixels}, metric), metric](const Box3& box) {
+      return error.allowedError(ballAboutBox(box, metric));
+    };
+  });
 }
 
 std::optional<View> viewAhead(const View& before, const View& now, double times) {
@@ -72,14 +92,16 @@ std::optional<View> viewAhead(const View& before, const View& now, double times)
   return ahead;
 }
 
-Result<DrawnOfPart> missingInView(const TerrainModel& part, const ViewDemand& demand,
+Result<DrawnOfPart> missingInView(const MultiTriangulation& part, const ViewDemand& demand,
                                   const RunContext& context) {
-  const MultiTriangulation mt = demand.stretch == 1 ? part.mt : exaggerated(part.mt, demand.stretch);
-  const ViewError error({.view = demand.view, .pixels = demand.pixels}, mt.metric());
-  ARETE_TRY(const Cut cut, takeCut(mt, error, {.method = CutMethod::saturated}, context));
+  const MultiTriangulation mt = demand.stretch == 1 ? part : exaggerated(part, demand.stretch);
+  const ViewError seen({.view = demand.view, .pixels = demand.pixels}, mt.metric());
+  const UniformError chosen(demand.error.value_or(0));
+  const BoundedCriterion& criterion = demand.error ? static_cast<const BoundedCriterion&>(chosen) : seen;
+  ARETE_TRY(const Cut cut, takeCut(mt, criterion, {.method = CutMethod::saturated}, context));
   DrawnOfPart drawn{.missing = static_cast<std::uint32_t>(cut.missing.size())};
   for (const std::uint32_t t : cut.missing)
-    drawn.pixels = std::max(drawn.pixels, error.severity(mt, TriangleId(t), mt.corners(TriangleId(t))));
+    drawn.pixels = std::max(drawn.pixels, seen.severity(mt, TriangleId(t), mt.corners(TriangleId(t))));
   return drawn;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/base/caught_failure.h"
+#include "engine/criteria/ball_about_box.h"
 #include "io/query/request/criterion.h"
 #include "io/query/surface/take_surface.h"
 
@@ -38,13 +39,7 @@ bool isBudgetAlone(const CutRequest& c) {
 RequiredError requiredBy(std::vector<std::shared_ptr<const BoundedCriterion>> criteria,
                          const MetricFrame& metric, double everywhere) {
   return [criteria = std::move(criteria), metric, everywhere](const Box3& box) {
-    const Vec3 low = metric.toMetric(box.low), high = metric.toMetric(box.high);
-    const Vec3 middle = (low + high) / 2.0;
-    const double radius = norm(high - low) / 2;
-    // Floats hold the ball's numbers to a part in 2^24.
-    const double rounded = 1e-6 * (norm(middle) + radius);
-    const Sphere around{static_cast<float>(middle.x), static_cast<float>(middle.y),
-                        static_cast<float>(middle.z), static_cast<float>(radius + rounded)};
+    const Sphere around = ballAboutBox(box, metric);
     double least = everywhere;
     for (const auto& criterion : criteria) least = std::min(least, criterion->allowedError(around));
     return least;

@@ -158,7 +158,7 @@ Result<std::vector<PageNeed>> AmtFile::pagesFor(const RequiredError& wanted,
   const std::array<FileImage::Part, 1> directory = {packedDirectory_};
   ARETE_CHECK(container_.loadParts(directory, context));
   auto needs = neededPages(
-      *metadata_, {packedDirectory_, packedTables_, pageBlocks_, packedNodes_}, wanted,
+      metadata_->scale, {packedDirectory_, packedTables_, pageBlocks_, packedNodes_}, wanted,
       [&](std::span<const FileImage::Part> parts) { return container_.loadParts(parts, context); });
   ARETE_CHECK(container_.loaded());
   if (!needs) return failure(needs.error().code, needs.error().message, path());

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
@@ -54,5 +56,9 @@ Result<SurfaceFacts> surfaceFacts(const AmtContainer& container);
 
 /// As AmtFile::errorBeyond(), of a file in pages. Errors: as openAmt().
 Result<double> surfaceErrorBeyond(const AmtContainer& container, std::uint64_t nodes);
+
+/// As AmtFile::pagesFor(). Errors: as there, and as openAmt().
+Result<std::vector<PageNeed>> surfacePagesFor(const AmtContainer& container, const RequiredError& wanted,
+                                              const RunContext& context = {});
 
 }  // namespace arete

@@ -271,4 +271,27 @@ Result<double> surfaceErrorBeyond(const AmtContainer& container, std::uint64_t n
   return caughtFailure(container.path());
 }
 
+Result<std::vector<PageNeed>> surfacePagesFor(const AmtContainer& container, const RequiredError& wanted,
+                                              const RunContext& context) try {
+  if (!container.isPaged()) return std::vector<PageNeed>();
+  ARETE_TRY(const SurfaceMetadata metadata, metadataIn(container));
+  std::array<std::span<const std::byte>, 4> parts;  // as packed::PagedMt has them
+  constexpr std::array kTags = {amt_tag::kPageRoot, amt_tag::kPackedTables, amt_tag::kPageBlocks,
+                                amt_tag::kPackedNodes};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const AmtChunk* const chunk = container.find(kTags[i]);
+    if (chunk == nullptr) return container.corrupt("has pages without their directory");
+    parts[i] = container.bytes(*chunk);
+  }
+  ARETE_CHECK(container.load(parts[0]));
+  auto needs = neededPages(
+      metadata.scale, {parts[0], parts[1], parts[2], parts[3]}, wanted,
+      [&](std::span<const FileImage::Part> blocks) { return container.loadParts(blocks, context); });
+  ARETE_CHECK(container.loaded());
+  if (!needs) return failure(needs.error().code, needs.error().message, container.path());
+  return needs;
+} catch (...) {
+  return caughtFailure(container.path());
+}
+
 }  // namespace arete

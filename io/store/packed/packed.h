@@ -82,10 +82,11 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, const packed::P
 /// The pages that unpackMt() would use, in the order of the file, without reading one: each comes after those
 /// that it depends on. What is needed where more error is allowed is a part of it.
 ///
+/// @param scale of the errors, of the metadata
 /// @param load for blocks
 /// Errors, without a culprit: corrupt: a damaged block, a page outside the file. O(blocks used + pages in
 /// them).
-Result<std::vector<PageNeed>> neededPages(const AmtMetadata& metadata, const packed::PagedMt& paged,
+Result<std::vector<PageNeed>> neededPages(const OutwardScale& scale, const packed::PagedMt& paged,
                                           const RequiredError& wanted, const LoadParts& load);
 
 /// How a surface is packed.

@@ -355,12 +355,12 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, const packed::P
   return caughtFailure();
 }
 
-Result<std::vector<PageNeed>> neededPages(const AmtMetadata& metadata, const packed::PagedMt& paged,
+Result<std::vector<PageNeed>> neededPages(const OutwardScale& scale, const packed::PagedMt& paged,
                                           const RequiredError& wanted, const LoadParts& load) try {
   std::string problem;
   const auto root = packed::pageRootOf(paged.root, problem);
   if (!root) return failure(ErrorCode::corrupt, "the directory of its pages " + problem);
-  ARETE_TRY(const auto choice, packed::choosePages(*root, paged.blocks, wanted, metadata.scale, load));
+  ARETE_TRY(const auto choice, packed::choosePages(*root, paged.blocks, wanted, scale, load));
   std::vector<PageNeed> needs;
   for (std::size_t i = 0; i < choice.directory.packets.size(); ++i) {
     const packed::Packet& page = choice.directory.packets[i];

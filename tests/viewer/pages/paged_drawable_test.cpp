@@ -33,11 +33,11 @@ struct Paged {
     for (const PageNeed& need : *pages) bytes += need.bytes.size();
   }
   ~Paged() { fs::remove(path); }
-  Result<PagedDrawable> drawable(std::uint64_t mostBytes, CutPath cut = CutPath::device) const {
+  Result<PagedTerrain> drawable(std::uint64_t mostBytes, CutPath cut = CutPath::device) const {
     ARETE_TRY(AmtFile file, openAmt(path.string()));
-    ARETE_TRY(ResidentPages pages, ResidentPages::open(std::move(file), mostBytes));
-    auto subject = std::make_shared<PagedSubject>(pages.outline());
-    return PagedDrawable::create(std::move(pages), std::move(subject), {.path = cut});
+    ARETE_TRY(TerrainPages pages, TerrainPages::open(std::move(file), mostBytes));
+    auto subject = std::make_shared<PagedTerrainSubject>(pages.outline());
+    return drawPaged(std::move(pages), std::move(subject), {.path = cut});
   }
   fs::path path;
   std::uint64_t bytes = 0;
@@ -91,7 +91,7 @@ TEST(PagedDrawable, LeavesNoHoleAndNoCrackWhilePagesAreLate) {
   const double area = (mountains().columns - 1.0) * (mountains().rows - 1.0);
   for (const CutPath cut : {CutPath::device, CutPath::processor}) {
     SCOPED_TRACE(cut == CutPath::device ? "device" : "processor");
-    Result<PagedDrawable> drawable = paged.drawable(paged.bytes / 3, cut);
+    Result<PagedTerrain> drawable = paged.drawable(paged.bytes / 3, cut);
     ASSERT_TRUE(drawable) << drawable.error().describe();
     const auto target = FrameTarget::create(320, 240);
     ASSERT_TRUE(target);
@@ -122,7 +122,7 @@ TEST(PagedDrawable, LeavesNoHoleAndNoCrackWhilePagesAreLate) {
 TEST(PagedDrawable, IsWithinTheToleranceWhenTheCameraStandsStill) {
   ARETE_NEEDS_OPENGL(context);
   const Paged paged;
-  Result<PagedDrawable> drawable = paged.drawable(paged.bytes);
+  Result<PagedTerrain> drawable = paged.drawable(paged.bytes);
   ASSERT_TRUE(drawable) << drawable.error().describe();
   Random random(9);
   for (int i = 0; i < 6; ++i) {
@@ -145,7 +145,7 @@ TEST(PagedDrawable, IsWithinTheToleranceWhenTheCameraStandsStill) {
 TEST(PagedDrawable, DrawsWhatAWholeModelShowsOnceItsPagesAreThere) {
   ARETE_NEEDS_OPENGL(context);
   const Paged paged;
-  Result<PagedDrawable> drawable = paged.drawable(paged.bytes);
+  Result<PagedTerrain> drawable = paged.drawable(paged.bytes);
   ASSERT_TRUE(drawable) << drawable.error().describe();
   Result<TerrainDrawable> whole = TerrainDrawable::create(mountains(), {});
   ASSERT_TRUE(whole);
@@ -180,7 +180,7 @@ TEST(PagedDrawable, DrawsWhatAWholeModelShowsOnceItsPagesAreThere) {
 TEST(PagedDrawable, ReadsInTheBackgroundWhereAPictureDoesNotWait) {
   ARETE_NEEDS_OPENGL(context);
   const Paged paged;
-  Result<PagedDrawable> drawable = paged.drawable(paged.bytes);
+  Result<PagedTerrain> drawable = paged.drawable(paged.bytes);
   ASSERT_TRUE(drawable) << drawable.error().describe();
   const Camera camera = fromAbove(2000);
   ViewSettings settings = plainLook(CutPath::device);
@@ -204,7 +204,7 @@ TEST(PagedDrawable, ReadsInTheBackgroundWhereAPictureDoesNotWait) {
 TEST(PagedDrawable, RefusesWhatNeedsTheWholeModel) {
   ARETE_NEEDS_OPENGL(context);
   const Paged paged;
-  Result<PagedDrawable> drawable = paged.drawable(paged.bytes);
+  Result<PagedTerrain> drawable = paged.drawable(paged.bytes);
   ASSERT_TRUE(drawable) << drawable.error().describe();
   ViewSettings settings = plainLook(CutPath::device);
   settings.isCurved = true;

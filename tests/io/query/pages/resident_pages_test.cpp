@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -23,6 +22,7 @@
 #include "engine/cut/cut.h"
 #include "io/amt_fixture.h"
 #include "io/io_fixture.h"
+#include "io/query/pages/pages_fixture.h"
 #include "io/query/pages/view_demand.h"
 #include "terrain/model/plan_box.h"
 
@@ -30,15 +30,10 @@ namespace arete {
 namespace {
 
 using test::built;
+using test::got;
+using test::kAnyBytes;
+using test::settled;
 using test::TemporaryFolder;
-
-template <class T>
-T got(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().describe());
-  return std::move(*result);
-}
-
-constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
 
 /// One file of mountains in pages, and its model.
 struct Filed {
@@ -51,8 +46,8 @@ struct Filed {
     for (const PageNeed& need : got(file().pagesFor({}))) bytes += need.bytes.size();
   }
   AmtFile file() const { return *openAmt(folder.file("model.amt")); }
-  ResidentPages open(std::uint64_t mostBytes = ResidentPages::kUsualBytes) const {
-    return *ResidentPages::open(file(), mostBytes);
+  TerrainPages open(std::uint64_t mostBytes = TerrainPages::kUsualBytes) const {
+    return *TerrainPages::open(file(), mostBytes);
   }
   TemporaryFolder folder;
   TerrainModel whole;
@@ -78,7 +73,7 @@ View viewFrom(double x, double y, double above, double pitch = -0.5) {
   return view;
 }
 
-PageDemand demandFor(const View& view, const ResidentPages& pages, double pixels = 2) {
+PageDemand demandFor(const View& view, const TerrainPages& pages, double pixels = 2) {
   return demandOf({.view = view, .pixels = pixels}, *pages.outline());
 }
 
@@ -115,33 +110,23 @@ std::vector<std::array<double, 9>> trianglesOf(const TerrainModel& model, const 
   return all;
 }
 
-/// Steps until nothing changes any more.
-ResidentPages::Step settled(ResidentPages& pages, const PageDemand& demand, std::uint64_t mostBytes) {
-  for (int i = 0; i < 20'000; ++i) {
-    auto step = got(pages.step(demand, mostBytes));
-    if (step.isDone) return step;
-  }
-  ADD_FAILURE() << "the steps do not end";
-  return got(pages.step(demand, mostBytes));
-}
-
 TEST(ResidentPages, HaveAllThatAPictureNeedsAfterOneStepThatMayReadIt) {
-  ResidentPages pages = mountains().open();
+  TerrainPages pages = mountains().open();
   Random random(3);
   for (int i = 0; i < 12; ++i) {
     const View view = viewFrom(random.between(0, 1), random.between(0, 1), random.between(0.001, 0.8));
-    const auto step = got(pages.step(demandFor(view, pages), kAny));
+    const auto step = got(pages.step(demandFor(view, pages), kAnyBytes));
     EXPECT_EQ(step.coarseness, 1);
     EXPECT_EQ(step.missingPages, 0u);
     EXPECT_TRUE(cutOf(*step.part, view).missing.empty()) << i;
-    EXPECT_EQ(got(missingInView(*step.part, {.view = view, .pixels = 2})).missing, 0u);
+    EXPECT_EQ(got(missingInView(step.part->mt, {.view = view, .pixels = 2})).missing, 0u);
   }
 }
 
 TEST(ResidentPages, CoverTheWholePlanInEveryStepWhilePagesAreLate) {
   const Filed& filed = mountains();
   const double whole = areaOf(filed.whole, frontOfPrefix(filed.whole.mt, 0));
-  ResidentPages pages = filed.open(filed.bytes / 3);
+  TerrainPages pages = filed.open(filed.bytes / 3);
   Random random(4);
   for (int i = 0; i < 60; ++i) {
     const View view = viewFrom(random.between(0, 1), random.between(0, 1), random.between(0.001, 0.5));
@@ -154,9 +139,9 @@ TEST(ResidentPages, CoverTheWholePlanInEveryStepWhilePagesAreLate) {
 TEST(ResidentPages, CoverThePlanWhenTheCameraRisesAfterALongTimeNearTheGround) {
   const Filed& filed = mountains();
   const double whole = areaOf(filed.whole, frontOfPrefix(filed.whole.mt, 0));
-  ResidentPages pages = filed.open(filed.bytes / 8);
+  TerrainPages pages = filed.open(filed.bytes / 8);
   for (int i = 0; i < 20; ++i)
-    ASSERT_TRUE(pages.step(demandFor(viewFrom(0.02 * i, 0.5, 0.001, -0.1), pages), kAny));
+    ASSERT_TRUE(pages.step(demandFor(viewFrom(0.02 * i, 0.5, 0.001, -0.1), pages), kAnyBytes));
   const View far = viewFrom(0.5, -0.5, 1.5, -0.8);
   const auto step = got(pages.step(demandFor(far, pages), 1));
   EXPECT_NEAR(areaOf(*step.part, cutOf(*step.part, far)), whole, 1e-9 * whole);
@@ -165,11 +150,11 @@ TEST(ResidentPages, CoverThePlanWhenTheCameraRisesAfterALongTimeNearTheGround) {
 TEST(ResidentPages, StayWithinTheirBudget) {
   const Filed& filed = mountains();
   for (const std::uint64_t budget : {filed.bytes / 20, filed.bytes / 6, filed.bytes / 2}) {
-    ResidentPages pages = filed.open(budget);
+    TerrainPages pages = filed.open(budget);
     Random random(5);
     for (int i = 0; i < 40; ++i) {
       const View view = viewFrom(random.between(0, 1), random.between(0, 1), random.between(0.001, 0.5));
-      const auto step = got(pages.step(demandFor(view, pages, 0.5), i % 2 == 0 ? kAny : 20'000));
+      const auto step = got(pages.step(demandFor(view, pages, 0.5), i % 2 == 0 ? kAnyBytes : 20'000));
       EXPECT_LE(step.residentBytes, budget) << i;
     }
   }
@@ -178,13 +163,13 @@ TEST(ResidentPages, StayWithinTheirBudget) {
 TEST(ResidentPages, ReadNothingMoreForACameraThatStandsStillHoweverSmallTheBudget) {
   const Filed& filed = mountains();
   for (const std::uint64_t part : {30u, 10u, 3u, 1u}) {
-    ResidentPages pages = filed.open(filed.bytes / part);
+    TerrainPages pages = filed.open(filed.bytes / part);
     const View view = viewFrom(0.4, 0.1, 0.02);
     PageDemand demand = demandFor(view, pages, 0.3);
     demand.ahead = demandFor(viewFrom(0.6, 0.3, 0.02), pages, 0.3).needed;
     const auto last = settled(pages, demand, 30'000);
     for (int i = 0; i < 3; ++i) {
-      const auto step = got(pages.step(demand, kAny));
+      const auto step = got(pages.step(demand, kAnyBytes));
       EXPECT_EQ(step.bytes, 0u);
       EXPECT_FALSE(step.isNew);
       EXPECT_EQ(step.coarseness, last.coarseness);
@@ -193,7 +178,7 @@ TEST(ResidentPages, ReadNothingMoreForACameraThatStandsStillHoweverSmallTheBudge
 }
 
 TEST(ResidentPages, ComeToTheirEndByStepsOfOneByteToo) {
-  ResidentPages pages = mountains().open();
+  TerrainPages pages = mountains().open();
   const View view = viewFrom(0.5, 0.2, 0.05);
   PageDemand demand = demandFor(view, pages);
   demand.around = {};
@@ -207,9 +192,9 @@ TEST(ResidentPages, LeadToOnePictureWhereverTheCameraWasBefore) {
   const Filed& filed = mountains();
   const View view = viewFrom(0.3, 0.3, 0.03);
   for (const std::uint64_t budget : {filed.bytes / 12, filed.bytes}) {
-    ResidentPages fresh = filed.open(budget);
-    const auto expected = settled(fresh, demandFor(view, fresh, 0.7), kAny);
-    ResidentPages travelled = filed.open(budget);
+    TerrainPages fresh = filed.open(budget);
+    const auto expected = settled(fresh, demandFor(view, fresh, 0.7), kAnyBytes);
+    TerrainPages travelled = filed.open(budget);
     Random random(6);
     for (int i = 0; i < 15; ++i)
       ASSERT_TRUE(travelled.step(
@@ -226,7 +211,7 @@ TEST(ResidentPages, LeadToOnePictureWhereverTheCameraWasBefore) {
 
 TEST(ResidentPages, AreTheSameForAnyNumberOfThreads) {
   const Filed& filed = mountains();
-  ResidentPages one = filed.open(filed.bytes / 5), four = filed.open(filed.bytes / 5);
+  TerrainPages one = filed.open(filed.bytes / 5), four = filed.open(filed.bytes / 5);
   Random random(7);
   for (int i = 0; i < 12; ++i) {
     const View view = viewFrom(random.between(0, 1), random.between(0, 1), random.between(0.001, 0.3));
@@ -240,7 +225,7 @@ TEST(ResidentPages, AreTheSameForAnyNumberOfThreads) {
 
 TEST(ResidentPages, OfAStepAreNoMoreBytesThanItMayReadOrOnePage) {
   const Filed& filed = mountains();
-  ResidentPages pages = filed.open();
+  TerrainPages pages = filed.open();
   std::uint64_t largest = 0;
   for (const PageNeed& need : got(filed.file().pagesFor({})))
     largest = std::max<std::uint64_t>(largest, need.bytes.size());
@@ -257,12 +242,12 @@ TEST(ResidentPages, ReadAheadOfACameraThatMovesSoThatLessIsMissingThen) {
   const View from = viewFrom(0.2, 0.2, 0.02), to = viewFrom(0.6, 0.5, 0.02);
   std::array<std::uint64_t, 2> read{};
   for (const std::size_t expects : {0u, 1u}) {
-    ResidentPages pages = filed.open();
+    TerrainPages pages = filed.open();
     PageDemand demand = demandFor(from, pages);
     if (expects == 1) demand.ahead = demandFor(to, pages).needed;
-    ASSERT_TRUE(pages.step(demand, kAny));
-    ASSERT_TRUE(pages.step(demand, kAny));
-    read[expects] = got(pages.step(demandFor(to, pages), kAny)).bytes;
+    ASSERT_TRUE(pages.step(demand, kAnyBytes));
+    ASSERT_TRUE(pages.step(demand, kAnyBytes));
+    read[expects] = got(pages.step(demandFor(to, pages), kAnyBytes)).bytes;
   }
   EXPECT_LT(read[1], read[0] / 2);
 }

@@ -17,10 +17,10 @@ namespace arete {
 /// may be from the model. What needs the whole model at full resolution is refused: lines of sight and
 /// viewsheds (terrain() has nothing for their tools), the curved Earth, colours by slope. One thread at a
 /// time.
-class PagedSubject final : public Subject {
+class PagedTerrainSubject final : public Subject {
  public:
   /// Keeps the model.
-  explicit PagedSubject(const std::shared_ptr<const TerrainModel>& outline);
+  explicit PagedTerrainSubject(const std::shared_ptr<const TerrainModel>& outline);
 
   /// From now on picks meet this part.
   void show(std::shared_ptr<const TerrainSubject> part) { part_ = std::move(part); }

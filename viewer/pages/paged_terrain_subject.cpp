@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/pages/paged_subject.h"
+#include "viewer/pages/paged_terrain_subject.h"
 
 #include <algorithm>
 #include <array>
@@ -22,41 +22,42 @@ std::shared_ptr<const TerrainSubject> subjectOf(std::shared_ptr<const TerrainMod
   return {std::move(kept), subject};
 }
 
-PagedSubject::PagedSubject(const std::shared_ptr<const TerrainModel>& outline)
+PagedTerrainSubject::PagedTerrainSubject(const std::shared_ptr<const TerrainModel>& outline)
     : Subject(CameraSpace(*outline), metricBox(*outline)), outline_(subjectOf(outline)), part_(outline_) {}
 
-Result<View> PagedSubject::viewOf(const Camera& camera, const ViewSettings& settings) const {
+Result<View> PagedTerrainSubject::viewOf(const Camera& camera, const ViewSettings& settings) const {
   return outline_->viewOf(camera, settings);
 }
 
-Vec3 PagedSubject::drawn(const Vec3& metric, const ViewSettings& settings) const {
+Vec3 PagedTerrainSubject::drawn(const Vec3& metric, const ViewSettings& settings) const {
   return outline_->drawn(metric, settings);
 }
 
-Camera PagedSubject::home(HomeView view, const Camera& picture, const ViewSettings& settings,
-                          const CoveredEdges& covered) const {
+Camera PagedTerrainSubject::home(HomeView view, const Camera& picture, const ViewSettings& settings,
+                                 const CoveredEdges& covered) const {
   return outline_->home(view, picture, settings, covered);
 }
 
-std::optional<Pick> PagedSubject::pick(const Camera& camera, Vec2 pixel, const ViewSettings& settings) const {
+std::optional<Pick> PagedTerrainSubject::pick(const Camera& camera, Vec2 pixel,
+                                              const ViewSettings& settings) const {
   return part_->pick(camera, pixel, settings);
 }
 
-bool PagedSubject::isVoid(const Camera& camera, Vec2 pixel, const ViewSettings& settings) const {
+bool PagedTerrainSubject::isVoid(const Camera& camera, Vec2 pixel, const ViewSettings& settings) const {
   return part_->isVoid(camera, pixel, settings);
 }
 
-double PagedSubject::boundAt(const Pick& pick, double allowed) const {
+double PagedTerrainSubject::boundAt(const Pick& pick, double allowed) const {
   return part_->boundAt(pick, allowed);
 }
 
-SubjectFacts PagedSubject::facts() const {
+SubjectFacts PagedTerrainSubject::facts() const {
   return outline_->facts();
 }
 
 // The ground is nowhere farther above the outline than the largest error of a triangle that it does not
 // refine.
-Result<FlightPlan> PagedSubject::round(const Camera& from) const {
+Result<FlightPlan> PagedTerrainSubject::round(const Camera& from) const {
   ARETE_TRY(FlightPlan plan, outline_->round(from));
   const MultiTriangulation& mt = outline_->model().mt;
   double above = 0;
@@ -66,12 +67,12 @@ Result<FlightPlan> PagedSubject::round(const Camera& from) const {
   return plan;
 }
 
-std::span<const Coloring> PagedSubject::colorings() const {
+std::span<const Coloring> PagedTerrainSubject::colorings() const {
   static constexpr std::array kColorings = {Coloring::height, Coloring::plain, Coloring::error};
   return kColorings;
 }
 
-Status PagedSubject::check(const ViewSettings& settings) const {
+Status PagedTerrainSubject::check(const ViewSettings& settings) const {
   if (settings.isCurved)
     return failure(ErrorCode::usage, "the curved Earth is for a model that is read whole", "curvature");
   const Coloring coloring = settings.look.coloring;
