@@ -15,6 +15,7 @@
 #include "io/formats/exchange/export_tin.h"
 #include "io/geo/crs/reader.h"
 #include "io/query/extract/model_file.h"
+#include "io/query/request/extract_request.h"
 #include "io/query/surface/surface_part.h"
 #include "io/store/format/layout.h"
 #include "surface/model/surface_model.h"

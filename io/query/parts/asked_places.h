@@ -20,13 +20,13 @@ namespace arete {
 // touch, and reads that. Every answer is the one of the whole model. Every check is done.
 
 /// Reads everything but the terrain: of a raster, the root. Of points, the whole model, because the rounding
-/// of their coordinates follows from their number. Errors: those of AmtFile::read().
+/// of their coordinates follows from their number. Errors: as AmtFile::read().
 Result<TerrainModel> outlineOf(const AmtFile& file, const RunContext& context = {});
 
 /// Reads the part of the model that a question requires.
 /// @param outline  outlineOf() the file
 /// @param wanted   the error required at each place; null: everything
-/// Errors: those of AmtFile::read().
+/// Errors: as AmtFile::read().
 Result<TerrainModel> readWanted(const AmtFile& file, const TerrainModel& outline, const RequiredError& wanted,
                                 const RunContext& context = {});
 

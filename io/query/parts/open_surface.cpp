@@ -67,10 +67,18 @@ OpenSurface::Shared OpenSurface::wholeIfThere() const {
   return state_->whole;
 }
 
-// A server is not asked for more than its questions need.
-bool OpenSurface::isReadTooOften() const {
-  const std::lock_guard lock(state_->mutex);
-  return !isFar_ && nodes_ <= kMostNodesOfWhole && state_->nodesRead >= nodes_;
+// A server is not asked for more than its questions need. Where the whole cannot be read, as with a damaged
+// page, parts go on to answer.
+Result<OpenSurface::Shared> OpenSurface::wholeIfReadOften(const RunContext& context) const {
+  {
+    const std::lock_guard lock(state_->mutex);
+    if (state_->whole || isFar_ || nodes_ > kMostNodesOfWhole || state_->nodesRead < nodes_)
+      return state_->whole;
+    state_->nodesRead = 0;
+  }
+  Result<Shared> all = whole(context);
+  if (!all && context.cancelled()) return all;
+  return all ? *all : Shared();
 }
 
 // One thread reads; the others wait for it, and may be stopped meanwhile.
@@ -93,8 +101,8 @@ Result<OpenSurface::Shared> OpenSurface::whole(const RunContext& context) const 
 
 Result<OpenSurface::Shared> OpenSurface::forRequest(const ExtractRequest& request,
                                                     const RunContext& context) const try {
-  if (Shared there = wholeIfThere()) return there;
-  if (isReadTooOften()) return whole(context);
+  ARETE_TRY(Shared all, wholeIfReadOften(context));
+  if (all) return all;
   ARETE_TRY(SurfaceModel read, file_->ask(context, [&](const AmtContainer& container) {
     return readForExtract(container, {&request, 1}, outline(), context);
   }));

@@ -27,8 +27,8 @@ class OpenSurface {
 
   explicit OpenSurface(SurfaceModel whole);
   /// Reads the outline of a file: its root, and the coarsest nodes, of which the largest error is. A file
-  /// that is not in pages, or says no summary of itself, is read whole. Errors: as loadSurfaceAmt(); those of
-  /// `file`.
+  /// that is not in pages, or says no summary of itself, is read whole. Errors: as loadSurfaceAmt(), and as
+  /// LastingFile::current().
   static Result<std::shared_ptr<OpenSurface>> open(LastingFile file, const RunContext& context = {});
 
   /// A part of the model, its root at least.
@@ -43,9 +43,9 @@ class OpenSurface {
   /// MultiTriangulation::largestError(). Errors: as whole(), where the outline does not say it.
   Result<double> largestError(const RunContext& context = {}) const;
 
-  /// All of the model. Errors: as loadSurfaceAmt(), and those of LastingFile::current().
+  /// All of the model. Errors: as loadSurfaceAmt(), and as LastingFile::current().
   Result<Shared> whole(const RunContext& context = {}) const;
-  /// What a request needs. Errors: as readForExtract(), and those of LastingFile::current().
+  /// What a request needs. Errors: as readForExtract(), and as LastingFile::current().
   Result<Shared> forRequest(const ExtractRequest& request, const RunContext& context = {}) const;
 
  private:
@@ -58,7 +58,8 @@ class OpenSurface {
 
   OpenSurface(LastingFile file, SurfaceModel outline);
   Shared wholeIfThere() const;
-  bool isReadTooOften() const;
+  /// Null where the next part is better read alone. Errors: interrupted.
+  Result<Shared> wholeIfReadOften(const RunContext& context) const;
 
   std::optional<LastingFile> file_;
   Shared outline_;

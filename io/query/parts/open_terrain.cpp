@@ -100,10 +100,18 @@ void OpenTerrain::keepWhole(Located all) const {
   state_->kept.clear();
 }
 
-// A server is not asked for more than its questions need.
-bool OpenTerrain::isReadTooOften() const {
-  const std::lock_guard lock(state_->mutex);
-  return !isFar_ && nodes_ <= kMostNodesWhole && state_->nodesRead >= nodes_;
+// A server is not asked for more than its questions need. Where the whole cannot be read, as with a damaged
+// page, parts go on to answer.
+Result<OpenTerrain::Located> OpenTerrain::wholeIfReadOften(const RunContext& context) const {
+  {
+    const std::lock_guard lock(state_->mutex);
+    if (state_->whole || isFar_ || nodes_ > kMostNodesWhole || state_->nodesRead < nodes_)
+      return state_->whole;
+    state_->nodesRead = 0;
+  }
+  Result<Located> all = whole(context);
+  if (!all && context.cancelled()) return all;
+  return all ? *all : Located();
 }
 
 // One thread reads; the others wait for it, and may be stopped meanwhile.
@@ -161,7 +169,8 @@ Result<OpenTerrain::Located> OpenTerrain::at(const RequiredError& wanted, const 
     ARETE_TRY(const AmtFile file, opened(container));
     ARETE_TRY(const std::vector<PageNeed> needs, file.pagesFor(wanted, context));
     if (Located there = keptWith(needs)) return there;
-    if (isReadTooOften()) return whole(context);
+    ARETE_TRY(Located all, wholeIfReadOften(context));
+    if (all) return all;
     ARETE_TRY(TerrainModel part, file.read({.wanted = wanted}, context));
     return keep(needs, std::move(part));
   });
@@ -171,10 +180,7 @@ Result<OpenTerrain::Located> OpenTerrain::at(const RequiredError& wanted, const 
 
 Result<OpenTerrain::Taken> OpenTerrain::forRequest(const ExtractRequest& request,
                                                    const RunContext& context) const try {
-  Located all = wholeIfThere();
-  if (!all && isReadTooOften()) {
-    ARETE_TRY(all, whole(context));
-  }
+  ARETE_TRY(const Located all, wholeIfReadOften(context));
   const auto modelOf = [](const Located& of) { return std::shared_ptr<const TerrainModel>(of, &of->model); };
   if (all) return Taken{modelOf(all), std::nullopt};
   const auto readPart = [&](const AmtContainer& container) -> Result<PartAndCut> {

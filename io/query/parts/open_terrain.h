@@ -47,7 +47,7 @@ class OpenTerrain {
   explicit OpenTerrain(TerrainModel whole);
   /// Reads the outline of a file: its root, and the coarsest nodes, of which the largest error is. A file
   /// that is not in pages, or says no summary of itself, is read whole. Errors: as openAmt() and
-  /// AmtFile::read(); those of `file`.
+  /// AmtFile::read(), and as `file`'s current().
   static Result<std::shared_ptr<OpenTerrain>> open(LastingFile file, const RunContext& context = {});
 
   /// A part of the model, its root at least; with everything that is not of its triangles.
@@ -68,7 +68,7 @@ class OpenTerrain {
   /// itself; else nothing.
   std::optional<std::vector<CurvePoint>> statedCurve(std::size_t most) const;
 
-  /// All of the model. Errors: as AmtFile::read(), and those of LastingFile::current().
+  /// All of the model. Errors: as AmtFile::read(), and as LastingFile::current().
   Result<Located> whole(const RunContext& context = {}) const;
   /// What a question about places requires (io/query/parts/asked_places.h); of points the whole, as
   /// outlineOf() does. Errors: as whole().
@@ -78,7 +78,7 @@ class OpenTerrain {
     std::shared_ptr<const TerrainModel> model;
     std::optional<Cut> cut;  ///< PartAndCut::cut
   };
-  /// What a request needs. Errors: as readForExtract(), and those of LastingFile::current().
+  /// What a request needs. Errors: as readForExtract(), and as LastingFile::current().
   Result<Taken> forRequest(const ExtractRequest& request, const RunContext& context = {}) const;
 
  private:
@@ -98,8 +98,8 @@ class OpenTerrain {
 
   OpenTerrain(LastingFile file, const AmtFile& amt, TerrainModel outline);
   Located wholeIfThere() const;
-  /// Whether the next part is better read with everything else.
-  bool isReadTooOften() const;
+  /// Null where the next part is better read alone. Errors: interrupted.
+  Result<Located> wholeIfReadOften(const RunContext& context) const;
   void keepWhole(Located all) const;
   Located keptWith(const std::vector<PageNeed>& needs) const;
   Located keep(const std::vector<PageNeed>& needs, TerrainModel part) const;
