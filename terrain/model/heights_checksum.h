@@ -13,7 +13,7 @@ namespace arete {
 /// heightsChecksum() of heights that come piece by piece, as by rows of a raster.
 class HeightsChecksum {
  public:
-  /// Of a raster: its columns and rows; of points: their number and 0.
+  /// A raster has its columns and rows, points their number and 0.
   HeightsChecksum(std::uint64_t columns, std::uint64_t rows);
   ~HeightsChecksum();
   HeightsChecksum(const HeightsChecksum&) = delete;

@@ -21,7 +21,7 @@ namespace arete {
 namespace {
 
 /// What the checks of a part take for each of its nodes: fronts, their edges, triangles to be compared.
-constexpr std::uint64_t kBytesOfChecks = 400;
+constexpr std::uint64_t kBytesOfChecks = 150;
 
 /// Full resolution in these rows, and nothing elsewhere.
 RequiredError wantedInRows(const ModelRows& rows) {
