@@ -23,6 +23,9 @@ namespace {
 /// What the checks of a part take for each of its nodes: fronts, their edges, triangles to be compared.
 constexpr std::uint64_t kBytesOfChecks = 150;
 
+/// Fewer rows take no fewer pages, which are as high as some tiles of 64 samples.
+constexpr std::uint32_t kFewestRows = 32;
+
 /// Full resolution in these rows, and nothing elsewhere.
 RequiredError wantedInRows(const ModelRows& rows) {
   return requiredInPlan([rows](const Box2& box) {
@@ -72,8 +75,8 @@ class PartsValidation {
       giveFreeHeapBack();  // what the part before has freed counts as in use until then
       const Status checked = checkGuarded(rows);
       const std::uint32_t count = rows.last - rows.first + 1;
-      if (checked || checked.error().code != ErrorCode::outOfMemory || count <= 2) return checked;
-      rowsAtOnce_ = std::max<std::uint32_t>(2, count / 2);
+      if (checked || checked.error().code != ErrorCode::outOfMemory || count <= kFewestRows) return checked;
+      rowsAtOnce_ = count / 2;
       rows.last = rows.first + rowsAtOnce_ - 1;
     }
   }
