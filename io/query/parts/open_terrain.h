@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/cut/cut.h"
 #include "engine/cut/error_curve.h"
 #include "engine/parallel/run_context.h"
 #include "io/query/parts/lasting_file.h"
