@@ -12,6 +12,7 @@
 
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
+#include "engine/cut/error_curve.h"
 #include "engine/laws/law.h"
 #include "io/geo/crs/names.h"
 #include "io/geo/dem/dem_reader.h"
@@ -20,7 +21,6 @@
 #include "surface/laws/validate_surface.h"
 #include "terrain/laws/compare_source.h"
 #include "terrain/laws/validate_model.h"
-#include "engine/cut/error_curve.h"
 
 namespace arete::python {
 namespace {
@@ -36,7 +36,8 @@ Json commonFacts(const auto& model) {
           {"finestTriangles", model.finestTriangleCount()},
           {"rootTriangles", mt.rootTriangleCount()},
           {"rootVertices", mt.rootVertexCount()},
-          {"rootError", call(py::none(), [&](const RunContext& context) { return model.largestError(context); })}};
+          {"rootError",
+           call(py::none(), [&](const RunContext& context) { return model.largestError(context); })}};
 }
 
 std::string terrainFacts(const Terrain& terrain) {

@@ -55,8 +55,8 @@ Result<NodataSight> nodataOf(const SightRequest& request) {
 }
 
 /// An end above the ground, in plan coordinates and from the DEM's zero.
-Result<std::pair<Vec2, double>> endOf(const LocatedTerrain& ground, const LongitudeTurns& turns, const double* xyh,
-                                      const std::string& culprit) {
+Result<std::pair<Vec2, double>> endOf(const LocatedTerrain& ground, const LongitudeTurns& turns,
+                                      const double* xyh, const std::string& culprit) {
   const Vec2 xy = turns({xyh[0], xyh[1]});
   if (!std::isfinite(xyh[2])) return failure(ErrorCode::usage, "has no height", culprit);
   const auto height = demHeight({xy, xyh[2], HeightKind::aboveGround}, ground.heights);

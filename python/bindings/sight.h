@@ -29,8 +29,8 @@ Result<NodataSight> nodataOf(const SightRequest& request);
 
 /// An end above the ground, in plan coordinates and from the DEM's zero. Errors: usage, naming the end.
 /// @param ground  what was read at the end
-Result<std::pair<Vec2, double>> endOf(const LocatedTerrain& ground, const LongitudeTurns& turns, const double* xyh,
-                                      const std::string& culprit);
+Result<std::pair<Vec2, double>> endOf(const LocatedTerrain& ground, const LongitudeTurns& turns,
+                                      const double* xyh, const std::string& culprit);
 
 /// Lines of sight, viewsheds, and what a mesh is off the terrain.
 void defineSight(pybind11::class_<Terrain, std::shared_ptr<Terrain>>& terrain);

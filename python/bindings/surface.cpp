@@ -234,13 +234,13 @@ void defineModel(py::module_& module) {
       .def_property_readonly("crs_wkt", [](const OpenSurface& s) { return s.outline().crsWkt; })
       .def_property_readonly("source", [](const OpenSurface& s) { return s.outline().source; })
       .def_property_readonly("position_error", [](const OpenSurface& s) { return s.outline().positionError; })
-      .def_property_readonly("is_displaced", [](const OpenSurface& s) { return !s.outline().displacement.isEmpty(); })
-      .def_property_readonly("largest_error",
-                             [](const OpenSurface& s) {
-                               return call(py::none(), [&](const RunContext& context) {
-                                 return s.largestError(context);
-                               });
-                             })
+      .def_property_readonly("is_displaced",
+                             [](const OpenSurface& s) { return !s.outline().displacement.isEmpty(); })
+      .def_property_readonly(
+          "largest_error",
+          [](const OpenSurface& s) {
+            return call(py::none(), [&](const RunContext& context) { return s.largestError(context); });
+          })
       .def_property_readonly("vertex_count", &OpenSurface::vertexCount)
       .def_property_readonly("finest_triangle_count", &OpenSurface::finestTriangleCount);
 }

@@ -291,12 +291,11 @@ void defineTerrain(py::module_& module) {
                              })
       .def_property_readonly("bounds", [](const Terrain& t) { return boundsOf(t.outline()); })
       .def_property_readonly("source", [](const Terrain& t) { return t.outline().source; })
-      .def_property_readonly("largest_error",
-                             [](const Terrain& t) {
-                               return call(py::none(), [&](const RunContext& context) {
-                                 return t.largestError(context);
-                               });
-                             })
+      .def_property_readonly(
+          "largest_error",
+          [](const Terrain& t) {
+            return call(py::none(), [&](const RunContext& context) { return t.largestError(context); });
+          })
       .def_property_readonly("vertex_count", &Terrain::vertexCount)
       .def_property_readonly("finest_triangle_count", &Terrain::finestTriangleCount);
 }

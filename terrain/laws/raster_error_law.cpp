@@ -27,8 +27,7 @@ std::int64_t ceilOf(std::int64_t numerator, std::int64_t denominator) {
 RasterErrorLaw::Sample RasterErrorLaw::sampleAt(std::int64_t x, std::int64_t y) const {
   const std::int64_t row = y - top_;
   if (row < 0 || row >= std::int64_t(field_.rows)) return {x, y, std::numeric_limits<double>::quiet_NaN()};
-  return {x, y,
-          field_.heights[static_cast<std::size_t>(row) * field_.columns + static_cast<std::size_t>(x)]};
+  return {x, y, field_.heights[static_cast<std::size_t>(row) * field_.columns + static_cast<std::size_t>(x)]};
 }
 
 bool RasterErrorLaw::holds(std::uint32_t triangle) const {

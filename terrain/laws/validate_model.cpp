@@ -165,8 +165,8 @@ Status validateModel(const TerrainModel& model, const ValidateModelOptions& opti
   {
     const Cut finest = frontOfPrefix(mt, mt.nodeCount());
     ARETE_CHECK(law8(model, finest, options.rows));
-    ARETE_TRY(const auto errors, validateErrors(model, finest, options.everyTriangle, options.seed, context,
-                                                options.rows));
+    ARETE_TRY(const auto errors,
+              validateErrors(model, finest, options.everyTriangle, options.seed, context, options.rows));
     if (checked) *checked = errors;
   }
   const DomainExtent domain = domainExtent(mt);

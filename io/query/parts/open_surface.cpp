@@ -39,10 +39,10 @@ Result<std::shared_ptr<OpenSurface>> OpenSurface::open(LastingFile file, const R
     ARETE_TRY(facts, surfaceFacts(container));
     if (!container.isPaged() || !facts.summary.isThere()) return loadSurfaceAmt(container, {}, context);
     ARETE_TRY(const double error, surfaceErrorBeyond(container, 1));
-    return loadSurfaceAmt(container,
-                          {.wanted = error > 0 ? RequiredError([error](const Box3&) { return error; })
-                                               : requiredNowhere()},
-                          context);
+    return loadSurfaceAmt(
+        container,
+        {.wanted = error > 0 ? RequiredError([error](const Box3&) { return error; }) : requiredNowhere()},
+        context);
   };
   ARETE_TRY(SurfaceModel outline, file.ask(context, readCoarsest));
   if (!outline.finestOfWhole) return std::make_shared<OpenSurface>(std::move(outline));  // all of it

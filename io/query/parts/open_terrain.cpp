@@ -56,9 +56,9 @@ Result<std::shared_ptr<OpenTerrain>> OpenTerrain::open(LastingFile file, const R
     if (!amt->isPaged() || !amt->summary().isThere()) return amt->read({}, context);
     // Down to the first band with a node; 0 would be everything.
     const double error = amt->errorBeyond(1);
-    return amt->read({.wanted = error > 0 ? RequiredError([error](const Box3&) { return error; })
-                                          : requiredNowhere()},
-                     context);
+    return amt->read(
+        {.wanted = error > 0 ? RequiredError([error](const Box3&) { return error; }) : requiredNowhere()},
+        context);
   };
   ARETE_TRY(TerrainModel outline, file.ask(context, readOutline));
   if (!amt->isPaged() || !amt->summary().isThere()) return std::make_shared<OpenTerrain>(std::move(outline));
@@ -162,7 +162,8 @@ OpenTerrain::Located OpenTerrain::keep(const std::vector<PageNeed>& needs, Terra
   return located;
 }
 
-Result<OpenTerrain::Located> OpenTerrain::at(const RequiredError& wanted, const RunContext& context) const try {
+Result<OpenTerrain::Located> OpenTerrain::at(const RequiredError& wanted, const RunContext& context) const
+    try {
   if (!wanted || !outline().isRaster) return whole(context);
   if (Located there = wholeIfThere()) return there;
   return file_->ask(context, [&](const AmtContainer& container) -> Result<Located> {

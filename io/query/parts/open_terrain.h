@@ -37,8 +37,8 @@ struct LocatedTerrain {
 /// reads the part that it needs. Both give the same answers (readForExtract() names one exception).
 ///
 /// Some parts that were read last are kept, and answer whatever needs nothing else. Once the parts of a file
-/// on this machine have come to as many nodes as the whole has, it is read whole and stays in memory, where it
-/// is small enough. What needs the whole reads it once; it stays as well.
+/// on this machine have come to as many nodes as the whole has, it is read whole and stays in memory, where
+/// it is small enough. What needs the whole reads it once; it stays as well.
 ///
 /// Thread-safe: questions may be asked from several threads at once.
 class OpenTerrain {

@@ -56,9 +56,8 @@ class PartsValidation {
     }
     found_.pages = static_cast<std::uint64_t>(std::ranges::count(isRead_, true));
     if (found_.pages != all.size())
-      return failure(ErrorCode::brokenPromise,
-                     fmt::format("law 8: {} of {} pages belong to no row", all.size() - found_.pages,
-                                 all.size()));
+      return failure(ErrorCode::brokenPromise, fmt::format("law 8: {} of {} pages belong to no row",
+                                                           all.size() - found_.pages, all.size()));
     const std::string& stated = file_.model().sourceChecksum;
     if (const std::string sum = heights_.text(); stated.starts_with("xxh3-128:") && stated != sum)
       return failure(
@@ -81,9 +80,7 @@ class PartsValidation {
     }
   }
 
-  Status checkGuarded(const ModelRows& rows) try {
-    return check(rows);
-  } catch (...) {
+  Status checkGuarded(const ModelRows& rows) try { return check(rows); } catch (...) {
     return caughtFailure();
   }
 
@@ -99,7 +96,8 @@ class PartsValidation {
     ErrorsChecked errors;
     Status valid = validateModel(part, laws, quiet, &errors);
     if (!valid && valid.error().code == ErrorCode::brokenPromise)
-      valid.error().message += fmt::format(" (in the part of rows {} to {}, by its numbers)", rows.first, rows.last);
+      valid.error().message +=
+          fmt::format(" (in the part of rows {} to {}, by its numbers)", rows.first, rows.last);
     ARETE_CHECK(valid);
     // The row that the next part begins with is its own.
     const RasterHeightfield samples = samplesInRows(part, rows);

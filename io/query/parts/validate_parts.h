@@ -33,8 +33,8 @@ struct ValidatedParts {
 /// A violation is the first one of the first part that has one. It names the rows, and triangles and nodes
 /// by their numbers in the part.
 /// Precondition: the file is in pages and of a raster.
-/// Errors: brokenPromise: the violation; corrupt: a page; outOfMemory: the pages of a few rows are too many; interrupted.
-/// O(as validateModel()), and the ancestors again for each part.
+/// Errors: brokenPromise: the violation; corrupt: a page; outOfMemory: the pages of a few rows are too many;
+/// interrupted. O(as validateModel()), and the ancestors again for each part.
 Result<ValidatedParts> validateInParts(const AmtFile& file, const ValidatePartsOptions& options = {},
                                        const RunContext& context = {});
 

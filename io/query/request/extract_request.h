@@ -20,8 +20,8 @@ struct ExtractRequest {
   /// A mesh by its extension; of terrain also .tif: sampled back on the source grid. Empty: a cut alone, of
   /// which readForExtract() reads what it needs.
   std::string output;
-  std::string format;      ///< MeshWriteOptions::format; empty: by the extension
-  PlaceTarget place = {};  ///< of terrain: where the mesh is led, with edges split where that bends it
+  std::string format;       ///< MeshWriteOptions::format; empty: by the extension
+  PlaceTarget place = {};   ///< of terrain: where the mesh is led, with edges split where that bends it
   std::string certificate;  ///< JSON; empty = none
   std::string errorRaster;  ///< of terrain: GeoTIFF of z_TIN - z_DEM; empty = none
   /// What happens to the other layers of a GeoPackage that exists.

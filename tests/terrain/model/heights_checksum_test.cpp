@@ -21,7 +21,8 @@ TEST(HeightsChecksumInPieces, IsThatOfTheWholeHoweverItIsCut) {
   for (const std::size_t piece : {1u, 173u, 1000u, 4096u, 5000u, 20000u}) {
     HeightsChecksum checksum(field.columns, field.rows);
     for (std::size_t begin = 0; begin < field.size(); begin += piece)
-      checksum.add(std::span<const double>(field.heights).subspan(begin, std::min(piece, field.size() - begin)));
+      checksum.add(
+          std::span<const double>(field.heights).subspan(begin, std::min(piece, field.size() - begin)));
     EXPECT_EQ(checksum.text(), heightsChecksum(field)) << piece;
   }
 }

@@ -24,8 +24,8 @@ class AskedPlaces : public ::testing::Test {
  protected:
   AskedPlaces() {
     const std::string path = folder_.file("hills.amt");
-    EXPECT_TRUE(writeAmt(path, got(build(test::hills(300, 250, [](double z) { return z; }))), {},
-                         {.isPaged = true}));
+    EXPECT_TRUE(
+        writeAmt(path, got(build(test::hills(300, 250, [](double z) { return z; }))), {}, {.isPaged = true}));
     file_.emplace(got(openAmt(path)));
     outline_ = got(outlineOf(*file_));
     earth_ = makePlaneEarth(outline_);

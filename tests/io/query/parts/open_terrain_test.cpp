@@ -26,8 +26,8 @@
 #include "io/amt_fixture.h"
 #include "io/http_server.h"
 #include "io/io_fixture.h"
-#include "io/query/parts/parts_fixture.h"
 #include "io/query/parts/asked_places.h"
+#include "io/query/parts/parts_fixture.h"
 #include "terrain/model/relief.h"
 
 namespace arete {
@@ -208,8 +208,8 @@ TEST_F(OpenTerrainTest, AQuestionThatIsStoppedEndsNoOther) {
 TEST_F(OpenTerrainTest, AFileThatIsReplacedIsAnErrorUntilItIsThereAgain) {
   const TemporaryFolder folder;
   const std::string other = folder.file("other.amt");
-  ASSERT_TRUE(writeAmt(other, got(build(test::hills(300, 250, [](double z) { return z; }))), {},
-                       {.isPaged = true}));
+  ASSERT_TRUE(
+      writeAmt(other, got(build(test::hills(300, 250, [](double z) { return z; }))), {}, {.isPaged = true}));
   std::ifstream file(other, std::ios::binary);
   const std::string otherBytes((std::istreambuf_iterator<char>(file)), {});
   std::atomic<bool> isReplaced = false;

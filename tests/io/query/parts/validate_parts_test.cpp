@@ -100,14 +100,15 @@ TEST_F(ValidateParts, FindEveryStoredErrorThatIsTooSmallAsTheWholeDoes) {
     arrays.columns.set(kBelow, codes->below);
     arrays.columns.set(kAbove, codes->above);
     changed.mt = MultiTriangulation(
-        arrays, std::make_shared<std::pair<MultiTriangulation, std::shared_ptr<const Codes>>>(model().mt, codes));
+        arrays,
+        std::make_shared<std::pair<MultiTriangulation, std::shared_ptr<const Codes>>>(model().mt, codes));
     const AmtFile file = written(changed);
     const Status whole = validateModel(got(file.read()), kFull);
     planted += whole ? 0 : 1;
     for (const std::uint32_t rows : {80u, 21u}) {
       const Status parts = inParts(file, rows);
-      EXPECT_EQ(lawOf(parts), lawOf(whole)) << t << " in parts of " << rows << ": "
-                                            << (parts ? "" : parts.error().message);
+      EXPECT_EQ(lawOf(parts), lawOf(whole))
+          << t << " in parts of " << rows << ": " << (parts ? "" : parts.error().message);
       if (!parts) {
         EXPECT_EQ(parts.error().code, ErrorCode::brokenPromise);
         EXPECT_NE(parts.error().message.find("rows "), std::string::npos) << parts.error().message;
