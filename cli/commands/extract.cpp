@@ -25,7 +25,6 @@
 #include "cli/arguments/place_hint.h"
 #include "cli/commands/check_command.h"
 #include "cli/commands/extract_text.h"
-#include "cli/session/model_file.h"
 #include "cli/surface/extract.h"
 #include "io/formats/exchange/mesh_formats.h"
 #include "io/geo/bent/target.h"
@@ -38,6 +37,7 @@
 #include "io/query/extract/part.h"
 #include "io/query/extract/region_argument.h"
 #include "io/query/extract/tin.h"
+#include "io/query/parts/asked_places.h"
 #include "io/query/request/wholes.h"
 #include "terrain/model/plan_box.h"
 #include "terrain/model/plan_region.h"
@@ -193,9 +193,7 @@ Result<TerrainModel> outlineForPlaces(const AmtFile& file, const CriterionArgume
   if (!root) return root;
   ARETE_TRY(const auto place, criterion.placeAboveGround(*root));
   if (!place) return root;
-  QueryFootprint wanted(*root);
-  wanted.add(*place);
-  return file.read({.wanted = wanted.within(0)}, session.context());
+  return file.read({.wanted = wantedAt({&*place, 1}, *root)}, session.context());
 }
 
 /// Warns where metres are asked for of a model that was built before the scale of its map was stored.

@@ -22,6 +22,7 @@
 #include "io/geo/table/height_table.h"
 #include "io/geo/table/point_table.h"
 #include "io/query/extract/batches.h"
+#include "io/query/parts/asked_places.h"
 #include "terrain/locate/ground_height.h"
 
 namespace arete {
@@ -149,7 +150,7 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
       return failure(ErrorCode::usage, "a table of heights ends in .csv or .gpkg", culprit);
   }
   ARETE_TRY(const AmtFile file, openTerrain(arguments.model));
-  ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
+  ARETE_TRY(const TerrainModel outline, outlineOf(file, session.context()));
   ARETE_TRY(const TerrainError maxError, terrainErrorOf(arguments.maxError, file, session));
   if (!arguments.output.empty())
     if (Status output =
@@ -163,13 +164,13 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
   for (const Vec2 place : table.positions) plan.push_back(outline.toPlan(place));
   Heights heights(plan.size());
   ARETE_CHECK(answerInBatches(plan, [&](std::span<const std::uint32_t> batch) -> Status {
-    QueryFootprint wanted(outline);
-    std::vector<Vec2> places;
+    std::vector<Vec2> places, inPlan;
     for (const std::uint32_t i : batch) {
-      wanted.add(plan[i]);
+      inPlan.push_back(plan[i]);
       places.push_back(table.positions[i]);
     }
-    ARETE_TRY(const TerrainModel model, readWanted(file, outline, wanted.within(0), session));
+    ARETE_TRY(const TerrainModel model,
+              readWanted(file, outline, wantedAt(inPlan, outline), session.context()));
     ARETE_TRY(auto found, GroundHeights(model).at(places, maxError.value, session.context()));
     for (std::size_t k = 0; k < batch.size(); ++k) heights[batch[k]] = std::move(found[k]);
     return {};

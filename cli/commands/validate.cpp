@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Runs validateModel() and lists the laws it has checked (docs/topics lists them too).
+// Runs validateModel() and lists the laws it has checked (docs/topics lists them too). A raster in pages for
+// which the memory budget is too small is checked part by part.
 #include "cli/commands/validate.h"
 
 #include <fmt/format.h>
@@ -8,6 +9,8 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <variant>
 
 #include "cli/arguments/arguments.h"
@@ -17,6 +20,7 @@
 #include "engine/laws/law.h"
 #include "io/files/text/address_text.h"
 #include "io/query/extract/model_file.h"
+#include "io/query/parts/validate_parts.h"
 #include "io/store/amt/file.h"
 #include "terrain/laws/compare_source.h"
 #include "terrain/laws/validate_model.h"
@@ -58,9 +62,43 @@ Result<std::uint64_t> compare(const ValidateArguments& arguments, const TerrainM
   return std::visit([&](const auto& field) { return compareWithSource(model, field); }, dem.heightfield);
 }
 
+/// The checks of a terrain, whole or in parts.
+struct Checked {
+  Status valid;
+  TerrainModel model;  ///< in parts: nothing of its triangles
+  ErrorsChecked errors;
+  std::optional<ValidatedParts> parts;
+};
+
+Checked checkTerrain(const ValidateArguments& arguments, const AmtFile& file, const Session& session) {
+  Checked checked{.valid = {}, .model = file.model(), .errors = {}, .parts = {}};
+  Result<TerrainModel> whole = file.read({}, session.context());
+  if (whole) {
+    checked.model = std::move(*whole);
+    checked.valid = validateModel(checked.model, arguments.options, session.context(), &checked.errors);
+  } else {
+    checked.valid = tl::unexpected(whole.error());
+  }
+  const bool isTooLarge = !checked.valid && checked.valid.error().code == ErrorCode::outOfMemory;
+  if (!isTooLarge || !file.isPaged() || !file.model().isRaster || !arguments.source.path.empty())
+    return checked;
+  whole = failure(ErrorCode::outOfMemory, {});
+  checked.model = file.model();
+  auto parts = validateInParts(file, {.laws = arguments.options}, session.context());
+  checked.valid = parts ? Status() : Status(tl::unexpected(parts.error()));
+  if (!parts) return checked;
+  checked.errors = parts->errors;
+  checked.parts = *parts;
+  return checked;
+}
+
 /// What the checks of a law covered, where that is not everything.
-std::string scopeOf(const Law& law, const ErrorsChecked& checked) {
+std::string scopeOf(const Law& law, const ErrorsChecked& checked, bool isInParts) {
   if (law.number != 10) return {};
+  if (isInParts)
+    return checked.areAll() ? std::string(" (all triangles of each part)")
+                            : fmt::format(" ({} of the parts; --full checks all)",
+                                          grouped(checked.checked, "triangle", "triangles"));
   return checked.areAll() ? fmt::format(" (all of {})", counted(checked.triangles, "triangle", "triangles"))
                           : fmt::format(" ({} of {}; --full checks all)", checked.checked,
                                         counted(checked.triangles, "triangle", "triangles"));
@@ -74,9 +112,10 @@ Status runValidate(const ValidateArguments& arguments, Session& session) {
   if (container.isOfSurface())
     return validateSurfaceFile(container, {.everySample = arguments.options.everyTriangle}, session);
   ARETE_TRY(const AmtFile file, openAmt(std::move(container)));
-  ARETE_TRY(const TerrainModel model, file.read({}, session.context()));
-  ErrorsChecked checked;
-  Status valid = validateModel(model, arguments.options, session.context(), &checked);
+  const Checked found = checkTerrain(arguments, file, session);
+  const TerrainModel& model = found.model;
+  const ErrorsChecked& checked = found.errors;
+  Status valid = found.valid;
   // A run that ended otherwise says nothing of the laws.
   if (!valid && valid.error().code != ErrorCode::brokenPromise) return valid;
   std::uint64_t compared = 0;
@@ -94,7 +133,11 @@ Status runValidate(const ValidateArguments& arguments, Session& session) {
     for (const Law& law : kLaws)
       text +=
           fmt::format("  law {}  {}  {}{}\n", law.number, isClaimed(law, model) ? "holds" : "is not claimed",
-                      law.ofTerrain, scopeOf(law, checked));
+                      law.ofTerrain, scopeOf(law, checked, found.parts.has_value()));
+    if (found.parts)
+      text += fmt::format("  in {}, since the whole does not fit into the memory; all {} were read\n",
+                          grouped(found.parts->parts, "part", "parts"),
+                          grouped(found.parts->pages, "page", "pages"));
     text += arguments.source.path.empty() ? "  heights not compared with the source (--against)\n"
                                           : fmt::format("  heights all {} are those of {}\n", compared,
                                                         nameWithoutQuery(arguments.source.path));
@@ -109,6 +152,7 @@ Status runValidate(const ValidateArguments& arguments, Session& session) {
                {"holds", valid.has_value()},
                {"randomFronts", arguments.options.randomFronts},
                {"seed", arguments.options.seed}};
+  if (found.parts) json["parts"] = {{"count", found.parts->parts}, {"pages", found.parts->pages}};
   if (valid) {
     json["errorsChecked"] = {{"triangles", checked.checked}, {"of", checked.triangles}};
     json["heightsCompared"] = arguments.source.path.empty()

@@ -30,6 +30,7 @@
 #include "io/geo/dem/clutter_raster.h"
 #include "io/geo/table/line_table.h"
 #include "io/geo/table/sight_pairs.h"
+#include "io/query/parts/asked_places.h"
 #include "io/query/scene/open_scene.h"
 #include "terrain/sight/paths.h"
 
@@ -316,7 +317,7 @@ Status runLos(const LosArguments& a, Session& session) {
   ARETE_CHECK(checkArguments(a));
   if (isSceneFile(a.model)) return runLosOfScene(a, session);
   ARETE_TRY(const AmtFile file, openTerrain(a.model));
-  ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
+  ARETE_TRY(const TerrainModel outline, outlineOf(file, session.context()));
   ARETE_CHECK(checkGroundUnits(outline.georeference, {a.clutterFreeWithUnit}));
   ARETE_CHECK(checkOutputOf(a, {a.model, a.pairs, a.points, a.clutter, outline.source}));
   ARETE_TRY(auto pairs, readRows(a, outline, session));

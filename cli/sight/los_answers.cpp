@@ -14,9 +14,9 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
-#include "cli/session/model_file.h"
 #include "cli/sight/arguments.h"
 #include "io/query/extract/batches.h"
+#include "io/query/parts/asked_places.h"
 
 namespace arete {
 namespace {
@@ -30,19 +30,9 @@ RequiredError wantedFor(SightMethod method, const LosQuestion& question, std::sp
   const auto& all = question.pairs.rows;
   if (bestMethod(method, question.options.sight.maxError, all.size(), outline) != SightMethod::descent)
     return {};
-  QueryFootprint wanted(outline);
-  for (const std::uint32_t row : rows) {
-    const auto& [first, second] = all[row];
-    const Vec2 from = sightPlan(outline, first.xy), to = sightPlan(outline, second.xy);
-    for (const auto& [site, plan] : {std::pair{first, from}, {second, to}}) {
-      wanted.add(plan);
-      wanted.add(outline.toPlan(site.xy));
-    }
-    if (!std::isfinite(from.x + from.y + to.x + to.y)) continue;
-    if (const auto track = question.earth.track(from, to))
-      wanted.addTrack(*track);  // without a track, the answer is an error
-  }
-  return wanted.within(0);
+  std::vector<std::array<Vec2, 2>> ends;
+  for (const std::uint32_t row : rows) ends.push_back({all[row][0].xy, all[row][1].xy});
+  return wantedBetween(ends, question.earth, outline);
 }
 
 }  // namespace
@@ -81,7 +71,7 @@ Result<LosAnswers> answerLines(const LosQuestion& question, const AmtFile& file,
     if (batch.size() < lines.size() && question.method == SightMethod::automatic)
       some.method = SightMethod::descent;
     ARETE_TRY(const TerrainModel model,
-              readWanted(file, outline, wantedFor(some.method, question, batch, outline), session));
+              readWanted(file, outline, wantedFor(some.method, question, batch, outline), session.context()));
     SightPairs pairs;
     for (const std::uint32_t row : batch) pairs.rows.push_back(lines[row]);
     ARETE_TRY(LosAnswers answered,

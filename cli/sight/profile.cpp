@@ -31,6 +31,7 @@
 #include "io/geo/table/point_table.h"
 #include "io/query/extract/batches.h"
 #include "io/query/extract/region_reader.h"
+#include "io/query/parts/asked_places.h"
 #include "terrain/sight/fresnel.h"
 #include "terrain/sight/paths.h"
 #include "terrain/sight/profile.h"
@@ -285,17 +286,11 @@ void warnOfGaps(const std::vector<Answer>& answers, const Session& session) {
         fmt::format("{:.6g} of {:.6g} m have no terrain below: outside the DEM, or on NODATA", gap, length));
 }
 
-/// The terrain that the ways require.
-RequiredError wantedFor(const std::vector<Way>& ways, std::span<const std::uint32_t> batch,
-                        const SightEarth& earth, const TerrainModel& outline) {
-  QueryFootprint wanted(outline);
-  for (const std::uint32_t i : batch) {
-    const Way& way = ways[i];
-    for (const Vec2 vertex : way.vertices) wanted.add(outline.toPlan(vertex));
-    if (const auto track = trackOf(way, earth, outline))
-      wanted.addTrack(*track);  // without a track, the answer is an error
-  }
-  return wanted.within(0);
+/// The vertices of some ways.
+std::vector<std::vector<Vec2>> linesOf(const std::vector<Way>& ways, std::span<const std::uint32_t> batch) {
+  std::vector<std::vector<Vec2>> lines;
+  for (const std::uint32_t i : batch) lines.push_back(ways[i].vertices);
+  return lines;
 }
 
 /// Draws the ground at full resolution below a line of sight, whose answer is of that terrain; else the
@@ -354,7 +349,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
     return failure(ErrorCode::usage, "a picture ends in .png", "--png " + a.png);
   ARETE_TRY(const AmtFile amt, openTerrain(a.model));
   // The outline places the lines, and the lines decide which terrain is read.
-  ARETE_TRY(const TerrainModel outline, outlineOf(amt, session));
+  ARETE_TRY(const TerrainModel outline, outlineOf(amt, session.context()));
   for (const auto& [option, path] : {std::pair{"--output", a.output}, {"--png", a.png}})
     if (!path.empty()) ARETE_CHECK(checkOutput(option, path, {a.model, a.along, outline.source}));
   const Georeference& dem = outline.georeference;
@@ -377,7 +372,8 @@ Status runProfile(const ProfileArguments& a, Session& session) {
   std::optional<PartAndProfiles> part;  // of the last batch: a picture is of the only one
   ARETE_CHECK(answerInBatches(places, [&](std::span<const std::uint32_t> batch) -> Status {
     part.reset();
-    ARETE_TRY(TerrainModel model, readWanted(amt, outline, wantedFor(ways, batch, *earth, outline), session));
+    const RequiredError wanted = wantedAlong(linesOf(ways, batch), *earth, outline);
+    ARETE_TRY(TerrainModel model, readWanted(amt, outline, wanted, session.context()));
     part.emplace(std::move(model), isFull);
     for (const std::uint32_t i : batch) {
       if (session.context().cancelled()) return failure(ErrorCode::interrupted, "the query was stopped");

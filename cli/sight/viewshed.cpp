@@ -33,7 +33,7 @@
 #include "io/geo/dem/raster_writer.h"
 #include "io/geo/polygons/polygon_file.h"
 #include "io/geo/table/sight_pairs.h"
-#include "io/query/extract/query_footprint.h"
+#include "io/query/parts/asked_places.h"
 #include "io/store/amt/file.h"
 #include "terrain/sight/paths.h"
 #include "terrain/viewshed/many.h"
@@ -150,19 +150,12 @@ Result<RequiredError> wantedFor(const ViewshedArguments& a, std::span<const Plac
                                 const SightEarth& earth, const TerrainModel& outline,
                                 const RunContext& context) {
   if (!a.png.empty() && !a.like.empty()) return RequiredError();
-  QueryFootprint places(outline);
-  for (std::size_t i = 0; i < observers.size(); ++i) {
-    const PlacedObserver& observer = observers[i];
-    context.report("find what is in range", static_cast<double>(i) / static_cast<double>(observers.size()));
-    if (context.cancelled()) return failure(ErrorCode::interrupted, "the viewshed was stopped");
-    if (!std::isfinite(observer.field.greatestMetres)) return RequiredError();
-    const Vec2 plan = sightPlan(outline, observer.position.xy);
-    places.add(plan);
-    places.addDisc(earth, plan, observer.field.greatestMetres);
-  }
+  std::vector<AskedRange> ranges;
+  for (const PlacedObserver& observer : observers)
+    ranges.push_back({observer.position.xy, observer.field.greatestMetres});
   constexpr double kMapMargin = 0.08;  // more than that of the map
-  if (!a.png.empty()) places.addRectangle(kMapMargin);
-  return places.within(0);
+  return wantedInRange(ranges, earth, outline, a.png.empty() ? std::nullopt : std::optional(kMapMargin),
+                       context);
 }
 
 /// Resolves the observers' heights on the model.
@@ -386,7 +379,7 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
   ARETE_CHECK(a.check());
   ARETE_TRY(auto options, a.options());
   ARETE_TRY(const AmtFile file, openTerrain(a.model));
-  ARETE_TRY(const TerrainModel outline, outlineOf(file, session));
+  ARETE_TRY(const TerrainModel outline, outlineOf(file, session.context()));
   ARETE_CHECK(
       checkGroundUnits(outline.georeference, {a.fieldOfView.greatestWithUnit, a.fieldOfView.leastWithUnit}));
   ARETE_TRY(options.targetHeight, lengthOf("--target-height", a.targetHeight, outline.georeference));
@@ -402,7 +395,7 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
                    a.mode == Mode::height ? "--mode height" : "--mode horizon");
   ARETE_TRY(const auto earth, a.sight.makeEarth(outline, session));
   ARETE_TRY(const auto wanted, wantedFor(a, placed, *earth, outline, session.context()));
-  ARETE_TRY(const TerrainModel model, readWanted(file, outline, wanted, session));
+  ARETE_TRY(const TerrainModel model, readWanted(file, outline, wanted, session.context()));
   ARETE_TRY(const auto observers, sitesOf(placed, model));
   return answer({a, model, *earth, options, observers, maxError}, session);
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <memory>
+#include <utility>
 
 #include "engine/base/caught_failure.h"
 #include "engine/criteria/criterion.h"
@@ -13,8 +15,10 @@
 #include "io/formats/exchange/export_tin.h"
 #include "io/geo/crs/reader.h"
 #include "io/query/extract/model_file.h"
-#include "io/store/amt/surface_file.h"
+#include "io/query/request/extract_request.h"
+#include "io/query/surface/surface_part.h"
 #include "io/store/format/layout.h"
+#include "surface/model/surface_model.h"
 
 namespace arete {
 namespace {
@@ -23,6 +27,20 @@ namespace fs = std::filesystem;
 
 /// Overviews end where they are smaller than this.
 constexpr int kLeastOverview = 128;
+
+struct FineSurface {
+  MultiTriangulation mt;  ///< of the part that was read
+  Cut cut;
+};
+
+/// The minimal cut at a tolerance, with what it needs of the file: of pages a part, else everything.
+Result<FineSurface> surfaceWithin(const AmtContainer& file, const SurfaceModel& outline, double tolerance) {
+  ExtractRequest request;
+  request.criterion.maxError = tolerance;
+  ARETE_TRY(SurfaceModel part, readForExtract(file, {&request, 1}, outline));
+  ARETE_TRY(Cut cut, takeCut(part.mt, UniformError(tolerance)));
+  return FineSurface{std::move(part.mt), std::move(cut)};
+}
 
 }  // namespace
 
@@ -97,13 +115,17 @@ Status AmtDataset::openSurface(const AmtContainer& container, const DriverOption
         ErrorCode::unsupported,
         "is of a surface, which has no single height over a place: it opens as a layer of triangles",
         container.path());
-  ARETE_TRY(SurfaceModel model, runAsGuest([&] { return loadSurfaceAmt(container); }));
-  ARETE_CHECK(takeCrs(model.crsWkt));
-  SetMetadataItem("SOURCE", fs::path(model.source).filename().c_str());
+  ARETE_TRY(SurfaceModel read, runAsGuest([&] { return readOutline(container); }));
+  const auto outline = std::make_shared<const SurfaceModel>(std::move(read));
+  ARETE_CHECK(takeCrs(outline->crsWkt));
+  SetMetadataItem("SOURCE", fs::path(outline->source).filename().c_str());
   SetMetadataItem("TOLERANCE", CPLSPrintf("%.9g", options.tolerance));
+  // As of terrain, the triangles are read when features are.
   layer_ = std::make_unique<TriangleLayer>(
-      "triangles", crs_, [mt = model.mt, tolerance = options.tolerance]() -> Result<PlacedTriangles> {
-        ARETE_TRY(const Cut cut, runAsGuest([&] { return takeCut(mt, UniformError(tolerance)); }));
+      "triangles", crs_, [container, outline, tolerance = options.tolerance]() -> Result<PlacedTriangles> {
+        ARETE_TRY(const FineSurface fine,
+                  runAsGuest([&] { return surfaceWithin(container, *outline, tolerance); }));
+        const auto& [mt, cut] = fine;
         TriangleMesh mesh{{}, cut.triangles};
         for (const std::uint32_t v : cut.vertices) mesh.positions.push_back(mt.position(VertexId(v)));
         std::vector<float> errors;

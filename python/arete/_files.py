@@ -11,7 +11,12 @@ from ._surface import Surface
 
 
 def open(path: PathLike, progress: Progress = None) -> Union[Model, Surface]:  # noqa: A001
-    """Opens an .amt file, also by its address ("https://..."): a Model of terrain or a Surface."""
+    """Opens an .amt file, also by its address ("https://..."): a Model of terrain or a Surface.
+
+    Of a file in pages (save(paged=True)) the root is read, and each question reads the pages that it needs, with the answers of
+    the whole: cuts, and of terrain height(), profile(), los() and viewshed(). Fits, measure(), validate(), certificates, maps
+    and rasters, curve(at=), save() and the source's grid need everything: the first of them reads the whole, which is kept.
+    """
     name = os.fspath(path)
     # An address, also within a path of GDAL, is no path of this machine.
     if "://" not in name and not name.startswith("/vsi"):

@@ -22,7 +22,7 @@ from ._sizes import Size, count_of, counted, size_of
 
 
 class Model(Stored):
-    """The multitriangulation of a terrain."""
+    """The multitriangulation of a terrain. One in pages reads what each question needs (open()); several threads may ask it."""
 
     def __init__(self, terrain: _arete.Terrain, path: Optional[str] = None, files: Sequence[str] = ()):
         super().__init__(terrain, path, files)

@@ -18,7 +18,7 @@ from ._sizes import Size, count_of, counted, size_of
 
 
 class Surface(Stored):
-    """The multitriangulation of a triangle mesh."""
+    """The multitriangulation of a triangle mesh. One in pages reads what each cut needs (open()); several threads may ask it."""
 
     def __init__(self, surface: _arete.Surface, path: Optional[str] = None, files: Sequence[str] = ()):
         super().__init__(surface, path, files)

@@ -12,6 +12,7 @@
 
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
+#include "engine/cut/error_curve.h"
 #include "engine/laws/law.h"
 #include "io/geo/crs/names.h"
 #include "io/geo/dem/dem_reader.h"
@@ -20,7 +21,6 @@
 #include "surface/laws/validate_surface.h"
 #include "terrain/laws/compare_source.h"
 #include "terrain/laws/validate_model.h"
-#include "engine/cut/error_curve.h"
 
 namespace arete::python {
 namespace {
@@ -29,17 +29,19 @@ namespace py = pybind11;
 using Json = nlohmann::ordered_json;
 
 /// What both kinds of models say.
-Json commonFacts(const MultiTriangulation& mt) {
-  return {{"vertices", mt.vertexCount()},
-          {"triangles", mt.triangleCount()},
-          {"finestTriangles", mt.finestTriangleCount()},
+Json commonFacts(const auto& model) {
+  const MultiTriangulation& mt = model.outline().mt;
+  return {{"vertices", model.vertexCount()},
+          {"triangles", model.triangleCount()},
+          {"finestTriangles", model.finestTriangleCount()},
           {"rootTriangles", mt.rootTriangleCount()},
           {"rootVertices", mt.rootVertexCount()},
-          {"rootError", mt.largestError()}};
+          {"rootError",
+           call(py::none(), [&](const RunContext& context) { return model.largestError(context); })}};
 }
 
 std::string terrainFacts(const Terrain& terrain) {
-  const TerrainModel& model = terrain.model();
+  const TerrainModel& model = terrain.outline();
   Json facts = {{"kind", "terrain"},
                 {"source", model.source},
                 {"sourceChecksum", model.sourceChecksum},
@@ -47,9 +49,9 @@ std::string terrainFacts(const Terrain& terrain) {
                 {"verticalUnit", model.georeference.verticalUnit},
                 {"verticalDatum", model.georeference.verticalDatum},
                 {"relief", terrain.relief()},
-                {"samples", std::uint64_t(model.mt.vertexCount()) + model.isolated.size()},
+                {"samples", terrain.vertexCount() + model.isolated.size()},
                 {"isolated", model.isolated.size()}};
-  facts.update(commonFacts(model.mt));
+  facts.update(commonFacts(terrain));
   facts["levels"] = model.levels;
   facts["shape"] = toString(model.options.shape);
   facts["ratio"] = model.options.thresholdRatioOrDefault();
@@ -62,7 +64,7 @@ std::string terrainFacts(const Terrain& terrain) {
 /// The arguments of measure() by which the source is read as the build read it; a rim that may be moved
 /// covers NODATA.
 std::string terrainReading(const Terrain& terrain) {
-  const SourceReading& reading = terrain.model().reading;
+  const SourceReading& reading = terrain.outline().reading;
   Json json = Json::object();
   if (reading.band) json["band"] = *reading.band;
   for (const auto& [name, text] : {std::pair{"layer", &reading.layer},
@@ -73,11 +75,12 @@ std::string terrainReading(const Terrain& terrain) {
     if (!text->empty()) json[name] = *text;
   if (reading.nodata) json["nodata"] = *reading.nodata;
   if (reading.isDepth) json["positive"] = *reading.isDepth ? "down" : "up";
-  if (terrain.model().options.rimTolerance > 0) json["allowCoveredNodata"] = true;
+  if (terrain.outline().options.rimTolerance > 0) json["allowCoveredNodata"] = true;
   return json.dump();
 }
 
-std::string surfaceFacts(const SurfaceModel& model) {
+std::string surfaceFacts(const OpenSurface& surface) {
+  const SurfaceModel& model = surface.outline();
   Json facts = {{"kind", "surface"},
                 {"source", model.source},
                 {"crs", crsName(model.crsWkt)},
@@ -87,7 +90,7 @@ std::string surfaceFacts(const SurfaceModel& model) {
                 {"positionError", model.positionError},
                 {"displacement", !model.displacement.isEmpty()},
                 {"boundsLines", model.boundsLines}};
-  facts.update(commonFacts(model.mt));
+  facts.update(commonFacts(surface));
   facts["levels"] = model.levels;
   return facts.dump();
 }
@@ -97,17 +100,22 @@ using Points = std::vector<std::tuple<double, std::uint64_t, std::uint64_t>>;
 /// @param at  errors; none: the ladder of the model
 Points terrainCurve(const Terrain& terrain, std::vector<double> at, std::size_t most,
                     const py::object& progress) {
-  const auto curve = call(progress, [&](const RunContext& context) {
-    if (at.empty()) at = toleranceLadder(terrain.model().mt, most);
-    return errorCurve(terrain.model().mt, at, context);
+  const auto curve = call(progress, [&](const RunContext& context) -> Result<std::vector<CurvePoint>> {
+    if (at.empty())
+      if (auto stated = terrain.statedCurve(most)) return std::move(*stated);
+    ARETE_TRY(const auto all, terrain.whole(context));
+    if (at.empty()) at = toleranceLadder(all->model.mt, most);
+    return errorCurve(all->model.mt, at, context);
   });
   Points points;
   for (const CurvePoint& p : curve) points.emplace_back(p.maxError, p.minimalTriangles, p.saturatedTriangles);
   return points;
 }
 
-Points surfaceCurve(const SurfaceModel& model, const std::vector<double>& at, const py::object& progress) {
+Points surfaceCurve(const OpenSurface& surface, const std::vector<double>& at, const py::object& progress) {
   return call(progress, [&](const RunContext& context) -> Result<Points> {
+    ARETE_TRY(const auto all, surface.whole(context));
+    const SurfaceModel& model = *all;
     Points points;
     for (const double error : at) {
       ARETE_TRY(const Cut cut, takeCut(model.mt, UniformError(error), {}, context));
@@ -141,7 +149,8 @@ std::string validateTerrain(const Terrain& terrain, std::uint32_t fronts, std::u
                             const py::object& progress) {
   Warnings warnings;
   std::string answer = call(progress, [&](const RunContext& context) -> Result<std::string> {
-    const TerrainModel& model = terrain.model();
+    ARETE_TRY(const auto all, terrain.whole(context));
+    const TerrainModel& model = all->model;
     ErrorsChecked checked;
     Status valid = validateModel(model, {.randomFronts = fronts, .seed = seed, .everyTriangle = isFull},
                                  context, &checked);
@@ -172,9 +181,10 @@ std::string validateTerrain(const Terrain& terrain, std::uint32_t fronts, std::u
   return answer;
 }
 
-std::string validateOneSurface(const SurfaceModel& model, bool isFull, const py::object& progress) {
+std::string validateOneSurface(const OpenSurface& surface, bool isFull, const py::object& progress) {
   return call(progress, [&](const RunContext& context) -> Result<std::string> {
-    const Status valid = validateSurface(model, {.everySample = isFull}, context);
+    ARETE_TRY(const auto all, surface.whole(context));
+    const Status valid = validateSurface(*all, {.everySample = isFull}, context);
     ARETE_TRY(Json json, verdictOf(valid));
     if (valid)
       for (const Law& law : kLaws)
@@ -189,17 +199,17 @@ std::string validateOneSurface(const SurfaceModel& model, bool isFull, const py:
 void defineQuestions(py::class_<Terrain, std::shared_ptr<Terrain>>& terrain) {
   terrain.def("facts", &terrainFacts)
       .def("reading", &terrainReading)
-      .def("other_files", [](const Terrain& t) { return t.model().reading.otherFiles; })
+      .def("other_files", [](const Terrain& t) { return t.outline().reading.otherFiles; })
       .def_property_readonly("root_triangle_count",
-                             [](const Terrain& t) { return t.model().mt.rootTriangleCount(); })
+                             [](const Terrain& t) { return t.outline().mt.rootTriangleCount(); })
       .def("curve", &terrainCurve)
       .def("validate", &validateTerrain);
 }
 
-void defineQuestions(py::class_<SurfaceModel, std::shared_ptr<SurfaceModel>>& surface) {
+void defineQuestions(py::class_<OpenSurface, std::shared_ptr<OpenSurface>>& surface) {
   surface.def("facts", &surfaceFacts)
       .def_property_readonly("root_triangle_count",
-                             [](const SurfaceModel& m) { return m.mt.rootTriangleCount(); })
+                             [](const OpenSurface& s) { return s.outline().mt.rootTriangleCount(); })
       .def("curve", &surfaceCurve)
       .def("validate", &validateOneSurface);
 }

@@ -5,13 +5,13 @@
 
 #include <memory>
 
+#include "io/query/parts/open_surface.h"
 #include "python/bindings/terrain.h"
-#include "surface/model/surface_model.h"
 
 namespace arete::python {
 
 /// What is in a model, how many triangles which error takes, which laws hold.
 void defineQuestions(pybind11::class_<Terrain, std::shared_ptr<Terrain>>& terrain);
-void defineQuestions(pybind11::class_<SurfaceModel, std::shared_ptr<SurfaceModel>>& surface);
+void defineQuestions(pybind11::class_<OpenSurface, std::shared_ptr<OpenSurface>>& surface);
 
 }  // namespace arete::python

@@ -16,6 +16,7 @@
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/crs/position_argument.h"
 #include "io/geo/dem/clutter_raster.h"
+#include "io/query/parts/asked_places.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
 #include "python/bindings/region.h"
@@ -54,15 +55,15 @@ Result<NodataSight> nodataOf(const SightRequest& request) {
 }
 
 /// An end above the ground, in plan coordinates and from the DEM's zero.
-Result<std::pair<Vec2, double>> endOf(const Terrain& terrain, const LongitudeTurns& turns, const double* xyh,
-                                      const std::string& culprit) {
+Result<std::pair<Vec2, double>> endOf(const LocatedTerrain& ground, const LongitudeTurns& turns,
+                                      const double* xyh, const std::string& culprit) {
   const Vec2 xy = turns({xyh[0], xyh[1]});
   if (!std::isfinite(xyh[2])) return failure(ErrorCode::usage, "has no height", culprit);
-  const auto height = demHeight({xy, xyh[2], HeightKind::aboveGround}, terrain.heights());
+  const auto height = demHeight({xy, xyh[2], HeightKind::aboveGround}, ground.heights);
   if (!height)
     return failure(ErrorCode::usage, height.error().message,
                    fmt::format("{} at {}", culprit, height.error().culprit));
-  return std::pair{sightPlan(terrain.model(), xy), *height};
+  return std::pair{sightPlan(ground.model, xy), *height};
 }
 
 namespace {
@@ -102,6 +103,19 @@ Result<SightPathOptions> pathOptionsOf(const LosRequest& request, const TerrainM
   return options;
 }
 
+/// What the lines between some ends require; all of the model where the method reads all samples.
+RequiredError wantedFor(SightMethod method, const LongitudeTurns& turns, const Doubles& from,
+                        const Doubles& to, const SightEarth& earth, const Terrain& terrain) {
+  if (method != SightMethod::descent || !terrain.isInParts()) return {};
+  std::vector<std::array<Vec2, 2>> ends;
+  for (py::ssize_t i = 0; i < from.shape(0); ++i) {
+    const double* const a = from.data() + 3 * i;
+    const double* const b = to.data() + 3 * i;
+    ends.push_back({turns({a[0], a[1]}), turns({b[0], b[1]})});
+  }
+  return wantedBetween(ends, earth, terrain.outline());
+}
+
 /// @param from,to rows of x, y, height above the ground
 /// @return verdicts, and rows of clearance, distance, x and y of the obstruction, azimuth, elevation and part
 /// of the Fresnel zone
@@ -109,20 +123,22 @@ py::tuple los(const Terrain& terrain, const Doubles& from, const Doubles& to, co
               const py::object& progress) {
   const auto count = static_cast<std::size_t>(from.shape(0));
   const auto answers = call(progress, [&](const RunContext& context) -> Result<std::vector<SightPathAnswer>> {
-    const TerrainModel& model = terrain.model();
-    ARETE_TRY(const auto earth, makeEarth(request.sight, model));
-    ARETE_TRY(const SightPathOptions options, pathOptionsOf(request, model, context));
-    const LongitudeTurns turns(model);
+    const TerrainModel& outline = terrain.outline();
+    ARETE_TRY(const auto earth, makeEarth(request.sight, outline));
+    ARETE_TRY(const SightPathOptions options, pathOptionsOf(request, outline, context));
+    ARETE_TRY(const SightMethod method, methodOf(request, count, outline));
+    const LongitudeTurns turns(outline);
+    ARETE_TRY(const auto ground, terrain.at(wantedFor(method, turns, from, to, *earth, terrain), context));
+    const TerrainModel& model = ground->model;
     std::vector<SightPath> paths;
     for (std::size_t i = 0; i < count; ++i) {
-      ARETE_TRY(const auto first, endOf(terrain, turns, from.data() + 3 * i, fmt::format("observer {}", i)));
-      ARETE_TRY(const auto second, endOf(terrain, turns, to.data() + 3 * i, fmt::format("target {}", i)));
+      ARETE_TRY(const auto first, endOf(*ground, turns, from.data() + 3 * i, fmt::format("observer {}", i)));
+      ARETE_TRY(const auto second, endOf(*ground, turns, to.data() + 3 * i, fmt::format("target {}", i)));
       paths.push_back({first.first, second.first, first.second, second.second});
     }
     // Profiles at full resolution walk over the cells of a raster.
     const bool hasProfiles = request.frequency > 0 || options.clutter.height;
     const auto grid = hasProfiles && model.isRaster ? std::make_shared<const SightGrid>(model) : nullptr;
-    ARETE_TRY(const SightMethod method, methodOf(request, count, model));
     ARETE_TRY(const auto engine, makeSightEngine(method, model, grid, context));
     const Profiles profiles(model, grid);
     ARETE_TRY(const auto found, answerPaths(paths, *earth, *engine, profiles, options, context));
@@ -145,7 +161,7 @@ py::tuple los(const Terrain& terrain, const Doubles& from, const Doubles& to, co
     const SightAnswer& answer = path.sight;
     verdicts.emplace_back(toString(answer.verdict));
     const Vec2 at =
-        answer.obstruction ? terrain.model().toSource(answer.obstruction->plan) : Vec2{kNone, kNone};
+        answer.obstruction ? terrain.outline().toSource(answer.obstruction->plan) : Vec2{kNone, kNone};
     for (const double number :
          {answer.clearance.value_or(kNone), path.distanceMetres, at.x, at.y, path.azimuthDegrees,
           path.elevationDegrees, path.fresnel ? path.fresnel->fraction : kNone})
@@ -159,21 +175,23 @@ py::tuple los(const Terrain& terrain, const Doubles& from, const Doubles& to, co
 /// @param ends two rows of x, y, height above the ground
 py::tuple sightOver(const Terrain& terrain, const Doubles& ends, const Doubles& distances,
                     const std::string& earthName, std::optional<double> refraction, double frequency) {
-  const TerrainModel& model = terrain.model();
-  const Result<SightLine> line = [&]() -> Result<SightLine> {
-    ARETE_TRY(const auto earth, makeEarth({earthName, "unknown", refraction}, model));
-    const LongitudeTurns turns(model);
-    ARETE_TRY(const auto first, endOf(terrain, turns, ends.data(), "observer"));
-    ARETE_TRY(const auto second, endOf(terrain, turns, ends.data() + 3, "target"));
-    return sightLine({first.first, second.first, first.second, second.second}, *earth, model);
-  }();
-  if (!line) raise(line.error());
+  const TerrainModel& outline = terrain.outline();
+  const SightLine line = call(py::none(), [&](const RunContext& context) -> Result<SightLine> {
+    ARETE_TRY(const auto earth, makeEarth({earthName, "unknown", refraction}, outline));
+    const LongitudeTurns turns(outline);
+    const std::array places = {outline.toPlan(turns({ends.data()[0], ends.data()[1]})),
+                               outline.toPlan(turns({ends.data()[3], ends.data()[4]}))};
+    ARETE_TRY(const auto ground, terrain.at(wantedAt(places, outline), context));
+    ARETE_TRY(const auto first, endOf(*ground, turns, ends.data(), "observer"));
+    ARETE_TRY(const auto second, endOf(*ground, turns, ends.data() + 3, "target"));
+    return sightLine({first.first, second.first, first.second, second.second}, *earth, outline);
+  });
   Doubles heights(distances.size()), radii(distances.size());
   const double wavelength = frequency > 0 ? wavelengthMetres(frequency) : 0;
   for (py::ssize_t i = 0; i < distances.size(); ++i) {
     const double s = distances.data()[i];
-    heights.mutable_data()[i] = line->height(s);
-    radii.mutable_data()[i] = fresnelRadius(wavelength, s, line->length()) / line->heightUnitMetres();
+    heights.mutable_data()[i] = line.height(s);
+    radii.mutable_data()[i] = fresnelRadius(wavelength, s, line.length()) / line.heightUnitMetres();
   }
   return py::make_tuple(heights, radii);
 }
@@ -182,14 +200,16 @@ py::tuple sightOver(const Terrain& terrain, const Doubles& ends, const Doubles& 
 /// @return distances, places, heights, and the part of each vertex; the length and how much of it has none
 py::tuple profile(const Terrain& terrain, const Doubles& line, double maxError, const std::string& earthName,
                   std::optional<double> refraction, const py::object& progress) {
-  const Profile found = call(progress, [&](const RunContext&) -> Result<Profile> {
-    const TerrainModel& model = terrain.model();
-    ARETE_TRY(const auto earth, makeEarth({earthName, "unknown", refraction}, model));
-    const LongitudeTurns turns(model);
+  const TerrainModel& outline = terrain.outline();
+  const Profile found = call(progress, [&](const RunContext& context) -> Result<Profile> {
+    ARETE_TRY(const auto earth, makeEarth({earthName, "unknown", refraction}, outline));
+    const LongitudeTurns turns(outline);
     std::vector<Vec2> places;
     for (py::ssize_t i = 0; i < line.shape(0); ++i)
       places.push_back({line.data()[2 * i], line.data()[2 * i + 1]});
     turns.apply(places);
+    ARETE_TRY(const auto ground, terrain.at(wantedAlong({&places, 1}, *earth, outline), context));
+    const TerrainModel& model = ground->model;
     for (Vec2& place : places) place = sightPlan(model, place);
     ARETE_TRY(const auto track, trackAlong(places, *earth));
     const Profiles profiles(
@@ -202,7 +222,7 @@ py::tuple profile(const Terrain& terrain, const Doubles& line, double maxError, 
   std::int64_t part = 0;
   for (py::ssize_t i = 0; i < count; ++i) {
     const ProfileVertex& v = found.vertices[static_cast<std::size_t>(i)];
-    const Vec2 xy = terrain.model().toSource(v.plan);
+    const Vec2 xy = outline.toSource(v.plan);
     part += !v.isJoined;
     distances.mutable_data()[i] = v.distance;
     heights.mutable_data()[i] = v.height;
@@ -218,7 +238,8 @@ py::dict measureMesh(const Terrain& terrain, const Doubles& vertices, const Indi
   Warnings warnings;
   const MeasureReport report = call(progress, [&](const RunContext& context) -> Result<MeasureReport> {
     const TriangleMesh mesh = meshOf(vertices, triangles);
-    const TerrainModel& model = terrain.model();
+    ARETE_TRY(const auto all, terrain.whole(context));
+    const TerrainModel& model = all->model;
     const auto against = [&](const auto& samples) -> Result<MeasureReport> {
       std::vector<std::uint8_t> mask;
       if (region) {

@@ -28,8 +28,9 @@ Result<std::unique_ptr<SightEarth>> makeEarth(const SightRequest& request, const
 Result<NodataSight> nodataOf(const SightRequest& request);
 
 /// An end above the ground, in plan coordinates and from the DEM's zero. Errors: usage, naming the end.
-Result<std::pair<Vec2, double>> endOf(const Terrain& terrain, const LongitudeTurns& turns, const double* xyh,
-                                      const std::string& culprit);
+/// @param ground  what was read at the end
+Result<std::pair<Vec2, double>> endOf(const LocatedTerrain& ground, const LongitudeTurns& turns,
+                                      const double* xyh, const std::string& culprit);
 
 /// Lines of sight, viewsheds, and what a mesh is off the terrain.
 void defineSight(pybind11::class_<Terrain, std::shared_ptr<Terrain>>& terrain);

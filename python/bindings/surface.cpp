@@ -16,7 +16,8 @@
 #include <variant>
 
 #include "io/query/extract/extract.h"
-#include "io/query/extract/model.h"
+#include "io/query/parts/lasting_file.h"
+#include "io/query/parts/open_surface.h"
 #include "io/query/surface/build_model.h"
 #include "io/query/surface/extractor.h"
 #include "io/query/surface/region.h"
@@ -36,7 +37,7 @@ namespace arete::python {
 namespace {
 
 namespace py = pybind11;
-using SurfacePtr = std::shared_ptr<SurfaceModel>;
+using SurfacePtr = std::shared_ptr<OpenSurface>;
 using AnyModel = std::variant<std::shared_ptr<Terrain>, SurfacePtr>;
 
 /// A region of space that Python keeps.
@@ -51,7 +52,7 @@ SurfacePtr buildOf(MeshInput input, const std::string& source, const SurfaceFile
     return buildSurfaceModel(std::move(input), source, options, context);
   });
   warn(built.warnings);
-  return std::make_shared<SurfaceModel>(std::move(built.model));
+  return std::make_shared<OpenSurface>(std::move(built.model));
 }
 
 SurfacePtr buildFile(const std::string& path, const SurfaceFileOptions& options, const py::object& progress) {
@@ -75,12 +76,17 @@ SurfacePtr buildArrays(const Doubles& vertices, const Indices& triangles, const 
   return buildOf(std::move(input), "arrays", options, progress);
 }
 
-CutTin takeSurfaceTin(const SurfaceModel& model, CutRequest request,
+CutTin takeSurfaceTin(const OpenSurface& surface, CutRequest request,
                       const std::optional<RegionOfSpace>& region, const std::optional<SurfaceCamera>& camera,
                       const py::object& progress) {
   if (region) request.spaceRegion = region->region;
   request.spaceCamera = camera;
-  Tin tin = call(progress, [&](const RunContext& context) { return cut(model, request, context); });
+  Tin tin = call(progress, [&](const RunContext& context) -> Result<Tin> {
+    ExtractRequest needed;
+    needed.criterion = request;
+    ARETE_TRY(const auto model, surface.forRequest(needed, context));
+    return cut(*model, request, context);
+  });
   constexpr std::string_view kBits = "positionBits";
   for (Warning& warning : tin.warnings)
     if (const std::size_t at = warning.sentence.find(kBits); at != std::string::npos)
@@ -90,7 +96,7 @@ CutTin takeSurfaceTin(const SurfaceModel& model, CutRequest request,
 }
 
 /// Cuts, writes and measures as `arete extract` does. Returns its report as JSON.
-std::string extractSurfaceTo(const SurfaceModel& model, CutRequest asked,
+std::string extractSurfaceTo(const OpenSurface& surface, CutRequest asked,
                              const std::optional<RegionOfSpace>& region, const std::string& regionText,
                              const std::optional<SurfaceCamera>& camera, const ExportFiles& files,
                              const py::object& progress) {
@@ -107,11 +113,16 @@ std::string extractSurfaceTo(const SurfaceModel& model, CutRequest asked,
     request.measuresBothWays = files.measuresBothWays;
     request.packedBits = files.packedBits;
     request.normals = files.normals;
+    ARETE_TRY(const auto model, surface.forRequest(request, context));
     SurfaceExtractor extractor(
-        model, files.model,
-        [&](const ExtractRequest&, double promised, std::uint64_t) { return files.check(promised); });
-    ARETE_TRY(ExtractedSurface surface, extractor.extract(request, context));
-    return toJson(request, ExtractReport(std::move(surface))).dump();
+        *model, files.model,
+        [&](const ExtractRequest&, double promised, std::uint64_t) { return files.check(promised); },
+        [&]() -> Result<SurfaceModel> {
+          ARETE_TRY(const auto all, surface.whole(context));
+          return *all;
+        });
+    ARETE_TRY(ExtractedSurface extracted, extractor.extract(request, context));
+    return toJson(request, ExtractReport(std::move(extracted))).dump();
   });
 }
 
@@ -126,21 +137,22 @@ py::dict oneWay(const DistanceOneWay& way) {
 
 /// From the source to the mesh, from the mesh to the source, and both together; each with how far rounding
 /// may have moved the source.
-py::dict measureSurfaceMesh(const SurfaceModel& model, const Doubles& vertices, const Indices& triangles,
+py::dict measureSurfaceMesh(const OpenSurface& surface, const Doubles& vertices, const Indices& triangles,
                             std::uint64_t samples, std::uint64_t seed, const py::object& progress) {
   const MeshDistanceReport report =
       callOn(true, progress, [&](const RunContext& context) -> Result<MeshDistanceReport> {
-        const SurfaceFront source = finestSurfaceOf(model);
+        ARETE_TRY(const auto model, surface.whole(context));
+        const SurfaceFront source = finestSurfaceOf(*model);
         auto measured = measureDistance(source.mesh.shape(), meshOf(vertices, triangles),
                                         {.samples = samples, .seed = seed}, context);
         // "second" is its name there.
         if (!measured && measured.error().culprit == "second")
           return failure(measured.error().code, measured.error().message, "mesh");
-        if (measured) measured->raise(model.positionError);
+        if (measured) measured->raise(model->positionError);
         return measured;
       });
   py::dict found;
-  found["position_error"] = model.positionError;
+  found["position_error"] = surface.outline().positionError;
   found["max_distance"] = report.hausdorff();
   found["at_most"] = report.hausdorffAtMost();
   found["mean"] = report.mean();
@@ -195,34 +207,42 @@ void defineModel(py::module_& module) {
         return SurfaceCamera{
             {eye[0], eye[1], eye[2]}, {target[0], target[1], target[2]}, fieldOfView, size[0], size[1]};
       }));
-  py::class_<SurfaceModel, SurfacePtr> surface(module, "Surface");
+  py::class_<OpenSurface, SurfacePtr> surface(module, "Surface");
   defineQuestions(surface);
   surface.def("cut", &takeSurfaceTin)
       .def("extract", &extractSurfaceTo)
       .def("measure", &measureSurfaceMesh)
       .def("save",
-           [](const SurfaceModel& model, const std::string& path, bool isPacked, bool isPaged,
-              int positionBits, const py::object& progress) {
-             call(progress, [&](const RunContext& context) {
+           [](const OpenSurface& of, const std::string& path, bool isPacked, bool isPaged, int positionBits,
+              const py::object& progress) {
+             call(progress, [&](const RunContext& context) -> Status {
+               const auto model = of.whole(context);
+               if (!model) return tl::unexpected(model.error());
                return writeSurfaceModel(
-                   path, model, context,
+                   path, **model, context,
                    {.isPacked = isPacked, .isPaged = isPaged, .positionBits = positionBits});
              });
            })
       .def_property_readonly("box",
-                             [](const SurfaceModel& m) {
-                               const auto box = boxOfSource(m);
+                             [](const OpenSurface& s) {
+                               const auto model = call(
+                                   py::none(), [&](const RunContext& context) { return s.whole(context); });
+                               const auto box = boxOfSource(*model);
                                return std::array{box[0].x, box[0].y, box[0].z, box[1].x, box[1].y, box[1].z};
                              })
-      .def_property_readonly("diagonal", [](const SurfaceModel& m) { return m.diagonal; })
-      .def_property_readonly("crs_wkt", [](const SurfaceModel& m) { return m.crsWkt; })
-      .def_property_readonly("source", [](const SurfaceModel& m) { return m.source; })
-      .def_property_readonly("position_error", [](const SurfaceModel& m) { return m.positionError; })
-      .def_property_readonly("is_displaced", [](const SurfaceModel& m) { return !m.displacement.isEmpty(); })
-      .def_property_readonly("largest_error", [](const SurfaceModel& m) { return m.mt.largestError(); })
-      .def_property_readonly("vertex_count", [](const SurfaceModel& m) { return m.mt.vertexCount(); })
-      .def_property_readonly("finest_triangle_count",
-                             [](const SurfaceModel& m) { return m.mt.finestTriangleCount(); });
+      .def_property_readonly("diagonal", [](const OpenSurface& s) { return s.outline().diagonal; })
+      .def_property_readonly("crs_wkt", [](const OpenSurface& s) { return s.outline().crsWkt; })
+      .def_property_readonly("source", [](const OpenSurface& s) { return s.outline().source; })
+      .def_property_readonly("position_error", [](const OpenSurface& s) { return s.outline().positionError; })
+      .def_property_readonly("is_displaced",
+                             [](const OpenSurface& s) { return !s.outline().displacement.isEmpty(); })
+      .def_property_readonly(
+          "largest_error",
+          [](const OpenSurface& s) {
+            return call(py::none(), [&](const RunContext& context) { return s.largestError(context); });
+          })
+      .def_property_readonly("vertex_count", &OpenSurface::vertexCount)
+      .def_property_readonly("finest_triangle_count", &OpenSurface::finestTriangleCount);
 }
 
 SurfaceFileOptions optionsOf(bool isDisplaced, bool keepsBorders, std::optional<double> ratio,
@@ -259,12 +279,16 @@ void defineSurface(py::module_& module) {
                        optionsOf(isDisplaced, keepsBorders, ratio, maxDegree, creaseAngle), progress);
   });
   module.def("open_model", [](const std::string& path, const py::object& progress) -> AnyModel {
-    // Not mapped: another program may truncate the file while this one goes on.
-    Model model = call(
-        progress, [&](const RunContext& context) { return openModel(path, {.isCopied = true}, context); });
-    if (auto* const terrain = std::get_if<TerrainModel>(&model))
-      return std::make_shared<Terrain>(std::move(*terrain));
-    return std::make_shared<SurfaceModel>(std::get<SurfaceModel>(std::move(model)));
+    return call(progress, [&](const RunContext& context) -> Result<AnyModel> {
+      ARETE_TRY(LastingFile file, LastingFile::open(path, context));
+      ARETE_TRY(const AmtContainer container, file.current(context));
+      if (container.isOfSurface()) {
+        ARETE_TRY(auto surface, OpenSurface::open(std::move(file), context));
+        return AnyModel(std::move(surface));
+      }
+      ARETE_TRY(auto terrain, OpenTerrain::open(std::move(file), context));
+      return AnyModel(std::move(terrain));
+    });
   });
 }
 

@@ -20,6 +20,7 @@
 #include "io/geo/dem/raster_writer.h"
 #include "io/query/extract/extract.h"
 #include "io/query/extract/tin.h"
+#include "io/query/parts/asked_places.h"
 #include "io/store/amt/file.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
@@ -44,7 +45,7 @@ struct CameraNumbers {
   double azimuth = 0, pitch = 0, fieldOfView = 0, width = 0, heightOfPicture = 0;
 };
 
-Result<Camera> cameraOf(const CameraNumbers& n, const Terrain& terrain) {
+Result<Camera> cameraOf(const CameraNumbers& n, const Terrain& terrain, const RunContext& context) {
   HeightKind kind = HeightKind::aboveGround;
   if (n.kind == "msl")
     kind = HeightKind::seaLevel;
@@ -52,8 +53,13 @@ Result<Camera> cameraOf(const CameraNumbers& n, const Terrain& terrain) {
     kind = HeightKind::ellipsoidal;
   else if (n.kind != "agl")
     return failure(ErrorCode::usage, "is not one of agl, msl, ell", "reference=" + n.kind);
-  const Vec2 xy = LongitudeTurns(terrain.model())({n.x, n.y});
-  const auto height = demHeight({xy, n.height, kind}, terrain.heights());
+  const TerrainModel& outline = terrain.outline();
+  const Vec2 xy = LongitudeTurns(outline)({n.x, n.y}), plan = outline.toPlan(xy);
+  // A height above the ground needs the ground there.
+  const bool isAboveGround = kind == HeightKind::aboveGround;
+  ARETE_TRY(const auto ground,
+            terrain.at(isAboveGround ? wantedAt({&plan, 1}, outline) : requiredNowhere(), context));
+  const auto height = demHeight({xy, n.height, kind}, ground->heights);
   if (!height)
     return failure(ErrorCode::usage, height.error().message,
                    fmt::format("camera at {}", height.error().culprit));
@@ -66,6 +72,15 @@ Result<Camera> cameraOf(const CameraNumbers& n, const Terrain& terrain) {
                 .heightPixels = n.heightOfPicture};
 }
 
+/// A cut as a request, by which it is known what of the model it needs.
+ExtractRequest requestOf(const CutRequest& criterion) {
+  ExtractRequest request;
+  request.criterion = criterion;
+  if (criterion.camera && !criterion.pixelError && !criterion.maxTriangles) request.criterion.pixelError = 1;
+  if (criterion.planRegion) request.region = *criterion.planRegion;
+  return request;
+}
+
 /// What is asked for, with the places as the library takes them.
 /// @param isFile  the region is stated as text too, as an export has it
 Result<CutRequest> placedRequest(const Terrain& terrain, CutRequest request,
@@ -73,15 +88,15 @@ Result<CutRequest> placedRequest(const Terrain& terrain, CutRequest request,
                                  const std::optional<CameraNumbers>& camera, bool isFile, Warnings& warnings,
                                  const RunContext& context) {
   if (region) {
-    ARETE_TRY(Region inPlan, planRegionOf(*region, terrain.model(), warnings, context));
+    ARETE_TRY(Region inPlan, planRegionOf(*region, terrain.outline(), warnings, context));
     request.planRegion = std::make_shared<const Region>(std::move(inPlan));
     if (isFile) stateRegion(*region, request);
   }
   if (camera) {
-    ARETE_TRY(const auto placed, cameraOf(*camera, terrain));
+    ARETE_TRY(const auto placed, cameraOf(*camera, terrain, context));
     request.camera = placed;
   }
-  if (request.focus) request.focus->xy = LongitudeTurns(terrain.model())(request.focus->xy);
+  if (request.focus) request.focus->xy = LongitudeTurns(terrain.outline())(request.focus->xy);
   return request;
 }
 
@@ -91,7 +106,8 @@ CutTin takeTinOf(const Terrain& terrain, const CutRequest& asked, const std::opt
   Tin taken = call(progress, [&](const RunContext& context) -> Result<Tin> {
     ARETE_TRY(const CutRequest request,
               placedRequest(terrain, asked, region, camera, false, warnings, context));
-    return cut(terrain.model(), request, context);
+    ARETE_TRY(const auto taken, terrain.forRequest(requestOf(request), context));
+    return cut(*taken.model, request, context);
   });
   for (Warning& warning : warnings) warning = warning.behind("region: ");
   warn(warnings);
@@ -104,22 +120,26 @@ std::string extractTo(const Terrain& terrain, const CutRequest& asked,
                       const ExportFiles& files, const py::object& progress) {
   Warnings warnings;
   std::string answer = call(progress, [&](const RunContext& context) -> Result<std::string> {
-    ExtractRequest request;
+    ARETE_TRY(const CutRequest placed,
+              placedRequest(terrain, asked, region, camera, true, warnings, context));
+    ExtractRequest request = requestOf(placed);
     request.output = files.output;
     request.place = files.place;
     request.certificate = files.certificate;
     request.errorRaster = files.errorRaster;
     request.packedBits = files.packedBits;
-    ARETE_TRY(request.criterion, placedRequest(terrain, asked, region, camera, true, warnings, context));
-    if (request.criterion.camera && !request.criterion.pixelError && !request.criterion.maxTriangles)
-      request.criterion.pixelError = 1;
-    if (request.criterion.planRegion) request.region = *request.criterion.planRegion;
     for (const std::string& name : {files.output, files.errorRaster})
-      if (!name.empty()) ARETE_CHECK(checkExtractOutput(name, terrain.model()));
-    TinExtractor extractor(terrain.shared(), files.model, {},
-                           [&](const ExtractRequest&, double promised) { return files.check(promised); });
-    ARETE_TRY(ExtractedTin tin, extractor.extract(request, context));
-    const Georeference& georeference = terrain.model().georeference;
+      if (!name.empty()) ARETE_CHECK(checkExtractOutput(name, terrain.outline()));
+    ARETE_TRY(auto taken, terrain.forRequest(request, context));
+    TinExtractor extractor(
+        taken.model, files.model,
+        [&](const RunContext& of) -> Result<TerrainModel> {
+          ARETE_TRY(const auto all, terrain.whole(of));
+          return all->model;
+        },
+        [&](const ExtractRequest&, double promised) { return files.check(promised); });
+    ARETE_TRY(ExtractedTin tin, extractor.extract(request, context, std::move(taken.cut)));
+    const Georeference& georeference = terrain.outline().georeference;
     nlohmann::ordered_json lost = nlohmann::ordered_json::array();
     if (!georeference.crsWkt.empty() && !tin.format.saysCrs) lost.push_back("the CRS");
     if (!georeference.verticalUnit.empty() && !tin.format.saysVerticalUnit)
@@ -139,9 +159,16 @@ py::array_t<double> heightsAt(const Terrain& terrain, const Doubles& x, const Do
                               const py::object& progress) {
   std::vector<Vec2> places(static_cast<std::size_t>(x.size()));
   for (std::size_t i = 0; i < places.size(); ++i) places[i] = {x.data()[i], y.data()[i]};
-  LongitudeTurns(terrain.model()).apply(places);
-  const auto answers = call(
-      progress, [&](const RunContext& context) { return terrain.heights().at(places, maxError, context); });
+  const TerrainModel& outline = terrain.outline();
+  LongitudeTurns(outline).apply(places);
+  const auto answers =
+      call(progress, [&](const RunContext& context) -> Result<std::vector<std::optional<GroundHeight>>> {
+        std::vector<Vec2> plan;
+        if (terrain.isInParts())
+          for (const Vec2 place : places) plan.push_back(outline.toPlan(place));
+        ARETE_TRY(const auto ground, terrain.at(wantedAt(plan, outline), context));
+        return ground->heights.at(places, maxError, context);
+      });
   py::array_t<double> heights(static_cast<py::ssize_t>(places.size()));
   for (std::size_t i = 0; i < places.size(); ++i)
     heights.mutable_data()[i] = answers[i] ? answers[i]->height : std::numeric_limits<double>::quiet_NaN();
@@ -159,22 +186,15 @@ std::array<double, 4> boundsOf(const TerrainModel& model) {
 
 }  // namespace
 
-double Terrain::relief() const {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  const auto take = [&](double height) {
-    low = std::min(low, height);
-    high = std::max(high, height);
-  };
-  for (std::uint32_t v = 0; v < model_->mt.vertexCount(); ++v) take(model_->mt.position(VertexId(v)).z);
-  for (const IsolatedSample& one : model_->isolated) take(one.height);
-  return high >= low ? high - low : 0;
+OpenTerrain::Located wholeOf(const Terrain& terrain, const py::object& progress) {
+  return call(progress, [&](const RunContext& context) { return terrain.whole(context); });
 }
 
 namespace {
 
 /// Places of longitude and latitude in the CRS of the source: rows of x, y.
 Doubles fromLonLat(const Terrain& terrain, const Doubles& places) {
-  Result<CrsTransform> toSource = CrsTransform::fromLonLat(terrain.model().georeference);
+  Result<CrsTransform> toSource = CrsTransform::fromLonLat(terrain.outline().georeference);
   if (!toSource && toSource.error().culprit.empty()) toSource.error().culprit = "lonlat";
   if (!toSource) raise(toSource.error());
   std::vector<Vec2> all;
@@ -191,7 +211,7 @@ Doubles fromLonLat(const Terrain& terrain, const Doubles& places) {
 
 /// Columns, rows and GDAL's six numbers.
 py::tuple gridOf(const Terrain& terrain, double cell) {
-  const Result<CellGrid> grid = cellGridOf(terrain.model(), cell);
+  const Result<CellGrid> grid = cellGridOf(terrain.outline(), cell);
   if (!grid) raise(grid.error());
   return py::make_tuple(grid->columns, grid->rows, grid->geoTransform);
 }
@@ -199,7 +219,8 @@ py::tuple gridOf(const Terrain& terrain, double cell) {
 /// The heights of a raster as it was read, row by row; NaN: NODATA. A first column that is repeated is left
 /// out.
 py::array_t<double> samplesOf(const Terrain& terrain) {
-  const TerrainModel& model = terrain.model();
+  const OpenTerrain::Located all = wholeOf(terrain, py::none());
+  const TerrainModel& model = all->model;
   const RasterHeightfield field = model.rasterSamples();
   const std::size_t columns = sourceColumns(model);
   py::array_t<double> heights(
@@ -213,7 +234,7 @@ py::array_t<double> samplesOf(const Terrain& terrain) {
 
 /// Samples in no triangle, by number in the raster, and their heights.
 py::tuple isolatedOf(const Terrain& terrain) {
-  const auto& isolated = terrain.model().isolated;
+  const auto& isolated = terrain.outline().isolated;
   py::array_t<std::uint32_t> samples(static_cast<py::ssize_t>(isolated.size()));
   py::array_t<double> heights(static_cast<py::ssize_t>(isolated.size()));
   for (std::size_t i = 0; i < isolated.size(); ++i) {
@@ -243,35 +264,40 @@ void defineTerrain(py::module_& module) {
       .def("isolated", &isolatedOf)
       .def("samples", &samplesOf)
       .def_property_readonly("relief", &Terrain::relief)
-      .def_property_readonly("columns", [](const Terrain& t) { return t.model().columns; })
+      .def_property_readonly("columns", [](const Terrain& t) { return t.outline().columns; })
       .def("save",
            [](const Terrain& terrain, const std::string& path, bool isPacked, bool isPaged,
               const py::object& progress) {
              call(progress, [&](const RunContext& context) {
-               return writeAmt(path, terrain.model(), context,
+               const auto all = terrain.whole(context);
+               if (!all) return Status(tl::unexpected(all.error()));
+               return writeAmt(path, (*all)->model, context,
                                {.writer = {}, .isPacked = isPacked, .isPaged = isPaged});
              });
            })
-      .def_property_readonly("crs_wkt", [](const Terrain& t) { return t.model().georeference.crsWkt; })
+      .def_property_readonly("crs_wkt", [](const Terrain& t) { return t.outline().georeference.crsWkt; })
       .def_property_readonly("vertical_unit",
-                             [](const Terrain& t) { return t.model().georeference.verticalUnit; })
+                             [](const Terrain& t) { return t.outline().georeference.verticalUnit; })
       .def_property_readonly("geotransform",
                              [](const Terrain& t) -> std::optional<std::array<double, 6>> {
-                               const Georeference& g = t.model().georeference;
-                               if (!t.model().isRaster || !g.hasGeoTransform) return std::nullopt;
+                               const Georeference& g = t.outline().georeference;
+                               if (!t.outline().isRaster || !g.hasGeoTransform) return std::nullopt;
                                return g.geoTransform;
                              })
       .def_property_readonly("shape",
                              [](const Terrain& t) -> std::optional<std::array<std::uint32_t, 2>> {
-                               if (!t.model().isRaster) return std::nullopt;
-                               return std::array{t.model().rows, sourceColumns(t.model())};
+                               if (!t.outline().isRaster) return std::nullopt;
+                               return std::array{t.outline().rows, sourceColumns(t.outline())};
                              })
-      .def_property_readonly("bounds", [](const Terrain& t) { return boundsOf(t.model()); })
-      .def_property_readonly("source", [](const Terrain& t) { return t.model().source; })
-      .def_property_readonly("largest_error", [](const Terrain& t) { return t.model().mt.largestError(); })
-      .def_property_readonly("vertex_count", [](const Terrain& t) { return t.model().mt.vertexCount(); })
-      .def_property_readonly("finest_triangle_count",
-                             [](const Terrain& t) { return t.model().mt.finestTriangleCount(); });
+      .def_property_readonly("bounds", [](const Terrain& t) { return boundsOf(t.outline()); })
+      .def_property_readonly("source", [](const Terrain& t) { return t.outline().source; })
+      .def_property_readonly(
+          "largest_error",
+          [](const Terrain& t) {
+            return call(py::none(), [&](const RunContext& context) { return t.largestError(context); });
+          })
+      .def_property_readonly("vertex_count", &Terrain::vertexCount)
+      .def_property_readonly("finest_triangle_count", &Terrain::finestTriangleCount);
 }
 
 }  // namespace arete::python

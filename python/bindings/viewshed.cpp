@@ -16,6 +16,7 @@
 #include "engine/base/counted.h"
 #include "io/geo/crs/longitude_turns.h"
 #include "io/geo/dem/placed_grid.h"
+#include "io/query/parts/asked_places.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
 #include "python/bindings/sight.h"
@@ -97,14 +98,20 @@ struct ViewshedAnswer {
 Result<ViewshedAnswer> answerOf(const Terrain& terrain, const std::vector<std::array<double, 3>>& observers,
                                 const ViewshedRequest& request, Warnings& warnings,
                                 const RunContext& context) {
-  const TerrainModel& model = terrain.model();
-  ARETE_TRY(const auto earth, makeEarth(request.sight, model));
+  const TerrainModel& outline = terrain.outline();
+  ARETE_TRY(const auto earth, makeEarth(request.sight, outline));
   ARETE_TRY(ViewshedOptions options, viewshedOptionsOf(request));
-  const LongitudeTurns turns(model);
+  const LongitudeTurns turns(outline);
+  std::vector<AskedRange> ranges;
+  if (terrain.isInParts())
+    for (const auto& [x, y, height] : observers) ranges.push_back({turns({x, y}), request.radius});
+  ARETE_TRY(const RequiredError wanted, wantedInRange(ranges, *earth, outline, std::nullopt, context));
+  ARETE_TRY(const auto ground, terrain.at(wanted, context));
+  const TerrainModel& model = ground->model;
   std::vector<ViewshedSite> sites;
   for (std::size_t i = 0; i < observers.size(); ++i) {
     const std::string name = observers.size() == 1 ? "observer" : fmt::format("observer {}", i);
-    ARETE_TRY(const auto end, endOf(terrain, turns, observers[i].data(), name));
+    ARETE_TRY(const auto end, endOf(*ground, turns, observers[i].data(), name));
     sites.push_back({{end.first, end.second}, options.field});
   }
   ARETE_TRY(const auto maker, ViewshedMaker::make(model, *earth, {}, context));

@@ -25,7 +25,9 @@ std::int64_t ceilOf(std::int64_t numerator, std::int64_t denominator) {
 }  // namespace
 
 RasterErrorLaw::Sample RasterErrorLaw::sampleAt(std::int64_t x, std::int64_t y) const {
-  return {x, y, field_.heights[static_cast<std::size_t>(y) * field_.columns + static_cast<std::size_t>(x)]};
+  const std::int64_t row = y - top_;
+  if (row < 0 || row >= std::int64_t(field_.rows)) return {x, y, std::numeric_limits<double>::quiet_NaN()};
+  return {x, y, field_.heights[static_cast<std::size_t>(row) * field_.columns + static_cast<std::size_t>(x)]};
 }
 
 bool RasterErrorLaw::holds(std::uint32_t triangle) const {
@@ -33,8 +35,10 @@ bool RasterErrorLaw::holds(std::uint32_t triangle) const {
   const auto corners = mt_.corners(TriangleId(triangle));
   std::array<Sample, 3> corner;
   for (std::size_t i = 0; i < 3; ++i) {
+    // A corner may be in another row than those of the field.
     const std::uint32_t sample = mt_.vertices().samples[corners[i]];
-    corner[i] = sampleAt(sample % field_.columns, sample / field_.columns);
+    corner[i] = {sample % field_.columns, sample / field_.columns,
+                 mt_.vertices().height(VertexId(corners[i]))};
   }
   return holdsAtSamples(stored, corner) && holdsAlong(stored, corner[0], corner[1]) &&
          holdsAlong(stored, corner[1], corner[2]) && holdsAlong(stored, corner[2], corner[0]);
@@ -47,7 +51,9 @@ bool RasterErrorLaw::holdsAtSamples(const StoredErrors& stored, const std::array
   };
   const double area = double(left(a, b, c.x, c.y)), riseB = b.z - a.z, riseC = c.z - a.z;
   const double rises = std::abs(riseB) + std::abs(riseC);
-  for (std::int64_t y = std::min({a.y, b.y, c.y}), last = std::max({a.y, b.y, c.y}); y <= last; ++y) {
+  const std::int64_t first = std::max(std::min({a.y, b.y, c.y}), top_),
+                     last = std::min(std::max({a.y, b.y, c.y}), top_ + std::int64_t(field_.rows) - 1);
+  for (std::int64_t y = first; y <= last; ++y) {
     std::int64_t low = std::numeric_limits<std::int64_t>::min(),
                  high = std::numeric_limits<std::int64_t>::max();
     for (std::size_t i = 0; i < 3; ++i) {
@@ -85,7 +91,8 @@ bool RasterErrorLaw::holdsAlong(const StoredErrors& stored, const Sample& a, con
            holdAtCrossing(stored, a.vec(), b.vec(), p.vec(), q.vec());
   };
   const auto isInside = [&](std::int64_t x, std::int64_t y) {
-    return x >= 0 && y >= 0 && x + 1 < std::int64_t(field_.columns) && y + 1 < std::int64_t(field_.rows);
+    return x >= 0 && y >= top_ && x + 1 < std::int64_t(field_.columns) &&
+           y + 1 < top_ + std::int64_t(field_.rows);
   };
   const std::int64_t columns = std::abs(dx), rows = std::abs(dy);
   for (std::int64_t k = 1; k < columns; ++k) {

@@ -11,8 +11,10 @@ namespace arete::laws {
 class RasterErrorLaw : public ErrorLaw {
  public:
   /// @param mt  with lattice vertices
-  /// @param field  the samples of the model
-  RasterErrorLaw(const MultiTriangulation& mt, RasterHeightfield field) : mt_(mt), field_(std::move(field)) {}
+  /// @param field  the samples of the model, or of some of its rows, over which alone the law is checked then
+  /// @param top  the number of the field's first row
+  RasterErrorLaw(const MultiTriangulation& mt, RasterHeightfield field, std::int64_t top = 0)
+      : mt_(mt), field_(std::move(field)), top_(top) {}
 
   /// O(samples covered + length of the edges).
   bool holds(std::uint32_t triangle) const override;
@@ -29,6 +31,7 @@ class RasterErrorLaw : public ErrorLaw {
 
   const MultiTriangulation& mt_;
   RasterHeightfield field_;
+  std::int64_t top_;
 };
 
 }  // namespace arete::laws

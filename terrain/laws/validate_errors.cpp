@@ -52,10 +52,13 @@ std::vector<std::uint32_t> choose(const MultiTriangulation& mt, bool everyTriang
 }  // namespace
 
 Result<ErrorsChecked> validateErrors(const TerrainModel& model, const Cut& finest, bool everyTriangle,
-                                     std::uint64_t seed, const RunContext& context) try {
+                                     std::uint64_t seed, const RunContext& context,
+                                     const std::optional<ModelRows>& rows) try {
   const MultiTriangulation& mt = model.mt;
   std::unique_ptr<const laws::ErrorLaw> law;
-  if (model.isRaster)
+  if (rows)
+    law = std::make_unique<laws::RasterErrorLaw>(mt, samplesInRows(model, *rows), rows->first);
+  else if (model.isRaster)
     law = std::make_unique<laws::RasterErrorLaw>(mt, model.rasterSamples());
   else
     law = std::make_unique<laws::PointErrorLaw>(mt, finest);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "engine/base/result.h"
 #include "engine/cut/cut.h"
 #include "engine/parallel/run_context.h"
+#include "terrain/laws/model_rows.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {
@@ -21,8 +23,10 @@ struct ErrorsChecked {
 ///
 /// @param everyTriangle  false: of a large model the root's triangles and a random sample of the others
 /// @param finest  the finest front
+/// @param rows  of a part of a raster's model: where the law is checked; nothing: everywhere
 /// Errors: brokenPromise: the first triangle that fails; interrupted. O(samples covered by what is checked).
 Result<ErrorsChecked> validateErrors(const TerrainModel& model, const Cut& finest, bool everyTriangle,
-                                     std::uint64_t seed, const RunContext& context = {});
+                                     std::uint64_t seed, const RunContext& context = {},
+                                     const std::optional<ModelRows>& rows = std::nullopt);
 
 }  // namespace arete

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "engine/base/result.h"
 #include "engine/cut/cut.h"
 #include "engine/parallel/run_context.h"
+#include "terrain/laws/model_rows.h"
 #include "terrain/laws/validate_errors.h"
 #include "terrain/model/terrain_model.h"
 
@@ -18,6 +20,9 @@ struct ValidateModelOptions {
   std::uint64_t seed = 1;
   /// Whether law 10 is checked on every triangle, or on a sample where there are many.
   bool everyTriangle = false;
+  /// Of a part of a raster's model: rows of which it has every sample. Laws 8 and 10 are checked there, and
+  /// the checksum of the heights is not. Nothing: the model is whole.
+  std::optional<ModelRows> rows = {};
 };
 
 /// Checks the laws of a model: those of engine/laws/validate.h, and

@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// The checksum is XXH3 with 128 bits over the shape, the positions and the heights; every NaN is replaced by
-// the same one, and -0 by 0, so that the file format does not change the checksum.
 #include "terrain/model/heightfield.h"
 
 #include <fmt/format.h>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
-#include <limits>
-#include <memory>
-#include <new>
-
 #include "engine/base/caught_failure.h"
+#include "terrain/model/heights_checksum.h"
 
 namespace arete {
 
@@ -50,30 +41,12 @@ Status PointHeightfield::validate() const try {
 
 namespace {
 
-struct StateDeleter {
-  void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
-};
-
 std::string checksumOf(std::uint64_t a, std::uint64_t b, const std::vector<Vec2>& positions,
                        const std::vector<double>& heights) {
-  const std::unique_ptr<XXH3_state_t, StateDeleter> state(XXH3_createState());
-  if (!state) throw std::bad_alloc();
-  XXH3_128bits_reset(state.get());
-  const std::uint64_t shape[2] = {a, b};
-  XXH3_128bits_update(state.get(), shape, sizeof shape);
-  if (!positions.empty()) XXH3_128bits_update(state.get(), positions.data(), positions.size() * sizeof(Vec2));
-  constexpr std::size_t kChunk = 4096;
-  double buffer[kChunk];
-  for (std::size_t begin = 0; begin < heights.size(); begin += kChunk) {
-    const std::size_t n = std::min(kChunk, heights.size() - begin);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double z = heights[begin + i];
-      buffer[i] = std::isnan(z) ? std::numeric_limits<double>::quiet_NaN() : z + 0.0;
-    }
-    XXH3_128bits_update(state.get(), buffer, n * sizeof(double));
-  }
-  const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
-  return fmt::format("xxh3-128:{:016x}{:016x}", hash.high64, hash.low64);
+  HeightsChecksum checksum(a, b);
+  checksum.add(positions);
+  checksum.add(heights);
+  return checksum.text();
 }
 
 }  // namespace

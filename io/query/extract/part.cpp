@@ -36,9 +36,11 @@ namespace {
 /// How many times more triangles the next guess provides for.
 constexpr std::uint64_t kGuessGrowth = 8;
 
+/// A request without an output is a cut alone.
 bool needsAllSamples(const ExtractRequest& request) {
-  return !meshFormatOf(request.output, request.format) || !request.certificate.empty() ||
-         !request.errorRaster.empty() || request.normals.kind == NormalsKind::smooth;
+  return (!request.output.empty() && !meshFormatOf(request.output, request.format)) ||
+         !request.certificate.empty() || !request.errorRaster.empty() ||
+         request.normals.kind == NormalsKind::smooth;
 }
 
 /// Whether the spheres of nodes decide which nodes are in the cut. A packed file stores none, and those made

@@ -17,9 +17,11 @@ namespace arete {
 struct ExtractRequest {
   CutRequest criterion;
   std::optional<Region> region;  ///< of terrain: criterion.region in plan coordinates
-  std::string output;      ///< a mesh by its extension; of terrain also .tif: sampled back on the source grid
-  std::string format;      ///< MeshWriteOptions::format; empty: by the extension
-  PlaceTarget place = {};  ///< of terrain: where the mesh is led, with edges split where that bends it
+  /// A mesh by its extension; of terrain also .tif: sampled back on the source grid. Empty: a cut alone, of
+  /// which readForExtract() reads what it needs.
+  std::string output;
+  std::string format;       ///< MeshWriteOptions::format; empty: by the extension
+  PlaceTarget place = {};   ///< of terrain: where the mesh is led, with edges split where that bends it
   std::string certificate;  ///< JSON; empty = none
   std::string errorRaster;  ///< of terrain: GeoTIFF of z_TIN - z_DEM; empty = none
   /// What happens to the other layers of a GeoPackage that exists.

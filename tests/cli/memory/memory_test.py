@@ -216,6 +216,25 @@ class Memory(unittest.TestCase):
                 self.held(["convert", "plain.amt", "-o", "b.amt", "--paged"], budget, "b.amt")
                 self.held(["validate", "paged.amt"], budget)
 
+    def test_the_laws_of_pages_are_checked_in_parts_that_fit(self):
+        words = ["validate", "paged.amt", "--fronts", "1", "--json"]
+        whole = json.loads(self.ask(words).out)
+        self.assertNotIn("parts", whole)
+        counts = []
+        for budget in BUDGETS:
+            with self.subTest(budget=budget):
+                ran = self.held(words, budget)
+                if ran.code != 0:
+                    self.assertLess(budget, 400 if FULL else 64)
+                    continue
+                answer = json.loads(ran.out)
+                self.assertEqual((answer["holds"], answer["laws"]), (True, whole["laws"]))
+                if "parts" in answer:
+                    counts.append(answer["parts"]["count"])
+                    self.assertGreater(answer["parts"]["pages"], 100)
+        self.assertGreater(len(counts), 0)
+        self.assertEqual(counts, sorted(counts, reverse=True), "less memory, more parts")
+
     def test_meshes_are_refused_or_hold_their_budgets(self):
         words, _ = question("whole")
         mesh = Ran([words[0], "paged.amt", *words[1:-1], "mesh.ply"], folder)

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <map>
+#include <tuple>
+#include <vector>
 
 #include "engine/cut/cut.h"
 #include "gis/driver/driver_fixture.h"
@@ -22,14 +28,17 @@ struct Triangle {
 
 class TriangleDriver : public test::DriverFixture {
  protected:
-  static std::map<GIntBig, Triangle> trianglesOf(OGRLayer& layer) {
+  /// @param isInPlan counter-clockwise from above, as terrain is
+  static std::map<GIntBig, Triangle> trianglesOf(OGRLayer& layer, bool isInPlan = true) {
     std::map<GIntBig, Triangle> all;
     layer.ResetReading();
     for (std::unique_ptr<OGRFeature> f(layer.GetNextFeature()); f; f.reset(layer.GetNextFeature())) {
       const OGRLinearRing* const ring = f->GetGeometryRef()->toPolygon()->getExteriorRing();
       EXPECT_EQ(ring->getNumPoints(), 4);
       EXPECT_TRUE(ring->get_IsClosed());
-      EXPECT_FALSE(ring->isClockwise());
+      if (isInPlan) {
+        EXPECT_FALSE(ring->isClockwise());
+      }
       Triangle t{{}, f->GetFieldAsDouble("error")};
       for (int i = 0; i < 3; ++i) t.corners[std::size_t(i)] = {ring->getX(i), ring->getY(i), ring->getZ(i)};
       EXPECT_TRUE(all.emplace(f->GetFID(), t).second) << "a number twice";
@@ -53,7 +62,7 @@ TEST_F(TriangleDriver, GivesTheTrianglesOfTheCutWithTheirErrors) {
   const auto cut = takeCut(model->mt, UniformError(4));
   ASSERT_TRUE(cut);
   EXPECT_EQ(layer.GetFeatureCount(), GIntBig(cut->ids.size()));
-  const auto triangles = trianglesOf(layer);
+  const auto triangles = trianglesOf(layer, false);
   EXPECT_EQ(triangles.size(), cut->ids.size());
   double area = 0;
   for (const auto& [id, t] : triangles) {
@@ -110,6 +119,33 @@ TEST_F(TriangleDriver, NumbersATriangleAlikeAtEveryTolerance) {
   EXPECT_GT(same, 5);
 }
 
+TEST_F(TriangleDriver, NumbersTheTrianglesOfPagesAsTheWholeDoes) {
+  const auto surface = buildSurface(SurfaceMesh(shapes::globe(90, 60)));
+  ASSERT_TRUE(surface);
+  const std::string globe = folder().file("globe.amt");
+  ASSERT_TRUE(writeSurfaceAmt(globe, *surface, {}, {.isPaged = true}));
+  const auto wholeGlobe = loadSurfaceAmt(globe);
+  const auto ground = loadAmt(terrain("plain.amt", 200, 150, hills));
+  ASSERT_TRUE(wholeGlobe && ground);
+  const std::string country = folder().file("country.amt");
+  ASSERT_TRUE(writeAmt(country, *ground, {}, {.isPaged = true}));
+  const auto wholeCountry = loadAmt(country);
+  ASSERT_TRUE(wholeCountry);
+  for (const auto& [path, mt, tolerance] : {std::tuple{globe, &wholeGlobe->mt, 0.02},
+                                            {globe, &wholeGlobe->mt, 0.002},
+                                            {country, &wholeCountry->mt, 8.0},
+                                            {country, &wholeCountry->mt, 1.0}}) {
+    const Dataset dataset = open(path, {fmt::format("TOLERANCE={}", tolerance).c_str()}, GDAL_OF_VECTOR);
+    ASSERT_TRUE(dataset) << message();
+    const auto cut = takeCut(*mt, UniformError(tolerance));
+    ASSERT_TRUE(cut);
+    std::vector<GIntBig> numbers, ids(cut->ids.begin(), cut->ids.end());
+    for (const auto& [id, t] : trianglesOf(*dataset->GetLayer(0), path == country)) numbers.push_back(id);
+    std::ranges::sort(ids);
+    EXPECT_EQ(numbers, ids) << path << " within " << tolerance;
+  }
+}
+
 TEST_F(TriangleDriver, FiltersByPlaceAndByErrorAndFindsByNumber) {
   const std::string path = terrain("hills.amt", 120, 90, hills);
   const Dataset dataset = open(path, {"TOLERANCE=4"});
@@ -153,6 +189,43 @@ TEST_F(TriangleDriver, OpensASurfaceAsTrianglesAndSaysWhyNotAsARaster) {
   const std::unique_ptr<OGRFeature> first(dataset->GetLayer(0)->GetNextFeature());
   ASSERT_TRUE(first);
   EXPECT_LE(first->GetFieldAsDouble("error"), 0.05);
+}
+
+TEST_F(TriangleDriver, ReadsOfASurfaceInPagesWhatItsToleranceNeeds) {
+  const auto model = buildSurface(SurfaceMesh(shapes::globe(90, 60)));
+  ASSERT_TRUE(model);
+  const std::string path = folder().file("globe.amt");
+  ASSERT_TRUE(writeSurfaceAmt(path, *model, {}, {.isPaged = true}));
+  const auto whole = loadSurfaceAmt(path);
+  ASSERT_TRUE(whole);
+  // The last page has fine triangles alone, and is damaged.
+  const std::uintmax_t size = std::filesystem::file_size(path);
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(std::streamoff(size - 64));
+  file.write("damage", 6);
+  file.close();
+  const Dataset dataset = open(path, {"TOLERANCE=0.05"}, GDAL_OF_VECTOR);
+  ASSERT_TRUE(dataset) << message();
+  const auto cut = takeCut(whole->mt, UniformError(0.05));
+  ASSERT_TRUE(cut);
+  OGRLayer& layer = *dataset->GetLayer(0);
+  EXPECT_EQ(layer.GetFeatureCount(), GIntBig(cut->ids.size()));
+  const auto triangles = trianglesOf(layer, false);
+  for (std::size_t t = 0; t < cut->ids.size(); ++t) {
+    const auto found = std::ranges::find_if(triangles, [&](const auto& one) {
+      return std::ranges::all_of(cut->triangles[t], [&](std::uint32_t v) {
+        return std::ranges::count(one.second.corners, whole->mt.position(VertexId(cut->vertices[v]))) == 1;
+      });
+    });
+    ASSERT_NE(found, triangles.end());
+    EXPECT_EQ(found->second.error, double(static_cast<float>(whole->mt.error(TriangleId(cut->ids[t])))));
+  }
+  const Dataset finest = open(path, {}, GDAL_OF_VECTOR);
+  ASSERT_TRUE(finest) << message();
+  CPLPushErrorHandler(CPLQuietErrorHandler);
+  EXPECT_EQ(finest->GetLayer(0)->GetFeatureCount(), 0);
+  CPLPopErrorHandler();
+  EXPECT_NE(std::string(CPLGetLastErrorMsg()).find(path), std::string::npos) << CPLGetLastErrorMsg();
 }
 
 }  // namespace

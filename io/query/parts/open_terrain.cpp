@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A question about places says which pages it needs, which the directory tells without reading one. A part
+// that has these pages answers it as the whole does: full resolution at a place depends on nothing else.
+#include "io/query/parts/open_terrain.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <iterator>
+
+#include "engine/base/caught_failure.h"
+#include "io/query/extract/part.h"
+#include "terrain/model/relief.h"
+
+namespace arete {
+namespace {
+
+/// Parts that are kept, and how many nodes each may have.
+constexpr std::size_t kMostKept = 4;
+constexpr std::uint64_t kMostNodesKept = 500'000;
+/// The largest model that is read whole because its parts were read too often.
+constexpr std::uint64_t kMostNodesWhole = 4'000'000;
+
+Result<AmtFile> opened(const AmtContainer& container) {
+  return openAmt(AmtContainer(container));
+}
+
+}  // namespace
+
+OpenTerrain::OpenTerrain(TerrainModel whole)
+    : outline_(std::make_shared<const LocatedTerrain>(std::move(whole))), state_(std::make_unique<State>()) {
+  const MultiTriangulation& mt = outline_->model.mt;
+  summary_.triangles = mt.triangleCount();
+  summary_.finestTriangles = mt.finestTriangleCount();
+  vertices_ = mt.vertexCount();
+  nodes_ = mt.nodeCount();
+  state_->whole = outline_;
+}
+
+OpenTerrain::OpenTerrain(LastingFile file, const AmtFile& amt, TerrainModel outline)
+    : file_(std::move(file)),
+      outline_(std::make_shared<const LocatedTerrain>(std::move(outline))),
+      summary_(amt.summary()),
+      vertices_(amt.counts().rootVertices + amt.counts().nodes),
+      nodes_(amt.nodeCount()),
+      isFar_(amt.container().owner()->isFar()),
+      state_(std::make_unique<State>()) {
+  if (outline_->model.mt.nodeCount() == nodes_) state_->whole = outline_;
+}
+
+Result<std::shared_ptr<OpenTerrain>> OpenTerrain::open(LastingFile file, const RunContext& context) try {
+  std::optional<AmtFile> amt;
+  const auto readOutline = [&](const AmtContainer& container) -> Result<TerrainModel> {
+    ARETE_TRY(amt, opened(container));
+    if (!amt->isPaged() || !amt->summary().isThere()) return amt->read({}, context);
+    // Down to the first band with a node; 0 would be everything.
+    const double error = amt->errorBeyond(1);
+    return amt->read(
+        {.wanted = error > 0 ? RequiredError([error](const Box3&) { return error; }) : requiredNowhere()},
+        context);
+  };
+  ARETE_TRY(TerrainModel outline, file.ask(context, readOutline));
+  if (!amt->isPaged() || !amt->summary().isThere()) return std::make_shared<OpenTerrain>(std::move(outline));
+  return std::shared_ptr<OpenTerrain>(new OpenTerrain(std::move(file), *amt, std::move(outline)));
+} catch (...) {
+  return caughtFailure();
+}
+
+Result<double> OpenTerrain::largestError(const RunContext& context) const {
+  if (outline().mt.nodeCount() > 0 || nodes_ == 0) return outline().mt.largestError();
+  ARETE_TRY(const Located all, whole(context));
+  return all->model.mt.largestError();
+}
+
+double OpenTerrain::relief() const {
+  return file_ ? summary_.relief : reliefOf(outline());
+}
+
+std::optional<std::vector<CurvePoint>> OpenTerrain::statedCurve(std::size_t most) const {
+  const auto& curve = summary_.curve;
+  if (!file_ || (most > curve.size() && curve.size() >= kSummarySteps)) return std::nullopt;
+  std::vector<CurvePoint> points;
+  for (std::size_t i = curve.size() - std::min(most, curve.size()); i < curve.size(); ++i) {
+    const auto& [maxError, minimal, saturated] = curve[i];
+    points.push_back({maxError, static_cast<std::uint32_t>(minimal), static_cast<std::uint32_t>(saturated)});
+  }
+  return points;
+}
+
+OpenTerrain::Located OpenTerrain::wholeIfThere() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->whole;
+}
+
+// What was kept of it is of no more use.
+void OpenTerrain::keepWhole(Located all) const {
+  const std::lock_guard lock(state_->mutex);
+  state_->whole = std::move(all);
+  state_->kept.clear();
+}
+
+// A server is not asked for more than its questions need. Where the whole cannot be read, as with a damaged
+// page, parts go on to answer.
+Result<OpenTerrain::Located> OpenTerrain::wholeIfReadOften(const RunContext& context) const {
+  {
+    const std::lock_guard lock(state_->mutex);
+    if (state_->whole || isFar_ || nodes_ > kMostNodesWhole || state_->nodesRead < nodes_)
+      return state_->whole;
+    state_->nodesRead = 0;
+  }
+  Result<Located> all = whole(context);
+  if (!all && context.cancelled()) return all;
+  return all ? *all : Located();
+}
+
+// One thread reads; the others wait for it, and may be stopped meanwhile.
+Result<OpenTerrain::Located> OpenTerrain::whole(const RunContext& context) const try {
+  if (Located there = wholeIfThere()) return there;
+  std::unique_lock reading(state_->readsWhole, std::defer_lock);
+  while (!reading.try_lock_for(std::chrono::milliseconds(20)))
+    if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
+  if (Located there = wholeIfThere()) return there;
+  const auto readAll = [&](const AmtContainer& container) -> Result<TerrainModel> {
+    ARETE_TRY(const AmtFile file, opened(container));
+    return file.read({}, context);
+  };
+  ARETE_TRY(TerrainModel all, file_->ask(context, readAll));
+  auto located = std::make_shared<const LocatedTerrain>(std::move(all));
+  keepWhole(located);
+  return Located(std::move(located));
+} catch (...) {
+  return caughtFailure();
+}
+
+OpenTerrain::Located OpenTerrain::keptWith(const std::vector<PageNeed>& needs) const {
+  const std::lock_guard lock(state_->mutex);
+  const auto found = std::ranges::find_if(state_->kept, [&](const Kept& kept) {
+    auto at = kept.pages.begin();
+    return std::ranges::all_of(needs, [&](const PageNeed& need) {
+      at = std::lower_bound(at, kept.pages.end(), HeldPage(need.page, 0));
+      return at != kept.pages.end() && at->first == need.page && at->second <= need.lowestBand;
+    });
+  });
+  if (found == state_->kept.end()) return {};
+  std::rotate(state_->kept.begin(), found, found + 1);
+  return state_->kept.front().part;
+}
+
+OpenTerrain::Located OpenTerrain::keep(const std::vector<PageNeed>& needs, TerrainModel part) const {
+  auto located = std::make_shared<const LocatedTerrain>(std::move(part));
+  const std::uint64_t nodes = located->model.mt.nodeCount();
+  Kept kept{{}, located};
+  for (const PageNeed& need : needs) kept.pages.emplace_back(need.page, need.lowestBand);
+  std::ranges::sort(kept.pages);
+  const std::lock_guard lock(state_->mutex);
+  state_->nodesRead += nodes;
+  if (nodes == nodes_) state_->whole = located;
+  if (nodes > kMostNodesKept || state_->whole) return located;
+  if (state_->kept.size() == kMostKept) state_->kept.pop_back();
+  state_->kept.push_front(std::move(kept));
+  return located;
+}
+
+Result<OpenTerrain::Located> OpenTerrain::at(const RequiredError& wanted, const RunContext& context) const
+    try {
+  if (!wanted || !outline().isRaster) return whole(context);
+  if (Located there = wholeIfThere()) return there;
+  return file_->ask(context, [&](const AmtContainer& container) -> Result<Located> {
+    ARETE_TRY(const AmtFile file, opened(container));
+    ARETE_TRY(const std::vector<PageNeed> needs, file.pagesFor(wanted, context));
+    if (Located there = keptWith(needs)) return there;
+    ARETE_TRY(Located all, wholeIfReadOften(context));
+    if (all) return all;
+    ARETE_TRY(TerrainModel part, file.read({.wanted = wanted}, context));
+    return keep(needs, std::move(part));
+  });
+} catch (...) {
+  return caughtFailure();
+}
+
+Result<OpenTerrain::Taken> OpenTerrain::forRequest(const ExtractRequest& request,
+                                                   const RunContext& context) const try {
+  ARETE_TRY(const Located all, wholeIfReadOften(context));
+  const auto modelOf = [](const Located& of) { return std::shared_ptr<const TerrainModel>(of, &of->model); };
+  if (all) return Taken{modelOf(all), std::nullopt};
+  const auto readPart = [&](const AmtContainer& container) -> Result<PartAndCut> {
+    ARETE_TRY(const AmtFile file, opened(container));
+    return readForExtract(file, {&request, 1}, outline(), context);
+  };
+  ARETE_TRY(PartAndCut read, file_->ask(context, readPart));
+  const std::uint64_t nodes = read.model.mt.nodeCount();
+  if (nodes == nodes_) {
+    auto located = std::make_shared<const LocatedTerrain>(std::move(read.model));
+    keepWhole(located);
+    return Taken{modelOf(located), std::move(read.cut)};
+  }
+  const std::lock_guard lock(state_->mutex);
+  state_->nodesRead += nodes;
+  return Taken{std::make_shared<const TerrainModel>(std::move(read.model)), std::move(read.cut)};
+} catch (...) {
+  return caughtFailure();
+}
+
+}  // namespace arete
