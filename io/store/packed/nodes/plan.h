@@ -21,8 +21,8 @@ struct PlanRule {
   /// The binary logarithm of the width of a tile in tiles of the class below.
   int levelsPerClass = 2;
   /// Nodes of large errors are of higher classes too: the largest bands together whose nodes are at most this
-  /// share of all are of class 1 at least; of class 2 if they are at most so many times less as its tiles are
-  /// larger, and so on. 0: classes are of reaches alone.
+  /// share of all are of class 1 at least. For each further class the share is divided by the area of a tile
+  /// in tiles of the class below. 0: classes are of reaches alone.
   double shareOfClassOne = 0;
   /// A segment ends with the run that brings it to this number of nodes, and to as many as all segments
   /// before it have; 0: a packet is one segment.
