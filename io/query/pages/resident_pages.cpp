@@ -146,22 +146,27 @@ class ResidentPages<Model>::Stepping {
 
   /// Marks what is there of pages as used in this step.
   void use(const std::vector<PageNeed>& pages) {
-    for (const PageNeed& need : pages)
-      if (const auto found = p_.resident_.find(need.page); found != p_.resident_.end())
-        found->second.usedAt = p_.now_;
+    for (const PageNeed& need : pages) {
+      const auto found = p_.resident_.find(need.page);
+      if (found == p_.resident_.end()) continue;
+      Resident& there = found->second;
+      const std::uint64_t before = there.usedAt == p_.now_ ? there.needed : 0;
+      there.needed = std::max<std::uint64_t>(before, std::min(there.bytes.size(), need.bytes.size()));
+      there.usedAt = p_.now_;
+    }
   }
 
   /// Reads what is not there of pages, together.
   Status read(const std::vector<PageNeed>& pages, std::uint64_t newBytes) {
     if (newBytes == 0) return {};
-    p_.makeRoom(newBytes, pages);
+    p_.makeRoom(newBytes);
     std::vector<FileImage::Part> parts;
     for (const PageNeed& need : pages) {
       const std::uint64_t missing = p_.newBytesOf(need);
       if (missing == 0) continue;
       parts.push_back(need.bytes.last(missing));
       Resident& resident = p_.resident_[need.page];
-      resident = {need.bytes, p_.now_};
+      resident = {need.bytes, p_.now_, need.bytes.size()};
       p_.bytes_ += missing;
       step_.bytes += missing;
       ++step_.pages;
@@ -175,10 +180,10 @@ class ResidentPages<Model>::Stepping {
     use(pages);
     std::vector<PageNeed> some;
     std::uint64_t bytes = 0;
-    // What is used in this step is not given back.
+    // What this step has a use for is not given back; what else there is of its pages is.
     std::uint64_t used = 0;
     for (const auto& [page, resident] : p_.resident_)
-      if (resident.usedAt == p_.now_) used += resident.bytes.size();
+      if (resident.usedAt == p_.now_) used += resident.needed;
     for (const PageNeed& need : pages) {
       const std::uint64_t missing = p_.newBytesOf(need);
       if (missing == 0) continue;
@@ -256,21 +261,25 @@ bool ResidentPages<Model>::partHas(const std::vector<PageNeed>& pages) const {
 }
 
 // The longest unused first; of those the last in the file, which others depend on least. Then, of pages that
-// stay, what is longer than it needs to be.
+// this step uses, what is longer than it needs to be.
 template <class Model>
-void ResidentPages<Model>::makeRoom(std::uint64_t bytes, const std::vector<PageNeed>& staying) {
+void ResidentPages<Model>::makeRoom(std::uint64_t bytes) {
   if (bytes_ + bytes <= mostBytes_) return;
   std::vector<std::pair<std::uint64_t, std::uint64_t>> unused;  // step, page from the end
+  std::vector<std::uint64_t> used;
   for (const auto& [page, resident] : resident_)
-    if (resident.usedAt < now_) unused.push_back({resident.usedAt, ~page});
+    if (resident.usedAt < now_)
+      unused.push_back({resident.usedAt, ~page});
+    else
+      used.push_back(page);
   std::ranges::sort(unused);
   for (const auto& [usedAt, fromEnd] : unused) {
     if (bytes_ + bytes <= mostBytes_) return;
     shorten(~fromEnd, 0);
   }
-  for (const PageNeed& need : staying) {
+  for (const std::uint64_t page : used) {
     if (bytes_ + bytes <= mostBytes_) return;
-    shorten(need.page, need.bytes.size());
+    shorten(page, resident_.at(page).needed);
   }
 }
 

@@ -85,6 +85,7 @@ class ResidentPages {
   struct Resident {
     std::span<const std::byte> bytes;
     std::uint64_t usedAt = 0;  ///< the last step that had a use for it
+    std::uint64_t needed = 0;  ///< bytes of it that this step had a use for
   };
   /// One choice of a demand: its requirement, its pages, and what they weigh.
   struct Choice {
@@ -98,7 +99,7 @@ class ResidentPages {
   ResidentPages(File file, std::uint64_t mostBytes) : file_(std::move(file)), mostBytes_(mostBytes) {}
   std::uint64_t newBytesOf(const PageNeed& need) const;
   bool partHas(const std::vector<PageNeed>& pages) const;
-  void makeRoom(std::uint64_t bytes, const std::vector<PageNeed>& staying);
+  void makeRoom(std::uint64_t bytes);
   void shorten(std::uint64_t page, std::uint64_t kept);
 
   File file_;

@@ -171,7 +171,7 @@ TEST_F(ViewOfSurfacePages, OfARealScanReadsLessForWhatIsNear) {
   fs::remove(path("paged.amt"));
   const Outcome built = run({"build", scan, "-o", "paged.amt", "--paged", "-q"});
   ASSERT_EQ(built.code, 0) << built.err;
-  const Outcome all = shoot({});
+  const Outcome all = shoot({"--pixel-error", "0.3"});
   if (isWithoutOpenGl(all)) GTEST_SKIP() << all.err;
   ASSERT_EQ(all.code, 0) << all.err;
   const Outcome narrow = shoot({"--camera", "0.0957,-0.1574,0.0428,-0.0406,0.0374,-0.0437,1"});
@@ -179,7 +179,7 @@ TEST_F(ViewOfSurfacePages, OfARealScanReadsLessForWhatIsNear) {
   std::uint64_t bytes[2] = {};
   for (const Outcome* const shot : {&all, &narrow}) {
     const auto figures = shot->json()["screenshot"]["figures"];
-    EXPECT_EQ(figures["pixelError"], 1.0);
+    EXPECT_EQ(figures["pixelError"], shot == &all ? 0.3 : 1.0);
     EXPECT_EQ(figures["pages"]["missingTriangles"], 0);
     bytes[shot == &all ? 0 : 1] = figures["pages"]["bytes"].get<std::uint64_t>();
   }
