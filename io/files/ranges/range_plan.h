@@ -15,12 +15,14 @@ struct ByteRange {
 
 /// How ranges become requests.
 struct RangeRules {
-  std::uint64_t gap = std::uint64_t{1}
-                      << 17;    ///< fewer bytes than this between two ranges are fetched with them,
-  std::size_t fewRequests = 5;  ///< and more where there are more requests than these,
-  std::uint64_t gapsBytes = std::uint64_t{1} << 19;  ///< as long as all gaps have at most these bytes
-  double gapsShare = 0.7;                            ///< and this share of the wanted bytes
-  std::uint64_t longest = std::uint64_t{1} << 23;    ///< of one request
+  /// Fewer bytes than this between two ranges are fetched with them,
+  std::uint64_t gap = std::uint64_t{1} << 17;
+  /// and more where there are more requests than these,
+  std::size_t fewRequests = 5;
+  /// as long as all gaps have at most these bytes, and this share of the wanted ones.
+  std::uint64_t gapsBytes = std::uint64_t{1} << 17;
+  double gapsShare = 1;
+  std::uint64_t longest = std::uint64_t{1} << 23;  ///< of one request
 };
 
 /// Sorts ranges, and joins those that meet.

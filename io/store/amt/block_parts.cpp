@@ -10,6 +10,8 @@ using Bytes = std::span<const std::byte>;
 
 /// A directory that is fetched at once: of about 20 million samples at the most.
 constexpr std::size_t kSmallDirectory = std::size_t{3} << 19;
+/// Fewer blocks are fetched alone: a coarse question has no use for the others.
+constexpr std::size_t kManyBlocks = 8;
 /// Of the pages a part of the first ones, which hold the largest nodes, goes with it.
 constexpr std::size_t kFirstPart = 192, kMostOfFirst = std::size_t{9} << 17;
 /// Between two blocks that are fetched together.
@@ -23,7 +25,7 @@ std::vector<Bytes> withBlocksJoined(std::span<const Bytes> parts, Bytes blocks, 
     (part.data() >= blocks.data() && part.data() < blocks.data() + blocks.size() ? of : wanted)
         .push_back(part);
   if (of.empty()) return wanted;
-  if (blocks.size() <= kSmallDirectory) {
+  if (of.size() >= kManyBlocks && blocks.size() <= kSmallDirectory) {
     wanted.push_back(blocks);
     wanted.push_back(nodes.first(std::min(kMostOfFirst, nodes.size() / kFirstPart)));
     return wanted;

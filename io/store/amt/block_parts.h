@@ -8,9 +8,9 @@
 namespace arete {
 
 /// What to fetch of a server where some parts of a paged file are wanted: a request costs more time than some
-/// hundred kilobytes, and the blocks of the directory lead to further ones. A small directory is fetched at
-/// once, with the first pages, which every question needs; of a larger one blocks that are near each other
-/// are joined.
+/// hundred kilobytes, and the blocks of the directory lead to further ones. Where many blocks of a small
+/// directory are wanted, all of it is fetched, with the first pages, which every question needs; else blocks
+/// that are near each other are joined.
 ///
 /// @param parts  of the file, in any order
 /// @param blocks, nodes  where the directory below its root and the pages lie

@@ -16,15 +16,25 @@ bool isWithin(Bytes part, const std::vector<Bytes>& wholes) {
   });
 }
 
-TEST(BlockParts, OfASmallDirectoryAreAllOfItAndTheFirstPages) {
+TEST(BlockParts, OfManyBlocksOfASmallDirectoryAreAllOfItAndTheFirstPages) {
   const std::vector<std::byte> file(3'000'000);
   const Bytes blocks = Bytes(file).subspan(100'000, 60'000), nodes = Bytes(file).subspan(160'000);
-  const std::vector<Bytes> wanted = {blocks.subspan(500, 700), nodes.subspan(2'000'000, 10)};
+  std::vector<Bytes> wanted = {nodes.subspan(2'000'000, 10)};
+  for (std::size_t i = 0; i < 8; ++i) wanted.push_back(blocks.subspan(500 + 7000 * i, 700));
   const std::vector<Bytes> fetched = withBlocksJoined(wanted, blocks, nodes);
   for (const Bytes part : wanted) EXPECT_TRUE(isWithin(part, fetched));
   EXPECT_TRUE(isWithin(blocks, fetched));
   EXPECT_TRUE(isWithin(nodes.first(10'000), fetched));
   EXPECT_FALSE(isWithin(nodes.first(100'000), fetched));
+}
+
+TEST(BlockParts, OfFewBlocksOfASmallDirectoryAreThoseAlone) {
+  const std::vector<std::byte> file(3'000'000);
+  const Bytes blocks = Bytes(file).subspan(100'000, 900'000), nodes = Bytes(file).subspan(1'000'000);
+  const std::vector<Bytes> fetched = withBlocksJoined(
+      std::vector<Bytes>{blocks.subspan(500, 700), blocks.subspan(800'000, 700)}, blocks, nodes);
+  ASSERT_EQ(fetched.size(), 2u);
+  EXPECT_EQ(fetched[0].size() + fetched[1].size(), 1400u);
 }
 
 TEST(BlockParts, OfPagesAloneStayAsTheyAre) {
