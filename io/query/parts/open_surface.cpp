@@ -3,7 +3,6 @@
 // As open_terrain.cpp; a cut does not say which pages it needs before it is taken, so parts are not kept.
 #include "io/query/parts/open_surface.h"
 
-#include <chrono>
 #include <utility>
 
 #include "engine/base/caught_failure.h"
@@ -19,17 +18,15 @@ constexpr std::uint64_t kMostNodesOfWhole = 2'000'000;
 }  // namespace
 
 OpenSurface::OpenSurface(SurfaceModel whole)
-    : outline_(std::make_shared<const SurfaceModel>(std::move(whole))), state_(std::make_unique<State>()) {
+    : outline_(std::make_shared<const SurfaceModel>(std::move(whole))) {
   vertices_ = outline_->mt.vertexCount();
   triangles_ = outline_->mt.triangleCount();
   nodes_ = outline_->mt.nodeCount();
-  state_->whole = outline_;
+  whole_->set(outline_);
 }
 
 OpenSurface::OpenSurface(LastingFile file, SurfaceModel outline)
-    : file_(std::move(file)),
-      outline_(std::make_shared<const SurfaceModel>(std::move(outline))),
-      state_(std::make_unique<State>()) {}
+    : file_(std::move(file)), outline_(std::make_shared<const SurfaceModel>(std::move(outline))) {}
 
 Result<std::shared_ptr<OpenSurface>> OpenSurface::open(LastingFile file, const RunContext& context) try {
   SurfaceFacts facts;
@@ -62,39 +59,22 @@ Result<double> OpenSurface::largestError(const RunContext& context) const {
   return all->mt.largestError();
 }
 
-OpenSurface::Shared OpenSurface::wholeIfThere() const {
-  const std::lock_guard lock(state_->mutex);
-  return state_->whole;
-}
-
-// A server is not asked for more than its questions need. Where the whole cannot be read, as with a damaged
-// page, parts go on to answer.
+// A server is not asked for more than its questions need.
 Result<OpenSurface::Shared> OpenSurface::wholeIfReadOften(const RunContext& context) const {
-  {
-    const std::lock_guard lock(state_->mutex);
-    if (state_->whole || isFar_ || nodes_ > kMostNodesOfWhole || state_->nodesRead < nodes_)
-      return state_->whole;
-    state_->nodesRead = 0;
-  }
-  Result<Shared> all = whole(context);
-  if (!all && context.cancelled()) return all;
-  return all ? *all : Shared();
+  if (isFar_ || nodes_ > kMostNodesOfWhole) return whole_->ifThere();
+  return whole_->getIfReadOften(
+      nodes_, [&] { return readWhole(context); }, context);
 }
 
-// One thread reads; the others wait for it, and may be stopped meanwhile.
-Result<OpenSurface::Shared> OpenSurface::whole(const RunContext& context) const try {
-  if (Shared there = wholeIfThere()) return there;
-  std::unique_lock reading(state_->readsWhole, std::defer_lock);
-  while (!reading.try_lock_for(std::chrono::milliseconds(20)))
-    if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
-  if (Shared there = wholeIfThere()) return there;
+Result<OpenSurface::Shared> OpenSurface::readWhole(const RunContext& context) const {
   ARETE_TRY(SurfaceModel all, file_->ask(context, [&](const AmtContainer& container) {
     return loadSurfaceAmt(container, {}, context);
   }));
-  auto shared = std::make_shared<const SurfaceModel>(std::move(all));
-  const std::lock_guard lock(state_->mutex);
-  state_->whole = shared;
-  return Shared(std::move(shared));
+  return std::make_shared<const SurfaceModel>(std::move(all));
+}
+
+Result<OpenSurface::Shared> OpenSurface::whole(const RunContext& context) const try {
+  return whole_->get([&] { return readWhole(context); }, context);
 } catch (...) {
   return caughtFailure();
 }
@@ -107,9 +87,8 @@ Result<OpenSurface::Shared> OpenSurface::forRequest(const ExtractRequest& reques
     return readForExtract(container, {&request, 1}, outline(), context);
   }));
   auto model = std::make_shared<const SurfaceModel>(std::move(read));
-  const std::lock_guard lock(state_->mutex);
-  state_->nodesRead += model->mt.nodeCount();
-  if (!model->finestOfWhole) state_->whole = model;
+  whole_->countPart(model->mt.nodeCount());
+  if (!model->finestOfWhole) whole_->set(model);
   return Shared(std::move(model));
 } catch (...) {
   return caughtFailure();

@@ -3,12 +3,12 @@
 
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
 #include "io/query/parts/lasting_file.h"
+#include "io/query/parts/whole_model.h"
 #include "io/query/request/extract_request.h"
 #include "io/store/format/summary.h"
 #include "surface/model/surface_model.h"
@@ -49,23 +49,16 @@ class OpenSurface {
   Result<Shared> forRequest(const ExtractRequest& request, const RunContext& context = {}) const;
 
  private:
-  struct State {
-    std::mutex mutex;  // of all below; not held while something is read
-    Shared whole;
-    std::uint64_t nodesRead = 0;
-    std::timed_mutex readsWhole;  // held while the whole is read
-  };
-
   OpenSurface(LastingFile file, SurfaceModel outline);
-  Shared wholeIfThere() const;
   /// Null where the next part is better read alone. Errors: interrupted.
   Result<Shared> wholeIfReadOften(const RunContext& context) const;
+  Result<Shared> readWhole(const RunContext& context) const;
 
   std::optional<LastingFile> file_;
   Shared outline_;
   std::uint64_t vertices_ = 0, triangles_ = 0, nodes_ = 0;
   bool isFar_ = false;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<WholeModel<SurfaceModel>> whole_ = std::make_unique<WholeModel<SurfaceModel>>();
 };
 
 }  // namespace arete

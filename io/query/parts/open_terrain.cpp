@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <iterator>
 
 #include "engine/base/caught_failure.h"
@@ -35,7 +34,7 @@ OpenTerrain::OpenTerrain(TerrainModel whole)
   summary_.finestTriangles = mt.finestTriangleCount();
   vertices_ = mt.vertexCount();
   nodes_ = mt.nodeCount();
-  state_->whole = outline_;
+  state_->whole.set(outline_);
 }
 
 OpenTerrain::OpenTerrain(LastingFile file, const AmtFile& amt, TerrainModel outline)
@@ -46,7 +45,7 @@ OpenTerrain::OpenTerrain(LastingFile file, const AmtFile& amt, TerrainModel outl
       nodes_(amt.nodeCount()),
       isFar_(amt.container().owner()->isFar()),
       state_(std::make_unique<State>()) {
-  if (outline_->model.mt.nodeCount() == nodes_) state_->whole = outline_;
+  if (outline_->model.mt.nodeCount() == nodes_) state_->whole.set(outline_);
 }
 
 Result<std::shared_ptr<OpenTerrain>> OpenTerrain::open(LastingFile file, const RunContext& context) try {
@@ -88,39 +87,21 @@ std::optional<std::vector<CurvePoint>> OpenTerrain::statedCurve(std::size_t most
   return points;
 }
 
-OpenTerrain::Located OpenTerrain::wholeIfThere() const {
-  const std::lock_guard lock(state_->mutex);
-  return state_->whole;
-}
-
-// What was kept of it is of no more use.
+// Parts that were kept are of no more use.
 void OpenTerrain::keepWhole(Located all) const {
+  state_->whole.set(std::move(all));
   const std::lock_guard lock(state_->mutex);
-  state_->whole = std::move(all);
   state_->kept.clear();
 }
 
-// A server is not asked for more than its questions need. Where the whole cannot be read, as with a damaged
-// page, parts go on to answer.
+// A server is not asked for more than its questions need.
 Result<OpenTerrain::Located> OpenTerrain::wholeIfReadOften(const RunContext& context) const {
-  {
-    const std::lock_guard lock(state_->mutex);
-    if (state_->whole || isFar_ || nodes_ > kMostNodesWhole || state_->nodesRead < nodes_)
-      return state_->whole;
-    state_->nodesRead = 0;
-  }
-  Result<Located> all = whole(context);
-  if (!all && context.cancelled()) return all;
-  return all ? *all : Located();
+  if (isFar_ || nodes_ > kMostNodesWhole) return state_->whole.ifThere();
+  return state_->whole.getIfReadOften(
+      nodes_, [&] { return readWhole(context); }, context);
 }
 
-// One thread reads; the others wait for it, and may be stopped meanwhile.
-Result<OpenTerrain::Located> OpenTerrain::whole(const RunContext& context) const try {
-  if (Located there = wholeIfThere()) return there;
-  std::unique_lock reading(state_->readsWhole, std::defer_lock);
-  while (!reading.try_lock_for(std::chrono::milliseconds(20)))
-    if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
-  if (Located there = wholeIfThere()) return there;
+Result<OpenTerrain::Located> OpenTerrain::readWhole(const RunContext& context) const {
   const auto readAll = [&](const AmtContainer& container) -> Result<TerrainModel> {
     ARETE_TRY(const AmtFile file, opened(container));
     return file.read({}, context);
@@ -129,6 +110,10 @@ Result<OpenTerrain::Located> OpenTerrain::whole(const RunContext& context) const
   auto located = std::make_shared<const LocatedTerrain>(std::move(all));
   keepWhole(located);
   return Located(std::move(located));
+}
+
+Result<OpenTerrain::Located> OpenTerrain::whole(const RunContext& context) const try {
+  return state_->whole.get([&] { return readWhole(context); }, context);
 } catch (...) {
   return caughtFailure();
 }
@@ -153,10 +138,10 @@ OpenTerrain::Located OpenTerrain::keep(const std::vector<PageNeed>& needs, Terra
   Kept kept{{}, located};
   for (const PageNeed& need : needs) kept.pages.emplace_back(need.page, need.lowestBand);
   std::ranges::sort(kept.pages);
+  state_->whole.countPart(nodes);
+  if (nodes == nodes_) state_->whole.set(located);
+  if (nodes > kMostNodesKept || state_->whole.ifThere()) return located;
   const std::lock_guard lock(state_->mutex);
-  state_->nodesRead += nodes;
-  if (nodes == nodes_) state_->whole = located;
-  if (nodes > kMostNodesKept || state_->whole) return located;
   if (state_->kept.size() == kMostKept) state_->kept.pop_back();
   state_->kept.push_front(std::move(kept));
   return located;
@@ -165,7 +150,7 @@ OpenTerrain::Located OpenTerrain::keep(const std::vector<PageNeed>& needs, Terra
 Result<OpenTerrain::Located> OpenTerrain::at(const RequiredError& wanted, const RunContext& context) const
     try {
   if (!wanted || !outline().isRaster) return whole(context);
-  if (Located there = wholeIfThere()) return there;
+  if (Located there = state_->whole.ifThere()) return there;
   return file_->ask(context, [&](const AmtContainer& container) -> Result<Located> {
     ARETE_TRY(const AmtFile file, opened(container));
     ARETE_TRY(const std::vector<PageNeed> needs, file.pagesFor(wanted, context));
@@ -195,8 +180,7 @@ Result<OpenTerrain::Taken> OpenTerrain::forRequest(const ExtractRequest& request
     keepWhole(located);
     return Taken{modelOf(located), std::move(read.cut)};
   }
-  const std::lock_guard lock(state_->mutex);
-  state_->nodesRead += nodes;
+  state_->whole.countPart(nodes);
   return Taken{std::make_shared<const TerrainModel>(std::move(read.model)), std::move(read.cut)};
 } catch (...) {
   return caughtFailure();

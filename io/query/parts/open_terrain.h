@@ -15,6 +15,7 @@
 #include "engine/cut/error_curve.h"
 #include "engine/parallel/run_context.h"
 #include "io/query/parts/lasting_file.h"
+#include "io/query/parts/whole_model.h"
 #include "io/query/request/extract_request.h"
 #include "io/store/amt/file.h"
 #include "io/store/format/required_error.h"
@@ -90,17 +91,15 @@ class OpenTerrain {
     Located part;
   };
   struct State {
-    std::mutex mutex;  // of all below; not held while something is read
-    Located whole;
+    WholeModel<LocatedTerrain> whole;
+    std::mutex mutex;       // of what is kept; not held while something is read
     std::deque<Kept> kept;  // the last used first
-    std::uint64_t nodesRead = 0;
-    std::timed_mutex readsWhole;  // held while the whole is read
   };
 
   OpenTerrain(LastingFile file, const AmtFile& amt, TerrainModel outline);
-  Located wholeIfThere() const;
   /// Null where the next part is better read alone. Errors: interrupted.
   Result<Located> wholeIfReadOften(const RunContext& context) const;
+  Result<Located> readWhole(const RunContext& context) const;
   void keepWhole(Located all) const;
   Located keptWith(const std::vector<PageNeed>& needs) const;
   Located keep(const std::vector<PageNeed>& needs, TerrainModel part) const;
