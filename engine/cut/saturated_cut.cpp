@@ -78,8 +78,10 @@ std::vector<std::uint32_t> firstOfCode(const MultiTriangulation& mt, Code code, 
     for (const std::uint32_t t : mt.floor(NodeId(n))) {
       const NodeId parent = mt.creator(TriangleId(t));
       if (!parent.isValid() || saturated[parent.index()] != code) continue;
-      generation = std::max(generation,
-                            std::ranges::lower_bound(ties, parent.index(), {}, &Tie::node)->generation + 1);
+      // A file whose errors break law 6 may have the parent elsewhere.
+      const auto at = std::ranges::lower_bound(ties, parent.index(), {}, &Tie::node);
+      if (at != ties.end() && at->node == parent.index())
+        generation = std::max(generation, at->generation + 1);
     }
     ties.push_back({generation, mt.position(mt.apex(NodeId(n))), n});
   }
